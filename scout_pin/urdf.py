@@ -1,0 +1,132 @@
+"""Specification → URDF and sole meshes, byte for byte reproducible.
+
+The zero configuration is the servos' neutral pose: each joint's placement
+carries the constant angle β of the thesis, and its variable is θ.
+
+Source: Scout thesis, 3.1 (transformations), appendix B.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from scout_pin.specification import JOINT_NAMES, LINK_NAMES, SIDES, Leg, Link, Specification
+from thesis_pin.inertia import Reading
+from thesis_pin.urdf import bar, cylinder, extruded_polygon, inertial, joint, mesh, robot
+
+JOINT_AXES = ("z", "y", "z", "z", "z", "x")
+"""Axes of joints 1 to 6 in their own frames. The thesis prints z for joint 6
+(3.1, T_5i,6i), but (3.7), (3.10) and its program turn it about x."""
+
+BAR_RADIUS = 3e-3
+SOLE_THICKNESS = 2e-3
+
+
+def offsets(leg: Leg, sign: float) -> tuple[tuple[float, float, float], ...]:
+    """Origins of joints 1 to 6 and of the sole, each in the frame before it [m]."""
+    return (
+        (sign * leg.x_0, 0.0, 0.0),
+        (0.0, 0.0, -leg.z_1),
+        (leg.x_2, 0.0, 0.0),
+        (leg.x_3, 0.0, 0.0),
+        (leg.x_4, 0.0, 0.0),
+        (leg.x_5, 0.0, 0.0),
+        (0.0, leg.y_6, 0.0),
+    )
+
+
+def urdf(specification: Specification, inertia: Reading = "physical") -> str:
+    """URDF text of a biped.
+
+    Args:
+        specification: The robot's numbers.
+        inertia: Reading of the printed inertias.
+
+    Returns:
+        The URDF. Meshes are named relative to it; see :func:`meshes`.
+    """
+    return robot(specification.name, _elements(specification, inertia))
+
+
+def meshes(specification: Specification) -> dict[str, str]:
+    """Wavefront OBJ text of each sole, by the file name the URDF uses."""
+    return {
+        f"meshes/{side}_sole.obj": extruded_polygon(
+            specification.leg(side).sole, SOLE_THICKNESS
+        )
+        for side in SIDES
+    }
+
+
+def files(specification: Specification) -> dict[str, str]:
+    """Everything generated from a specification: file name → text."""
+    name = specification.name
+    return {
+        f"{name}.urdf": urdf(specification),
+        f"{name}_printed.urdf": urdf(specification, "printed"),
+        **meshes(specification),
+    }
+
+
+def write(specification: Specification, folder: str | Path) -> list[Path]:
+    """Write every generated file below a folder and return their paths."""
+    written = []
+    for name, text in files(specification).items():
+        path = Path(folder) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8", newline="\n")
+        written.append(path)
+    return written
+
+
+def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
+    signs = {"left": -1.0, "right": 1.0}
+    hips = [offsets(specification.leg(side), signs[side])[0] for side in SIDES]
+    yield _link("torso", specification.torso, specification, reading, [bar(hips[0], hips[1], BAR_RADIUS)])
+    lower, upper = specification.assumptions.joint_range.radians()
+    torque, speed = specification.servo_limits()
+    friction = specification.assumptions.joint_friction
+    number = 0
+    for side in SIDES:
+        leg = specification.leg(side)
+        points = offsets(leg, signs[side])
+        parent = "torso"
+        for k in range(6):
+            name = f"{side}_{LINK_NAMES[k]}"
+            axis = JOINT_AXES[k]
+            yield joint(
+                JOINT_NAMES[number],
+                parent,
+                name,
+                xyz=points[k],
+                rpy=tuple(np.radians(leg.beta_deg[k]) * (letter == axis) for letter in "xyz"),
+                axis=axis,
+                limits=(lower[number], upper[number], torque[number], speed[number]),
+                friction=(friction.viscous, friction.coulomb),
+            )
+            size = specification.servos[leg.servos[k]].size
+            shapes = [
+                bar((0.0, 0.0, 0.0), points[k + 1], BAR_RADIUS),
+                cylinder(axis, radius=size[1] / 2, length=size[2]),
+            ]
+            yield _link(name, leg.links[k], specification, reading, shapes)
+            parent, number = name, number + 1
+        yield joint(
+            f"{side}_sole_joint",
+            parent,
+            f"{side}_sole",
+            xyz=points[6],
+            rpy=(0.0, np.radians(leg.beta_8_deg), np.radians(leg.beta_7_deg)),
+        )
+        yield f'  <link name="{side}_sole">\n{mesh(f"meshes/{side}_sole.obj")}  </link>\n'
+
+
+def _link(
+    name: str, link: Link, specification: Specification, reading: Reading, shapes: list[str]
+) -> str:
+    tensor = link.centroidal(specification.inertia_convention, reading)
+    body = inertial(link.mass, link.com, tensor) + "".join(shapes)
+    return f'  <link name="{name}">\n{body}  </link>\n'

@@ -1,0 +1,90 @@
+"""Checks of arrays at the library's boundary, and shapes common to all rooms."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from thesis_pin.errors import BadInput, NotFinite, WrongShape
+from thesis_pin.tolerances import TOLERANCES
+
+
+def finite_array(name: str, value: Any, *shape: int | None) -> np.ndarray:
+    """Turn a value into a float array whose last axes have the given shape.
+
+    Args:
+        name: Name of the argument, for messages.
+        value: Anything NumPy can turn into floats.
+        *shape: Sizes of the last axes; None accepts any size.
+
+    Returns:
+        Array of shape ``(..., *shape)``.
+
+    Raises:
+        WrongShape: The last axes differ.
+        NotFinite: Some entry is NaN or infinite.
+    """
+    allowed = f"(..., {', '.join('n' if size is None else str(size) for size in shape)})"
+    try:
+        array = np.asarray(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"{name} isn't an array of numbers ({error})", allowed=allowed) from None
+    last = array.shape[array.ndim - len(shape) :] if shape else ()
+    if array.ndim < len(shape) or any(
+        want is not None and have != want for have, want in zip(last, shape, strict=True)
+    ):
+        raise WrongShape(name, array.shape, allowed if shape else "()")
+    if not np.isfinite(array).all():
+        index = tuple(int(k) for k in np.argwhere(~np.isfinite(array))[0])
+        raise NotFinite(name, index)
+    return array
+
+
+def pose_array(name: str, pose: Any) -> np.ndarray:
+    """Turn a ``pin.SE3`` or homogeneous matrices into checked 4×4 matrices.
+
+    Args:
+        name: Name of the argument, for messages.
+        pose: One ``pin.SE3``, a sequence of them, or an array ``(..., 4, 4)``.
+
+    Returns:
+        Array of shape ``(..., 4, 4)``.
+
+    Raises:
+        WrongShape: Not 4×4.
+        NotFinite: Some entry is NaN or infinite.
+        BadInput: The rotation part isn't a rotation or the last row isn't 0 0 0 1.
+    """
+    if hasattr(pose, "homogeneous"):
+        return np.asarray(pose.homogeneous)
+    if isinstance(pose, list | tuple) and pose and hasattr(pose[0], "homogeneous"):
+        return np.stack([np.asarray(one.homogeneous) for one in pose])
+    array = finite_array(name, pose, 4, 4)
+    rotation = array[..., :3, :3]
+    error = np.abs(np.swapaxes(rotation, -1, -2) @ rotation - np.eye(3)).max(axis=(-1, -2))
+    row = np.abs(array[..., 3, :] - [0.0, 0.0, 0.0, 1.0]).max(axis=-1)
+    bad = (error > TOLERANCES.rotation_orthogonality) | (row > 0) | (np.linalg.det(rotation) < 0)
+    if np.any(bad):
+        index = tuple(int(k) for k in np.argwhere(np.atleast_1d(bad))[0])
+        raise BadInput(
+            f"{name} isn't a rigid placement at index {index}: "
+            f"RᵀR − 1 reaches {float(np.max(error)):.2e}",
+            allowed=f"rotations to {TOLERANCES.rotation_orthogonality:.0e}, last row 0 0 0 1",
+            remedy="Normalise the rotation (for instance with pin.SE3 or scipy's Rotation) first",
+        )
+    return array
+
+
+def skew(vector: np.ndarray) -> np.ndarray:
+    """Cross-product matrices: ``skew(a) @ b == a × b``; ``(..., 3)`` → ``(..., 3, 3)``."""
+    matrix = np.zeros((*vector.shape[:-1], 3, 3))
+    matrix[..., 0, 1], matrix[..., 0, 2] = -vector[..., 2], vector[..., 1]
+    matrix[..., 1, 0], matrix[..., 1, 2] = vector[..., 2], -vector[..., 0]
+    matrix[..., 2, 0], matrix[..., 2, 1] = -vector[..., 1], vector[..., 0]
+    return matrix
+
+
+def wrap(angle: np.ndarray) -> np.ndarray:
+    """Angles [rad] brought into (−π, π]."""
+    return angle - 2 * np.pi * np.ceil((angle - np.pi) / (2 * np.pi))

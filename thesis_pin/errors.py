@@ -1,0 +1,137 @@
+"""Errors of all three packages: one base class, one message each.
+
+Every error says what is wrong, where, what the value was, what is allowed and
+how to mend it. Subclasses keep the values as attributes, so that a program can
+react to them without reading the text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+class ThesisPinError(Exception):
+    """Base class: catching it catches everything these packages raise on purpose."""
+
+
+class BadInput(ThesisPinError, ValueError):
+    """What the caller gave can't be used.
+
+    Args:
+        what: What is wrong, as a full clause.
+        where: File, line, key, joint or sample; empty if it is obvious.
+        allowed: What would have been accepted.
+        remedy: How to mend it.
+    """
+
+    def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = "") -> None:
+        self.what, self.where, self.allowed, self.remedy = what, where, allowed, remedy
+        text = f"{where}: {what}" if where else what
+        if allowed:
+            text += f"; allowed: {allowed}"
+        if remedy:
+            text += f". {remedy}"
+        super().__init__(text)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing wrong in a file.
+
+    Attributes:
+        where: File, with the line if it is known.
+        key: Dotted key of the value.
+        what: What is wrong and what is allowed.
+        value: The value found, shortened for printing.
+    """
+
+    where: str
+    key: str
+    what: str
+    value: str = ""
+
+    def __str__(self) -> str:
+        found = f" (found {self.value})" if self.value else ""
+        return f"{self.where}: {self.key}: {self.what}{found}"
+
+
+class SpecificationError(BadInput):
+    """A file doesn't describe what it should; carries every problem at once."""
+
+    def __init__(self, kind: str, problems: Sequence[Problem]) -> None:
+        self.kind, self.problems = kind, tuple(problems)
+        count = f"{len(self.problems)} problem" + ("s" if len(self.problems) > 1 else "")
+        lines = "".join(f"\n  {problem}" for problem in self.problems)
+        super().__init__(f"{count} in the {kind}{lines}")
+
+
+class WrongShape(BadInput):
+    """An array has the wrong shape."""
+
+    def __init__(self, name: str, shape: tuple[int, ...], allowed: str) -> None:
+        self.name, self.shape = name, shape
+        super().__init__(f"{name} has shape {shape}", allowed=allowed)
+
+
+class NotFinite(BadInput):
+    """An array holds NaN or infinity."""
+
+    def __init__(self, name: str, index: tuple[int, ...]) -> None:
+        self.name, self.index = name, index
+        super().__init__(f"{name} isn't finite at index {index}", allowed="finite numbers")
+
+
+class UnknownName(BadInput):
+    """A name isn't among those that exist."""
+
+    def __init__(self, kind: str, name: object, known: Sequence[str], *, where: str = "") -> None:
+        self.kind, self.name, self.known = kind, name, tuple(known)
+        super().__init__(f"unknown {kind} {name!r}", where=where, allowed=", ".join(known))
+
+
+class ModelError(BadInput):
+    """A model file can't be turned into a mechanism that makes sense."""
+
+
+class NonPhysicalInertia(ModelError):
+    """No distribution of positive mass has this inertia.
+
+    Args:
+        link: Name of the link.
+        eigenvalues: Eigenvalues of the 4×4 pseudo-inertia matrix, ascending.
+        principal: Principal moments about the centre of mass [kg·m²], ascending.
+    """
+
+    def __init__(self, link: str, eigenvalues: Sequence[float], principal: Sequence[float]) -> None:
+        self.link, self.eigenvalues, self.principal = link, tuple(eigenvalues), tuple(principal)
+        moments = ", ".join(f"{value:.6g}" for value in principal)
+        if principal[0] <= 0:
+            broken = f"the smallest is {principal[0]:.3g} kg·m², which isn't positive"
+        elif principal[0] + principal[1] < principal[2]:
+            excess = principal[2] - principal[0] - principal[1]
+            broken = f"the largest exceeds the sum of the others by {excess:.3g} kg·m²"
+        else:
+            broken = "the mass isn't positive"
+        super().__init__(
+            f"the inertia isn't physical: principal moments {moments} kg·m² and {broken} "
+            f"(smallest pseudo-inertia eigenvalue {eigenvalues[0]:.3g})",
+            where=f"link {link!r}",
+            allowed="positive mass, positive moments, each at most the sum of the other two",
+        )
+
+
+class Unreachable(BadInput):
+    """No joint angles reach a pose, or none inside the limits."""
+
+
+class SingularPose(BadInput):
+    """Rates or forces don't exist at a pose, because its Jacobian has lost rank."""
+
+
+class TrajectoryError(BadInput):
+    """A gait or path isn't a motion the robot can be asked to make."""
+
+
+class NoSupportForce(BadInput):
+    """The floor would have to pull: no zero-moment point exists."""

@@ -1,0 +1,107 @@
+"""Elementary rotations and translations, batched, with their derivatives.
+
+Naming follows the theses: T_z1, T_z2, T_z3 translate along x, y, z; T_z4,
+T_z5, T_z6 rotate about x, y, z. Angles [rad] of any shape ``(...)`` give
+matrices ``(..., 3, 3)`` or ``(..., 4, 4)``.
+
+Source: Scout thesis, section 3.1; Pollard thesis, appendix A.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+_PLANE = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
+
+
+def rotation(axis: str, angle: np.ndarray | float) -> np.ndarray:
+    """Rotation about the axis ``"x"``, ``"y"`` or ``"z"``: ``(...)`` → ``(..., 3, 3)``."""
+    angle = np.asarray(angle, dtype=float)
+    first, second = _PLANE[axis]
+    matrix = np.zeros((*angle.shape, 3, 3))
+    cosine, sine = np.cos(angle), np.sin(angle)
+    fixed = 3 - first - second
+    matrix[..., fixed, fixed] = 1.0
+    matrix[..., first, first] = matrix[..., second, second] = cosine
+    matrix[..., first, second], matrix[..., second, first] = -sine, sine
+    return matrix
+
+
+def rotation_derivative(axis: str, angle: np.ndarray | float, order: int = 1) -> np.ndarray:
+    """Derivative of :func:`rotation` with respect to its angle, of any order ≥ 1."""
+    # Each derivative advances the rotation by a quarter turn in its plane.
+    result = rotation(axis, np.asarray(angle, dtype=float) + order * np.pi / 2)
+    fixed = 3 - sum(_PLANE[axis])
+    result[..., fixed, fixed] = 0.0
+    return result
+
+
+def transform(rotation_part: np.ndarray, translation: np.ndarray) -> np.ndarray:
+    """Homogeneous matrices ``(..., 4, 4)`` from ``(..., 3, 3)`` and ``(..., 3)``."""
+    shape = np.broadcast_shapes(rotation_part.shape[:-2], translation.shape[:-1])
+    matrix = np.zeros((*shape, 4, 4))
+    matrix[..., :3, :3], matrix[..., :3, 3] = rotation_part, translation
+    matrix[..., 3, 3] = 1.0
+    return matrix
+
+
+def translation(axis: str, distance: np.ndarray | float) -> np.ndarray:
+    """T_z1, T_z2, T_z3: homogeneous translation [m] along ``axis``."""
+    distance = np.asarray(distance, dtype=float)
+    vector = np.zeros((*distance.shape, 3))
+    vector[..., "xyz".index(axis)] = distance
+    return transform(np.broadcast_to(np.eye(3), (*distance.shape, 3, 3)), vector)
+
+
+def turn(axis: str, angle: np.ndarray | float) -> np.ndarray:
+    """T_z4, T_z5, T_z6: homogeneous rotation [rad] about ``axis``."""
+    matrix = rotation(axis, angle)
+    return transform(matrix, np.zeros(matrix.shape[:-1]))
+
+
+def invert(placement: np.ndarray) -> np.ndarray:
+    """Inverse of rigid placements ``(..., 4, 4)``."""
+    rotated = np.swapaxes(placement[..., :3, :3], -1, -2)
+    return transform(rotated, -np.einsum("...ij,...j->...i", rotated, placement[..., :3, 3]))
+
+
+def euler_placement(
+    axes: str, angles: np.ndarray, rates: np.ndarray, accelerations: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Rotation, angular velocity and angular acceleration of three Euler angles.
+
+    The rotation is R(axes[0], angles[0]) R(axes[1], angles[1]) R(axes[2], angles[2]);
+    ω and α are in the fixed frame.
+
+    Args:
+        axes: Three letters, for instance ``"xyz"``.
+        angles: Angles in the order of ``axes`` [rad], shape ``(..., 3)``.
+        rates: Their time derivatives [rad/s], shape ``(..., 3)``.
+        accelerations: Their second time derivatives [rad/s²], shape ``(..., 3)``.
+
+    Returns:
+        Rotation ``(..., 3, 3)``, ω ``(..., 3)`` [rad/s], α ``(..., 3)`` [rad/s²].
+
+    Source: Scout thesis, 3.1–3.3 (angular velocity and acceleration of torso and feet).
+    """
+    matrix = np.broadcast_to(np.eye(3), (*angles.shape[:-1], 3, 3))
+    omega = np.zeros(angles.shape)
+    alpha = np.zeros(angles.shape)
+    for k, letter in enumerate(axes):
+        axis = matrix[..., :, "xyz".index(letter)]
+        spin = rates[..., k, None] * axis
+        alpha = alpha + accelerations[..., k, None] * axis + np.cross(omega, spin)
+        omega = omega + spin
+        matrix = matrix @ rotation(letter, angles[..., k])
+    return matrix, omega, alpha
+
+
+def euler_rate_matrix(axes: str, angles: np.ndarray) -> np.ndarray:
+    """E with ω = E @ (rates of the Euler angles), fixed frame: ``(..., 3)`` → ``(..., 3, 3)``."""
+    unit = np.zeros(angles.shape)
+    columns = []
+    for k in range(3):
+        rates = unit.copy()
+        rates[..., k] = 1.0
+        columns.append(euler_placement(axes, angles, rates, unit)[1])
+    return np.stack(columns, axis=-1)

@@ -1,0 +1,218 @@
+"""Reading TOML files into validated objects, with every mistake reported at once.
+
+The robots' specifications, gaits and paths are all read through
+:func:`read_toml`; a message names file, line, key, the value found and what is
+allowed there.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+
+from thesis_pin.errors import BadInput, Problem, SpecificationError
+
+Key = tuple[str | int, ...]
+
+
+class Strict(BaseModel):
+    """Base of everything read from a file: no unknown keys, no NaN, immutable."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    def cross_check(self) -> Iterator[tuple[Key, str, object]]:
+        """Yield key, complaint and value of what is wrong between several keys."""
+        yield from ()
+
+
+class Assumption(Strict):
+    """A number the thesis leaves open; reports list it with its reason."""
+
+    why: str = Field(min_length=1)
+
+
+def _symmetric(matrix: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...], ...]:
+    if any(matrix[i][j] != matrix[j][i] for i in range(3) for j in range(i)):
+        raise ValueError("must be symmetric")
+    return matrix
+
+
+Positive = Annotated[float, Field(gt=0)]
+NotNegative = Annotated[float, Field(ge=0)]
+Vector2 = tuple[float, float]
+Vector3 = tuple[float, float, float]
+SymmetricMatrix = Annotated[tuple[Vector3, Vector3, Vector3], AfterValidator(_symmetric)]
+
+File = TypeVar("File", bound=BaseModel)
+
+
+def read_toml(kind: str, schema: type[File], path: str | Path) -> File:
+    """Read and validate a TOML file.
+
+    Args:
+        kind: What the file is, for messages ("specification", "gait", …).
+        schema: The pydantic model it must satisfy.
+        path: The file.
+
+    Returns:
+        The validated object.
+
+    Raises:
+        BadInput: The file can't be opened or isn't TOML.
+        SpecificationError: It is TOML but breaks the schema; carries every problem.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it isn't UTF-8 text"
+        raise BadInput(f"can't read the {kind}: {reason}", where=str(path)) from None
+    return parse_toml(kind, schema, text, where=str(path))
+
+
+def parse_toml(kind: str, schema: type[File], text: str, *, where: str = "<text>") -> File:
+    """The same as :func:`read_toml`, for text already in memory."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise BadInput(f"the {kind} isn't valid TOML: {error}", where=where) from None
+    return validate(kind, schema, data, where=where, lines=key_lines(text))
+
+
+def validate(
+    kind: str,
+    schema: type[File],
+    data: Any,
+    *,
+    where: str = "<data>",
+    lines: dict[Key, int] | None = None,
+) -> File:
+    """Validate data against a schema, raising one error that lists every problem.
+
+    Args:
+        kind: What the data is, for messages.
+        schema: The pydantic model.
+        data: Nested dicts and lists.
+        where: File or place, for messages.
+        lines: Line of each key, from :func:`key_lines`.
+
+    Raises:
+        SpecificationError: With a :class:`Problem` for each thing wrong.
+    """
+    lines = lines or {}
+
+    def place(key: Key) -> str:
+        line = _line_of(key, lines)
+        return f"{where}:{line}" if line else where
+
+    problems = []
+    try:
+        result = schema.model_validate(data)
+    except ValidationError as error:
+        for detail in error.errors(include_url=False):
+            key = _real_key(detail["loc"], data)
+            message = detail["msg"].removeprefix("Value error, ")
+            message = message[:1].lower() + message[1:]
+            if detail["type"] == "extra_forbidden":
+                message = "unknown key" + _known_keys(schema, key)
+            # A value that is missing has nothing to show; tables are too long to.
+            shown = "" if detail["type"] == "missing" else _short(detail["input"])
+            problems.append(Problem(place(key), _dotted(key), message, shown))
+        unique = {(p.key, p.what): p for p in problems}
+        raise SpecificationError(kind, list(unique.values())) from None
+    if isinstance(result, Strict):
+        problems = [
+            Problem(place(key), _dotted(key), message, _short(value) if value is not None else "")
+            for key, message, value in result.cross_check()
+        ]
+    if problems:
+        raise SpecificationError(kind, problems)
+    return result
+
+
+def key_lines(text: str) -> dict[Key, int]:
+    """Line number of every table and key of a TOML text.
+
+    tomllib forgets where a value stood. This recognises the plain layout
+    (headers, ``key = …`` at the start of a line); a key it misses is reported
+    with the line of its table.
+    """
+    header = re.compile(r"^\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(#.*)?$")
+    assignment = re.compile(r"^\s*([A-Za-z0-9_\-.\"']+)\s*=")
+    lines: dict[Key, int] = {}
+    counts: dict[Key, int] = {}
+    prefix: Key = ()
+    for number, line in enumerate(text.splitlines(), start=1):
+        if match := header.match(line):
+            prefix = ()
+            for name in (part.strip().strip("\"'") for part in match[2].split(".")):
+                prefix = (*prefix, name)
+                if prefix in counts:
+                    prefix = (*prefix, counts[prefix])
+            if match[1] == "[[":
+                while prefix and isinstance(prefix[-1], int):
+                    prefix = prefix[:-1]
+                counts[prefix] = counts.get(prefix, -1) + 1
+                prefix = (*prefix, counts[prefix])
+            lines.setdefault(prefix, number)
+        elif match := assignment.match(line):
+            names = [part.strip("\"'") for part in match[1].split(".")]
+            lines.setdefault((*prefix, *names), number)
+    return lines
+
+
+def _line_of(key: Key, lines: dict[Key, int]) -> int | None:
+    for length in range(len(key), 0, -1):
+        if key[:length] in lines:
+            return lines[key[:length]]
+    return None
+
+
+def _real_key(location: Sequence[str | int], data: Any) -> Key:
+    """Drop the names of union members that pydantic mixes into a location."""
+    key: list[str | int] = []
+    for number, part in enumerate(location):
+        if isinstance(data, dict):
+            if part in data or number == len(location) - 1:
+                key.append(part)
+                data = data.get(part)
+        elif isinstance(data, list | tuple):
+            if isinstance(part, int):
+                key.append(part)
+                data = data[part] if part < len(data) else None
+    return tuple(key)
+
+
+def _known_keys(schema: type[BaseModel], key: Key) -> str:
+    """List the keys allowed beside an unknown one, where the schema makes that plain."""
+    current: Any = schema
+    for part in key[:-1]:
+        if isinstance(part, int):
+            continue
+        fields = getattr(current, "model_fields", {})
+        if part not in fields:
+            return ""
+        current = fields[part].annotation
+        arguments = getattr(current, "__args__", ())
+        current = next(
+            (a for a in (current, *arguments) if hasattr(a, "model_fields")), current
+        )
+    fields = getattr(current, "model_fields", {})
+    return f" (known here: {', '.join(fields)})" if fields else ""
+
+
+def _dotted(key: Key) -> str:
+    text = ""
+    for part in key:
+        text += f"[{part}]" if isinstance(part, int) else ("." if text else "") + part
+    return text or "(whole file)"
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,33 @@
+"""Every tolerance that decides something, by name and with its unit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Thresholds used by the library; messages name the one they applied.
+
+    Attributes:
+        rotation_orthogonality: Largest entry of RᵀR − 1 accepted in a pose [-].
+        singular: Sine or ratio below which a direction counts as undefined [-].
+        near_singular: The same, below which rates are refused [-].
+        reach: Excess of distance still taken as touching the boundary [m].
+        loop_closure: Distance at which a loop counts as closed [m].
+        stance_drift: How far a foot in support may stray from rest or floor [m].
+        joint_limit: Excess still taken as inside a joint limit [rad].
+        static: Joint speed below which Coulomb friction is taken as zero [rad/s].
+    """
+
+    rotation_orthogonality: float = 1e-9
+    singular: float = 1e-12
+    near_singular: float = 1e-8
+    reach: float = 1e-12
+    loop_closure: float = 1e-9
+    stance_drift: float = 1e-6
+    joint_limit: float = 1e-9
+    static: float = 1e-9
+
+
+TOLERANCES = Tolerances()
