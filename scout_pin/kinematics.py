@@ -25,7 +25,7 @@ import numpy as np
 
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from thesis_pin.arrays import finite_array, pose_array, wrap
-from thesis_pin.errors import SingularPose
+from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.rotations import rotation, transform
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.trajectory import BodyMotion
@@ -261,6 +261,49 @@ def leg_inverse_kinematics(
         sines[0].reshape(stack),
         sines[1].reshape(stack),
     )
+
+
+def choose_branch(solutions: LegSolutions, side: str, reference: Any = None) -> np.ndarray:
+    """One valid branch a pose, by the rule of ``Scout.inverse_kinematics``.
+
+    Args:
+        solutions: All branches, of a single pose or a stack.
+        side: Name of the leg, for messages.
+        reference: Angles [rad], ``(6,)`` or ``(..., 6)``.
+
+    Returns:
+        Angles [rad], shape ``(..., 6)``.
+
+    Raises:
+        Unreachable: Some pose has no valid branch.
+    """
+    valid, angles = solutions.valid, solutions.angles
+    possible = valid.any(axis=-1)
+    if not possible.all():
+        index = tuple(int(k) for k in np.argwhere(~np.atleast_1d(possible))[0])[: possible.ndim]
+        where = f"{side} foot" + (f", sample {index[0]}" if index else "")
+        raise Unreachable(
+            solutions.explain(index), where=where, remedy="Move the torso or the foot closer"
+        )
+    start = np.zeros(6) if reference is None else np.asarray(reference)
+    each = np.ndim(start) > 1
+    if angles.ndim == 2 or each:
+        cost = np.where(valid, np.abs(wrap(angles - start[..., None, :])).max(axis=-1), np.inf)
+        best = np.argmin(cost, axis=-1)
+        return np.take_along_axis(angles, best[..., None, None], axis=-2)[..., 0, :]
+    first = np.abs(wrap(angles[0] - start)).max(axis=-1)
+    throughout = valid.reshape(-1, 8).all(axis=0)
+    if throughout.any():
+        cost = np.where(throughout, first.reshape(-1, 8).max(axis=0), np.inf)
+        return angles[..., int(np.argmin(cost)), :]
+    chosen = np.empty((*angles.shape[:-2], 6))
+    previous = np.broadcast_to(start, chosen.shape[1:])
+    for k in range(len(angles)):
+        step = np.abs(wrap(angles[k] - previous[..., None, :])).max(axis=-1)
+        best = np.argmin(np.where(valid[k], step, np.inf), axis=-1)
+        chosen[k] = np.take_along_axis(angles[k], best[..., None, None], axis=-2)[..., 0, :]
+        previous = chosen[k]
+    return chosen
 
 
 def _pick(condition: bool, yes: float, no: float) -> float:

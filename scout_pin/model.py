@@ -1,0 +1,302 @@
+"""``load()`` → the biped: Pinocchio model, index maps, coordinates, kinematics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import pinocchio as pin
+
+from scout_pin import kinematics
+from scout_pin.specification import JOINT_NAMES, SIDES, Specification
+from scout_pin.urdf import meshes, urdf
+from thesis_pin.arrays import finite_array, pose_array
+from thesis_pin.errors import SingularPose, UnknownName, Unreachable
+from thesis_pin.inertia import Reading
+from thesis_pin.loading import LoadedRobot, frame_id, joint_id, model_folder
+from thesis_pin.rotations import euler_placement, euler_rate_matrix, invert
+from thesis_pin.tolerances import TOLERANCES
+
+PACKAGE_PATH = str(model_folder("scout"))
+URDF_PATH = str(Path(PACKAGE_PATH) / "scout.urdf")
+
+Root = Literal["free_flyer", "thesis"]
+
+
+def load(
+    specification: Specification | str | Path | None = None,
+    *,
+    root: Root = "free_flyer",
+    inertia: Reading = "physical",
+) -> Scout:
+    """Load a Scout-like biped.
+
+    Args:
+        specification: A specification, the path of one, or None for the thesis's robot.
+        root: ``"free_flyer"`` (nq 19, nv 18, Pinocchio's usual floating base) or
+            ``"thesis"`` (nq = nv = 18: x_B, y_B, z_B, θ_B, φ_B, ψ_B, then the joints,
+            so q is the thesis's vector (4.2)).
+        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.inertia`.
+
+    Returns:
+        The robot.
+
+    Raises:
+        SpecificationError: The specification is invalid.
+        NonPhysicalInertia: A link's inertia is impossible.
+        UnknownName: ``root`` or ``inertia`` isn't one of the above.
+    """
+    if not isinstance(specification, Specification):
+        specification = Specification.read(specification)
+    if root not in ("free_flyer", "thesis"):
+        raise UnknownName("root", root, ("free_flyer", "thesis"))
+    if inertia not in ("physical", "printed"):
+        raise UnknownName("inertia", inertia, ("physical", "printed"))
+    return Scout(specification, root, inertia)
+
+
+def _thesis_root() -> pin.JointModelComposite:
+    """Three translations along x, y, z, then rotations about x, y, z (thesis 3.1)."""
+    composite = pin.JointModelComposite()
+    for joint in (
+        pin.JointModelPX(),
+        pin.JointModelPY(),
+        pin.JointModelPZ(),
+        pin.JointModelRX(),
+        pin.JointModelRY(),
+        pin.JointModelRZ(),
+    ):
+        composite.addJoint(joint)
+    return composite
+
+
+class Scout(LoadedRobot):
+    """A biped of Scout's kind, in Pinocchio and in closed form.
+
+    Joint vectors have twelve entries in the order of :data:`JOINT_NAMES`: left
+    leg from hip to foot, then right. They are the last twelve entries of q and v.
+
+    Attributes:
+        specification: The numbers it was made from.
+        root: ``"free_flyer"`` or ``"thesis"``.
+        inertia: Reading of the printed inertias.
+        legs: Leg geometries by side.
+        sole_frames: Pinocchio frame index of each sole, by side.
+        lower, upper: Joint limits [rad], each ``(12,)``.
+        stall_torque, no_load_speed: Servo limits [N·m], [rad/s], each ``(12,)``.
+    """
+
+    def __init__(self, specification: Specification, root: Root, inertia: Reading) -> None:
+        joint = pin.JointModelFreeFlyer() if root == "free_flyer" else _thesis_root()
+        super().__init__(urdf(specification, inertia), meshes(specification), joint)
+        self.specification, self.root, self.inertia = specification, root, inertia
+        self.legs = {side: kinematics.LegGeometry.of(specification, side) for side in SIDES}
+        self.sole_frames = {side: frame_id(self.model, f"{side}_sole") for side in SIDES}
+        self.lower, self.upper = specification.assumptions.joint_range.radians()
+        self.stall_torque, self.no_load_speed = specification.servo_limits()
+        order = [self.model.joints[joint_id(self.model, name)].idx_v for name in JOINT_NAMES]
+        if order != list(range(6, 18)):
+            raise RuntimeError(f"Pinocchio reordered the joints: {order}")
+
+    @property
+    def mass(self) -> float:
+        """Mass of the whole robot [kg]."""
+        return self.specification.mass
+
+    # -- coordinates ---------------------------------------------------------
+
+    def to_free_flyer(
+        self, q: Any, v: Any = None, a: Any = None
+    ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
+        """Thesis coordinates (4.2) and their derivatives → free-flyer q, v, a.
+
+        Args:
+            q: Thesis vector, shape ``(..., 18)``.
+            v: q̇, shape ``(..., 18)``.
+            a: q̈, shape ``(..., 18)``; needs v.
+
+        Returns:
+            q ``(..., 19)``, v ``(..., 18)``, a ``(..., 18)``; the root's velocity is
+            linear then angular, in the torso's axes, as Pinocchio has it.
+        """
+        q = finite_array("q", q, 18)
+        v = None if v is None else finite_array("v", v, 18)
+        a = None if a is None else finite_array("a", a, 18)
+        zero = np.zeros(q.shape)
+        rates, second = (zero if v is None else v), (zero if a is None else a)
+        matrix, omega, alpha = euler_placement("xyz", q[..., 3:6], rates[..., 3:6], second[..., 3:6])
+        position = np.concatenate([q[..., :3], _quaternion(matrix), q[..., 6:]], axis=-1)
+        if v is None:
+            return position, None, None
+        local = _in_axes(matrix, np.stack([v[..., :3], omega], axis=-2))
+        velocity = np.concatenate([local[..., 0, :], local[..., 1, :], v[..., 6:]], axis=-1)
+        if a is None:
+            return position, velocity, None
+        local_a = _in_axes(matrix, np.stack([a[..., :3], alpha], axis=-2))
+        # Pinocchio differentiates the components in the moving axes.
+        linear = local_a[..., 0, :] - np.cross(local[..., 1, :], local[..., 0, :])
+        acceleration = np.concatenate([linear, local_a[..., 1, :], a[..., 6:]], axis=-1)
+        return position, velocity, acceleration
+
+    def to_thesis(
+        self, q: Any, v: Any = None, a: Any = None
+    ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
+        """Free-flyer q, v, a → thesis coordinates (4.2) and their derivatives.
+
+        Args:
+            q: Shape ``(..., 19)``.
+            v: Shape ``(..., 18)``.
+            a: Shape ``(..., 18)``; needs v.
+
+        Returns:
+            q, q̇, q̈, each ``(..., 18)``.
+
+        Raises:
+            SingularPose: φ_B = ±90°, where θ_B and ψ_B can't be told apart.
+        """
+        q = finite_array("q", q, 19)
+        matrix = _rotation_matrix(q[..., 3:7])
+        cosine = np.hypot(matrix[..., 0, 0], matrix[..., 0, 1])
+        if (cosine < TOLERANCES.near_singular).any():
+            k = int(np.argmax(np.atleast_1d(cosine) < TOLERANCES.near_singular))
+            raise SingularPose(
+                "φ_B is ±90°, where θ_B and ψ_B turn about the same axis",
+                where=f"sample {k}",
+                remedy='Use root="free_flyer"',
+            )
+        angles = np.stack(
+            [
+                np.arctan2(-matrix[..., 1, 2], matrix[..., 2, 2]),
+                np.arctan2(matrix[..., 0, 2], cosine),
+                np.arctan2(-matrix[..., 0, 1], matrix[..., 0, 0]),
+            ],
+            axis=-1,
+        )
+        position = np.concatenate([q[..., :3], angles, q[..., 7:]], axis=-1)
+        if v is None:
+            return position, None, None
+        v = finite_array("v", v, 18)
+        linear = np.einsum("...ij,...j->...i", matrix, v[..., :3])
+        omega = np.einsum("...ij,...j->...i", matrix, v[..., 3:6])
+        inverse = np.linalg.inv(euler_rate_matrix("xyz", angles))
+        rates = np.einsum("...ij,...j->...i", inverse, omega)
+        velocity = np.concatenate([linear, rates, v[..., 6:]], axis=-1)
+        if a is None:
+            return position, velocity, None
+        a = finite_array("a", a, 18)
+        moving = a[..., :3] + np.cross(v[..., 3:6], v[..., :3])
+        bias = euler_placement("xyz", angles, rates, np.zeros(rates.shape))[2]
+        alpha = np.einsum("...ij,...j->...i", matrix, a[..., 3:6])
+        second = np.einsum("...ij,...j->...i", inverse, alpha - bias)
+        linear = np.einsum("...ij,...j->...i", matrix, moving)
+        return position, velocity, np.concatenate([linear, second, a[..., 6:]], axis=-1)
+
+    # -- kinematics ----------------------------------------------------------
+
+    def leg_inverse_kinematics(
+        self, side: str, torso_to_foot: Any, reference: Any = None
+    ) -> kinematics.LegSolutions:
+        """All branches of one leg; see :func:`scout_pin.kinematics.leg_inverse_kinematics`."""
+        return kinematics.leg_inverse_kinematics(self._leg(side), torso_to_foot, reference)
+
+    def inverse_kinematics(
+        self, torso: Any, left_foot: Any, right_foot: Any, reference: Any = None
+    ) -> np.ndarray:
+        """Joint angles that bring both soles to their places, one branch a leg.
+
+        The branch is the one nearest the reference that exists and keeps the joint
+        limits. Without a reference, a stack is a trajectory along its first axis:
+        if one branch is valid throughout it is kept, the one with the smallest
+        first angles if there are several; otherwise each sample takes the branch
+        nearest the sample before.
+
+        Args:
+            torso: Torso in the world: ``pin.SE3``, sequence, or ``(..., 4, 4)``.
+            left_foot: Left sole in the world, likewise.
+            right_foot: Right sole in the world, likewise.
+            reference: Angles [rad], ``(12,)`` for a start or ``(..., 12)`` for each pose.
+
+        Returns:
+            Angles [rad], shape ``(..., 12)``.
+
+        Raises:
+            Unreachable: Some pose has no valid branch; says which and why.
+            BadInput: Wrong shape, NaN or not a rigid placement.
+        """
+        placements = [
+            pose_array(name, pose)
+            for name, pose in (("torso", torso), ("left_foot", left_foot), ("right_foot", right_foot))
+        ]
+        given = None if reference is None else finite_array("reference", reference, 12)
+        world_to_torso = invert(placements[0])
+        sides = []
+        for number, side in enumerate(SIDES):
+            start = None if given is None else given[..., 6 * number : 6 * number + 6]
+            solutions = self.leg_inverse_kinematics(
+                side, world_to_torso @ placements[number + 1], start
+            )
+            sides.append(kinematics.choose_branch(solutions, side, start))
+        return np.concatenate(np.broadcast_arrays(*sides), axis=-1)
+
+    def leg_forward_kinematics(self, side: str, theta: Any) -> np.ndarray:
+        """Sole in the torso frame from six angles, ``(..., 6)`` → ``(..., 4, 4)``."""
+        return kinematics.leg_forward_kinematics(self._leg(side), finite_array("theta", theta, 6))
+
+    def forward_kinematics(self, theta: Any, torso: Any = None) -> dict[str, np.ndarray]:
+        """Soles in the world from twelve angles.
+
+        Args:
+            theta: Joint angles [rad], shape ``(..., 12)``.
+            torso: Torso in the world, ``(..., 4, 4)`` or ``pin.SE3``; None is the origin.
+
+        Returns:
+            Placement of each sole by side, shape ``(..., 4, 4)``.
+        """
+        theta = finite_array("theta", theta, 12)
+        base = np.eye(4) if torso is None else pose_array("torso", torso)
+        return {
+            side: base @ self.leg_forward_kinematics(side, theta[..., 6 * k : 6 * k + 6])
+            for k, side in enumerate(SIDES)
+        }
+
+    def sole_vertices(self, side: str, foot: Any) -> np.ndarray:
+        """Corners of a sole in the world [m]: ``(..., 4, 4)`` → ``(..., corners, 3)``.
+
+        Source: Scout thesis, 3.1 (last equation) and B.4.
+        """
+        placement = pose_array("foot", foot)
+        outline = np.array(self.specification.leg(side).sole)
+        turned = np.einsum("...ij,kj->...ki", placement[..., :3, :2], outline)
+        return turned + placement[..., None, :3, 3]
+
+    def neutral_feet(self) -> dict[str, np.ndarray]:
+        """Soles in the torso frame with all servos neutral, by side."""
+        return self.forward_kinematics(np.zeros(12))
+
+    def _leg(self, side: str) -> kinematics.LegGeometry:
+        if side not in self.legs:
+            raise UnknownName("side", side, SIDES)
+        return self.legs[side]
+
+
+def _quaternion(matrix: np.ndarray) -> np.ndarray:
+    """Unit quaternions (x, y, z, w) of rotations: ``(..., 3, 3)`` → ``(..., 4)``."""
+    from scipy.spatial.transform import Rotation
+
+    flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
+    return flat.reshape(*matrix.shape[:-2], 4)
+
+
+def _rotation_matrix(quaternion: np.ndarray) -> np.ndarray:
+    """Inverse of :func:`_quaternion`; quaternions of any length but zero."""
+    from scipy.spatial.transform import Rotation
+
+    flat = Rotation.from_quat(quaternion.reshape(-1, 4)).as_matrix()
+    return flat.reshape(*quaternion.shape[:-1], 3, 3)
+
+
+def _in_axes(matrix: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Components of vectors ``(..., k, 3)`` in the axes of ``(..., 3, 3)``."""
+    return np.einsum("...ji,...kj->...ki", matrix, vectors)
+
