@@ -1,0 +1,152 @@
+"""What the floor can do to a sole: its whole contact wrench, not only its pressure.
+
+A flat sole pressed on the floor can transmit exactly the wrenches that forces
+at its corners can produce, each force inside its friction cone. That set is a
+cone in six dimensions. It holds all of: no pull, friction, centre of pressure
+inside the hull of the sole, and the yaw moment that is left after that.
+
+Wrenches are force [N], then moment [N·m] about the sole's origin p_i. To speak
+of distances between wrenches, forces are multiplied by a length (half the
+diagonal of the sole's bounding box); a margin is then a moment in N·m.
+
+Source: Scout thesis, 4.5 names the floor's forces; their limits are missing
+there. Wrench cones: Caron, Pham, Nakamura, "Stability of surface contacts for
+humanoid robots", ICRA 2015.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.optimize import nnls
+from scipy.spatial import ConvexHull
+
+from scout_pin.specification import Specification
+
+FRICTION_EDGES = 8
+"""Edges of the pyramid inside each corner's friction cone; it gives away at most
+1 − cos(π/8) = 7.6 % of the friction, on the safe side."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """The wrench cone of one sole, in the sole's axes about its origin.
+
+    Attributes:
+        outline: Corners of the sole [m], shape ``(n, 2)``.
+        hull: Corners of its convex hull, counter-clockwise [m], shape ``(h, 2)``.
+        friction: Friction coefficient.
+        length: Length that turns forces into moments [m].
+        rays: Extreme wrenches, scaled to moments, shape ``(k, 6)``: admissible
+            wrenches are their non-negative combinations.
+        facets: Unit outward normals of the same cone, shape ``(m, 6)``: a scaled
+            wrench w is admissible when ``facets @ w <= 0``.
+    """
+
+    outline: np.ndarray
+    hull: np.ndarray
+    friction: float
+    length: float
+    rays: np.ndarray
+    facets: np.ndarray
+
+    @classmethod
+    def of(cls, specification: Specification, side: str) -> Contact:
+        """Contact of the ``"left"`` or ``"right"`` sole of a specification."""
+        return cls.from_outline(
+            np.array(specification.leg(side).sole),
+            specification.assumptions.floor_friction.coefficient,
+        )
+
+    @classmethod
+    def from_outline(cls, outline: np.ndarray, friction: float) -> Contact:
+        """Contact of a sole with the given corners [m], ``(n, 2)``, and friction."""
+        hull = outline[ConvexHull(outline).vertices]
+        length = float(np.linalg.norm(np.ptp(outline, axis=0))) / 2
+        angle = 2 * np.pi * np.arange(FRICTION_EDGES) / FRICTION_EDGES
+        edges = np.stack(
+            [friction * np.cos(angle), friction * np.sin(angle), np.ones(FRICTION_EDGES)], axis=-1
+        )
+        corners = np.column_stack([hull, np.zeros(len(hull))])
+        forces = np.tile(edges, (len(corners), 1))
+        moments = np.cross(np.repeat(corners, FRICTION_EDGES, axis=0), forces)
+        rays = np.concatenate([forces * length, moments], axis=1)
+        # All rays have the same normal force, so the cone is a five-dimensional
+        # polytope lifted to that height.
+        height = rays[0, 2]
+        section = ConvexHull(rays[:, [0, 1, 3, 4, 5]] / height)
+        normal, offset = section.equations[:, :5], section.equations[:, 5]
+        facets = np.column_stack([normal[:, :2], offset, normal[:, 2:]])
+        facets /= np.linalg.norm(facets, axis=1)[:, None]
+        return cls(outline, hull, friction, length, rays, np.unique(facets.round(12), axis=0))
+
+    def scale(self, wrench: np.ndarray) -> np.ndarray:
+        """Wrenches with forces multiplied by :attr:`length` [N·m], ``(..., 6)``."""
+        return wrench * np.repeat([self.length, 1.0], 3)
+
+    def margin(self, wrench: np.ndarray) -> np.ndarray:
+        """How far wrenches are inside the cone [N·m], negative outside.
+
+        Inside, it is the distance to the nearest facet: the smallest disturbance
+        (scaled as above) that breaks the contact. Outside, its size is a lower
+        bound of :meth:`violation`.
+
+        Args:
+            wrench: Wrenches in the sole's axes, shape ``(..., 6)``.
+
+        Returns:
+            Margins, shape ``(...)``.
+        """
+        return -(self.scale(wrench) @ self.facets.T).max(axis=-1)
+
+    def violation(self, wrench: np.ndarray) -> tuple[float, np.ndarray]:
+        """Least wrench that something other than the floor would have to add.
+
+        Args:
+            wrench: One wrench in the sole's axes, shape ``(6,)``.
+
+        Returns:
+            Its size [N·m, forces scaled], zero if the wrench is admissible, and
+            the wrench itself (unscaled), shape ``(6,)``.
+        """
+        target = self.scale(wrench)
+        weights, size = nnls(self.rays.T, target)
+        missing = target - self.rays.T @ weights
+        return float(size), missing / np.repeat([self.length, 1.0], 3)
+
+    def friction_used(self, wrench: np.ndarray) -> np.ndarray:
+        """Tangential over admissible force, ``(..., 6)`` → ``(...)``; NaN without load."""
+        loaded = wrench[..., 2] > 0
+        limit = self.friction * np.where(loaded, wrench[..., 2], np.nan)
+        return np.hypot(wrench[..., 0], wrench[..., 1]) / limit
+
+    def centre_of_pressure(self, wrench: np.ndarray) -> np.ndarray:
+        """Point of the sole where the pressure acts [m], ``(..., 6)`` → ``(..., 2)``."""
+        loaded = wrench[..., 2] > 0
+        force = np.where(loaded, wrench[..., 2], np.nan)
+        return np.stack([-wrench[..., 4] / force, wrench[..., 3] / force], axis=-1)
+
+
+def in_sole_axes(rotation: np.ndarray, wrench: np.ndarray) -> np.ndarray:
+    """Wrenches turned from world axes to the sole's, ``(n, 3, 3)``, ``(n, 6)`` → ``(n, 6)``."""
+    return np.concatenate(
+        [np.einsum("nji,nj->ni", rotation, wrench[:, part]) for part in (slice(3), slice(3, 6))],
+        axis=1,
+    )
+
+
+def support_polygon(*soles: Any) -> np.ndarray:
+    """Convex hull of soles on the floor.
+
+    Args:
+        *soles: Corners of each sole in contact, world x and y [m], ``(n, 2)`` or ``(n, 3)``.
+
+    Returns:
+        Corners, counter-clockwise [m], shape ``(h, 2)``.
+
+    Source: Scout thesis, section 6.2.
+    """
+    points = np.concatenate([np.asarray(sole, dtype=float)[:, :2] for sole in soles])
+    return points[ConvexHull(points).vertices]

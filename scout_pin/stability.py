@@ -1,0 +1,137 @@
+"""Zero-moment point, support polygon and how far inside it the point lies.
+
+Source: Scout thesis, section 6.2, equation (6.1).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+
+from scout_pin.contact import support_polygon
+from scout_pin.gait import Motion
+from scout_pin.model import Scout
+from thesis_pin.arrays import finite_array
+from thesis_pin.errors import NoSupportForce
+
+GRAVITY = 9.81
+"""Pinocchio's default, [m/s²]."""
+
+
+def zero_moment_point(
+    mass: float,
+    com: np.ndarray,
+    momentum_rate: np.ndarray,
+    ground_height: float = 0.0,
+) -> np.ndarray:
+    """Zero-moment point on a horizontal floor.
+
+    Args:
+        mass: Total mass [kg].
+        com: Centre of mass in the world frame [m], shape ``(..., 3)``.
+        momentum_rate: Time derivative of linear then angular momentum about
+            the world origin [N], [N·m], shape ``(..., 6)``.
+        ground_height: Height of the floor [m].
+
+    Returns:
+        Point on the floor [m], shape ``(..., 2)``.
+
+    Raises:
+        NoSupportForce: The vertical force is not positive, so no ZMP exists.
+
+    Source: Scout thesis, section 6.2, equation (6.1).
+    """
+    com = finite_array("com", com, 3)
+    rate = finite_array("momentum_rate", momentum_rate, 6)
+    weight = mass * GRAVITY
+    normal = weight + rate[..., 2]
+    if (normal <= 0).any():
+        k = int(np.argmax(np.atleast_1d(normal <= 0)))
+        raise NoSupportForce(
+            f"the floor would have to pull with {-float(np.atleast_1d(normal)[k]):.3g} N",
+            where=f"sample {k}",
+            remedy="The motion falls faster than gravity: slow it down (a larger time unit)",
+        )
+    x = (weight * com[..., 0] + ground_height * rate[..., 0] - rate[..., 4]) / normal
+    y = (weight * com[..., 1] + ground_height * rate[..., 1] + rate[..., 3]) / normal
+    return np.stack([x, y], axis=-1)
+
+
+def momentum(
+    robot: Scout, q: np.ndarray, v: np.ndarray, a: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Centre of mass and momentum rate about the world origin, by Pinocchio.
+
+    Args:
+        robot: The biped.
+        q, v, a: Pinocchio vectors of its model, shapes ``(n, nq)``, ``(n, nv)``, ``(n, nv)``.
+
+    Returns:
+        Centre of mass [m] ``(n, 3)`` and rate of linear, then angular momentum
+        about the world origin ``(n, 6)``.
+    """
+    model, data = robot.model, robot.model.createData()
+    com, rate = np.empty((len(q), 3)), np.empty((len(q), 6))
+    for k in range(len(q)):
+        pin.computeCentroidalMomentumTimeVariation(model, data, q[k], v[k], a[k])
+        com[k] = data.com[0]
+        rate[k] = data.dhg.vector
+    rate[:, 3:] += np.cross(com, rate[:, :3])
+    return com, rate
+
+
+def signed_margin(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Distance of points from a convex polygon's border [m], negative outside.
+
+    Args:
+        polygon: Corners, counter-clockwise [m], shape ``(h, 2)``.
+        points: Shape ``(n, 2)``.
+    """
+    import shapely
+
+    border = shapely.LinearRing(polygon)
+    place = shapely.points(points)
+    distance = shapely.distance(border, place)
+    return np.where(shapely.contains(shapely.Polygon(polygon), place), distance, -distance)
+
+
+def support_margin(robot: Scout, motion: Motion, points: np.ndarray) -> np.ndarray:
+    """Signed margin of points to the support polygon of each sample.
+
+    Args:
+        robot: The biped.
+        motion: The sampled gait; its feet in support carry the polygon.
+        points: Zero-moment points [m], shape ``(n, 2)``.
+
+    Returns:
+        Margins [m], positive inside, shape ``(n,)``.
+    """
+    margins = np.empty(len(points))
+    feet = {"left": motion.left_foot.placement, "right": motion.right_foot.placement}
+    for samples, polygon in polygons(robot, motion, feet):
+        margins[samples] = signed_margin(polygon, points[samples])
+    return margins
+
+
+def polygons(
+    robot: Scout, motion: Motion, feet: dict[str, np.ndarray]
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Support polygons of a motion, each with the samples it holds for.
+
+    Feet in support don't move, so a polygon is made once for each stance.
+    """
+    keys = np.zeros((len(motion.t), 14))
+    for k, side in enumerate(("left", "right")):
+        place = feet[side][:, [0, 0, 1, 1, 0, 1], [0, 1, 0, 1, 3, 3]]
+        keys[:, 7 * k] = motion.support[:, k]
+        keys[:, 7 * k + 1 : 7 * k + 7] = np.where(motion.support[:, k, None], place, 0.0)
+    _, first, inverse = np.unique(keys.round(9), axis=0, return_index=True, return_inverse=True)
+    result = []
+    for number, sample in enumerate(first):
+        soles = [
+            robot.sole_vertices(side, feet[side][sample])
+            for k, side in enumerate(("left", "right"))
+            if motion.support[sample, k]
+        ]
+        result.append((np.flatnonzero(inverse.ravel() == number), support_polygon(*soles)))
+    return result
