@@ -21,7 +21,7 @@ from scipy.optimize import nnls
 from scipy.spatial.transform import Rotation
 
 from scout_pin.contact import Contact, in_sole_axes
-from scout_pin.gait import Motion
+from scout_pin.gait import Gait, Motion
 from scout_pin.kinematics import leg_frames, leg_rates
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
@@ -166,7 +166,7 @@ def inverse_dynamics(
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
-    contacts = tuple(Contact.of(robot.specification, side) for side in SIDES)
+    contacts = (Contact.of(robot.specification, "left"), Contact.of(robot.specification, "right"))
     shares, violation = _share_load(robot, motion, joints, forces, contacts)
     torque = forces[:, 6:].copy()
     count = len(forces)
@@ -186,7 +186,13 @@ def inverse_dynamics(
         sole_wrench[:, k] = in_sole_axes(foot.rotation, wrench[:, k])
     torque += joint_friction(robot, joints.v)
     return ContactDynamics(
-        torque, wrench, sole_wrench, contacts, motion.support, forces[:, :6], violation  # type: ignore[arg-type]
+        torque,
+        wrench,
+        sole_wrench,
+        contacts,
+        motion.support,
+        forces[:, :6],
+        violation,
     )
 
 
@@ -213,7 +219,9 @@ def _share_load(
     double = np.flatnonzero(motion.support.all(axis=1))
     if not double.size:
         return shares, violation
-    frames = [leg_frames(robot.legs[s], joints.q[double, 6 * k : 6 * k + 6]) for k, s in enumerate(SIDES)]
+    frames = [
+        leg_frames(robot.legs[s], joints.q[double, 6 * k : 6 * k + 6]) for k, s in enumerate(SIDES)
+    ]
     feet = (motion.left_foot, motion.right_foot)
     to_sole = [
         np.einsum("nji,njk->nik", feet[k].rotation[double], motion.torso.rotation[double])
@@ -227,9 +235,7 @@ def _share_load(
             axes, points = frames[k].axes[..., row], frames[k].points[..., row]
             jacobians.append(np.concatenate([np.cross(points, axes), axes], axis=1))
             maps.append(_to_scaled_sole(to_sole[k][row], frames[k].sole[:, row], contacts[k]))
-        left, violation[sample] = _least_torque(
-            forces[sample], jacobians, maps, contacts
-        )
+        left, violation[sample] = _least_torque(forces[sample], jacobians, maps, contacts)
         shares[sample, 0], shares[sample, 1] = left, forces[sample, :6] - left
     return shares, violation
 
@@ -347,7 +353,7 @@ def touchdown_impact(
     return Impact(t, side, held, rows[side] @ v, after[6:] - v[6:], impulse, lost)
 
 
-def impacts(robot: Scout, gait, time_unit: float | None = None) -> list[Impact]:  # type: ignore[no-untyped-def]
+def impacts(robot: Scout, gait: Gait, time_unit: float | None = None) -> list[Impact]:
     """Impacts of every touchdown of a gait, from the planned motion just before it."""
     result = []
     for t, side in gait.touchdowns():

@@ -120,7 +120,11 @@ class GaitFile(Strict):
                     yield from self._check_curve((body, name), curve)
             for coordinate in COORDINATES:
                 unit = "_mm" if coordinate in "xyz" else "_deg"
-                both = [n for n in (coordinate, coordinate + unit) if getattr(getattr(self, body), n) is not None]
+                both = [
+                    n
+                    for n in (coordinate, coordinate + unit)
+                    if getattr(getattr(self, body), n) is not None
+                ]
                 if len(both) > 1:
                     yield (body, both[1]), f"given twice, as {both[0]} and {both[1]}", None
 
@@ -146,7 +150,11 @@ class GaitFile(Strict):
             if any(b <= a for a, b in zip(segment.t, segment.t[1:], strict=False)):
                 yield (*here, "t"), "must increase strictly", segment.t
             if segment.until is not None and segment.until <= segment.t[-1]:
-                yield (*here, "until"), f"must be after the last node, {segment.t[-1]:g}", segment.until
+                yield (
+                    (*here, "until"),
+                    f"must be after the last node, {segment.t[-1]:g}",
+                    segment.until,
+                )
             if k and segment.t[0] != curve[k - 1].end:
                 yield (
                     (*here, "t"),
@@ -240,6 +248,19 @@ class Gait:
                 if has and not had and after.start > self.start:
                     events.append((after.start, side))
         return events
+
+    def t_in_double_support(self, most: int) -> np.ndarray:
+        """At most ``most`` times t spread over double support, instants included."""
+        instants = [p.start for p in self.phases if p.support == "double"]
+        spans = [p for p in self.phases if p.support == "double" and p.end > p.start]
+        changes = [
+            after.start
+            for before, after in zip(self.phases, self.phases[1:], strict=False)
+            if {before.support, after.support} == {"left", "right"}
+        ]
+        each = max(2, most // max(1, len(spans)))
+        inner = [np.linspace(p.start, p.end, each) for p in spans]
+        return np.unique(np.concatenate([instants, changes, *inner]))
 
     def sample_times(self, samples: int) -> np.ndarray:
         """``samples`` times t, evenly spaced from start to end."""
@@ -432,7 +453,9 @@ def _column(path: Path, rows: list[dict[str, str]], name: str) -> np.ndarray:
             values[k] = np.nan
         if not np.isfinite(values[k]):
             raise TrajectoryError(
-                f"{name} is {row[name]!r}", where=f"{path}: sample {k + 1}", allowed="a finite number"
+                f"{name} is {row[name]!r}",
+                where=f"{path}: sample {k + 1}",
+                allowed="a finite number",
             )
     return values
 

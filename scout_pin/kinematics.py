@@ -113,7 +113,7 @@ class LegSolutions:
     @property
     def reachable(self) -> np.ndarray:
         """Whether a branch exists, limits aside, shape ``(..., 8)``."""
-        return self.excess <= TOLERANCES.reach
+        return np.asarray(self.excess <= TOLERANCES.reach)
 
     @cached_property
     def beyond_limits(self) -> np.ndarray:
@@ -186,9 +186,7 @@ class LegSolutions:
                 f"{low * 1e3:.2f} to {high * 1e3:.2f} mm that thigh and shank span"
             )
         else:
-            beyond = np.where(
-                self.reachable[index][:, None], self.beyond_limits[index], np.inf
-            )
+            beyond = np.where(self.reachable[index][:, None], self.beyond_limits[index], np.inf)
             best = int(np.argmin(beyond.max(axis=-1)))
             joint = int(np.argmax(beyond[best]))
             angle, (low, high) = (
@@ -245,8 +243,8 @@ def leg_inverse_kinematics(
     else:
         for start in range(0, count, _CHUNK):
             part = slice(start, min(start + _CHUNK, count))
-            matrix = np.ascontiguousarray(flat[part].T)
-            solved = _branches(np, np.where, leg, matrix, yaw[part], axis[:, part])
+            columns = np.ascontiguousarray(flat[part].T)
+            solved = _branches(np, np.where, leg, columns, yaw[part], axis[:, part])
             theta = wrap(np.array(solved[0]) - leg.beta[:, None])
             angles[part] = theta.transpose(2, 0, 1)
             excess[part] = np.array(solved[1]).T
@@ -538,9 +536,7 @@ def leg_rates(
         d_j + w_e * c345 * q6,
         d_e + (w_i * s345 - w_j * c345) * q6,
     )
-    acceleration = (
-        foot.acceleration - np.cross(foot.alpha, arm) - np.cross(foot.omega, spin)
-    )
+    acceleration = foot.acceleration - np.cross(foot.alpha, arm) - np.cross(foot.omega, spin)
     p, w = in_frame_3(acceleration), in_frame_3(foot.alpha)
     second = solve(
         (p[0] - bias[0], p[1] - bias[1], p[2] - bias[2]), (w[0] - d_i, w[1] - d_j, w[2] - d_e)

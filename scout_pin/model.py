@@ -125,7 +125,9 @@ class Scout(LoadedRobot):
         a = None if a is None else finite_array("a", a, 18)
         zero = np.zeros(q.shape)
         rates, second = (zero if v is None else v), (zero if a is None else a)
-        matrix, omega, alpha = euler_placement("xyz", q[..., 3:6], rates[..., 3:6], second[..., 3:6])
+        matrix, omega, alpha = euler_placement(
+            "xyz", q[..., 3:6], rates[..., 3:6], second[..., 3:6]
+        )
         position = np.concatenate([q[..., :3], _quaternion(matrix), q[..., 6:]], axis=-1)
         if v is None:
             return position, None, None
@@ -226,7 +228,11 @@ class Scout(LoadedRobot):
         """
         placements = [
             pose_array(name, pose)
-            for name, pose in (("torso", torso), ("left_foot", left_foot), ("right_foot", right_foot))
+            for name, pose in (
+                ("torso", torso),
+                ("left_foot", left_foot),
+                ("right_foot", right_foot),
+            )
         ]
         given = None if reference is None else finite_array("reference", reference, 12)
         world_to_torso = invert(placements[0])
@@ -299,4 +305,3 @@ def _rotation_matrix(quaternion: np.ndarray) -> np.ndarray:
 def _in_axes(matrix: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     """Components of vectors ``(..., k, 3)`` in the axes of ``(..., 3, 3)``."""
     return np.einsum("...ji,...kj->...ki", matrix, vectors)
-

@@ -104,7 +104,7 @@ class Leg(Strict):
     def servos(self) -> SixNames:
         """Name of the servo at each of the six joints."""
         if isinstance(self.servo, str):
-            return (self.servo,) * 6  # type: ignore[return-value]
+            return (self.servo,) * 6
         return self.servo
 
 

@@ -54,9 +54,7 @@ def urdf(specification: Specification, inertia: Reading = "physical") -> str:
 def meshes(specification: Specification) -> dict[str, str]:
     """Wavefront OBJ text of each sole, by the file name the URDF uses."""
     return {
-        f"meshes/{side}_sole.obj": extruded_polygon(
-            specification.leg(side).sole, SOLE_THICKNESS
-        )
+        f"meshes/{side}_sole.obj": extruded_polygon(specification.leg(side).sole, SOLE_THICKNESS)
         for side in SIDES
     }
 
@@ -85,7 +83,9 @@ def write(specification: Specification, folder: str | Path) -> list[Path]:
 def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
     signs = {"left": -1.0, "right": 1.0}
     hips = [offsets(specification.leg(side), signs[side])[0] for side in SIDES]
-    yield _link("torso", specification.torso, specification, reading, [bar(hips[0], hips[1], BAR_RADIUS)])
+    yield _link(
+        "torso", specification.torso, specification, reading, [bar(hips[0], hips[1], BAR_RADIUS)]
+    )
     lower, upper = specification.assumptions.joint_range.radians()
     torque, speed = specification.servo_limits()
     friction = specification.assumptions.joint_friction

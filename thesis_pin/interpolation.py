@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
 
 from thesis_pin.arrays import finite_array
 from thesis_pin.errors import TrajectoryError, UnknownName
 
 
-def quadratic(t: Sequence[float], value: Sequence[float]) -> PPoly:
+def quadratic(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Quadratic spline whose first piece is a straight line; C¹.
 
     Args:
@@ -28,35 +29,35 @@ def quadratic(t: Sequence[float], value: Sequence[float]) -> PPoly:
     Source: Scout thesis, appendix C, equations C.2–C.5. The 3m equations are
     solved piece by piece: each piece starts with the slope of the one before.
     """
-    t, value = np.asarray(t, dtype=float), np.asarray(value, dtype=float)
-    width, rise = np.diff(t), np.diff(value)
+    nodes, values = np.asarray(t, dtype=float), np.asarray(value, dtype=float)
+    width, rise = np.diff(nodes), np.diff(values)
     coefficients = np.zeros((3, len(width)))
     slope = rise[0] / width[0]
     for k in range(len(width)):
         curvature = (rise[k] - slope * width[k]) / width[k] ** 2 if k else 0.0
-        coefficients[:, k] = curvature, slope, value[k]
+        coefficients[:, k] = curvature, slope, values[k]
         slope += 2 * curvature * width[k]
-    return PPoly(coefficients, t)
+    return PPoly(coefficients, nodes)
 
 
-def linear(t: Sequence[float], value: Sequence[float]) -> PPoly:
+def linear(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Straight lines between the nodes; C⁰, so rates jump at every node."""
-    t, value = np.asarray(t, dtype=float), np.asarray(value, dtype=float)
-    return PPoly(np.stack([np.diff(value) / np.diff(t), value[:-1]]), t)
+    nodes, values = np.asarray(t, dtype=float), np.asarray(value, dtype=float)
+    return PPoly(np.stack([np.diff(values) / np.diff(nodes), values[:-1]]), nodes)
 
 
-def cubic(t: Sequence[float], value: Sequence[float]) -> PPoly:
+def cubic(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Cubic spline, C², at rest at both ends."""
     return CubicSpline(t, value, bc_type="clamped")
 
 
-def quintic(t: Sequence[float], value: Sequence[float]) -> PPoly:
+def quintic(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Quintic spline, C⁴, with zero rate and acceleration at both ends."""
     ends = [(1, 0.0), (2, 0.0)]
     return PPoly.from_spline(make_interp_spline(t, value, k=5, bc_type=(ends, ends)))
 
 
-METHODS: dict[str, Callable[[Sequence[float], Sequence[float]], PPoly]] = {
+METHODS: dict[str, Callable[[ArrayLike, ArrayLike], PPoly]] = {
     "linear": linear,
     "quadratic": quadratic,
     "cubic": cubic,
@@ -65,7 +66,7 @@ METHODS: dict[str, Callable[[Sequence[float], Sequence[float]], PPoly]] = {
 """Methods by the names used in files and on the command line."""
 
 
-def interpolate(t: Sequence[float], value: Sequence[float], method: str = "quadratic") -> PPoly:
+def interpolate(t: ArrayLike, value: ArrayLike, method: str = "quadratic") -> PPoly:
     """Curve through nodes by a named method.
 
     Args:
@@ -83,18 +84,19 @@ def interpolate(t: Sequence[float], value: Sequence[float], method: str = "quadr
     """
     if method not in METHODS:
         raise UnknownName("interpolation", method, list(METHODS))
-    t, value = finite_array("t", t, None), finite_array("value", value, None)
-    if t.ndim != 1 or value.shape != t.shape or t.size < 2:
+    nodes, values = finite_array("t", t, None), finite_array("value", value, None)
+    if nodes.ndim != 1 or values.shape != nodes.shape or nodes.size < 2:
         raise TrajectoryError(
-            f"{t.size} nodes and {value.size} values", allowed="as many values as nodes, at least 2"
+            f"{nodes.size} nodes and {values.size} values",
+            allowed="as many values as nodes, at least 2",
         )
-    if (np.diff(t) <= 0).any():
-        k = int(np.argmax(np.diff(t) <= 0))
+    if (np.diff(nodes) <= 0).any():
+        k = int(np.argmax(np.diff(nodes) <= 0))
         raise TrajectoryError(
-            f"time goes from {t[k]:g} to {t[k + 1]:g} at node {k + 1}",
+            f"time goes from {nodes[k]:g} to {nodes[k + 1]:g} at node {k + 1}",
             allowed="strictly increasing t",
         )
-    return METHODS[method](t, value)
+    return METHODS[method](nodes, values)
 
 
 def constant(start: float, end: float, value: float) -> PPoly:

@@ -284,7 +284,5 @@ def _numbers(element: ElementTree.Element, key: str, where: str) -> list[float]:
     except ValueError:
         values = []
     if not values or not all(map(math.isfinite, values)):
-        raise ModelError(
-            f"<{element.tag} {key}={text!r}> isn't a finite number", where=where
-        )
+        raise ModelError(f"<{element.tag} {key}={text!r}> isn't a finite number", where=where)
     return values

@@ -181,10 +181,9 @@ def _real_key(location: Sequence[str | int], data: Any) -> Key:
             if part in data or number == len(location) - 1:
                 key.append(part)
                 data = data.get(part)
-        elif isinstance(data, list | tuple):
-            if isinstance(part, int):
-                key.append(part)
-                data = data[part] if part < len(data) else None
+        elif isinstance(data, list | tuple) and isinstance(part, int):
+            key.append(part)
+            data = data[part] if part < len(data) else None
     return tuple(key)
 
 
@@ -199,9 +198,7 @@ def _known_keys(schema: type[BaseModel], key: Key) -> str:
             return ""
         current = fields[part].annotation
         arguments = getattr(current, "__args__", ())
-        current = next(
-            (a for a in (current, *arguments) if hasattr(a, "model_fields")), current
-        )
+        current = next((a for a in (current, *arguments) if hasattr(a, "model_fields")), current)
     fields = getattr(current, "model_fields", {})
     return f" (known here: {', '.join(fields)})" if fields else ""
 

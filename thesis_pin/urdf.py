@@ -30,7 +30,14 @@ def robot(name: str, elements: Iterable[str]) -> str:
 
 def inertial(mass: float, com: Sequence[float], tensor: np.ndarray) -> str:
     """An ``<inertial>`` element: kg, m, centroidal tensor in kg·m²."""
-    keys = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+    keys = {
+        "ixx": (0, 0),
+        "ixy": (0, 1),
+        "ixz": (0, 2),
+        "iyy": (1, 1),
+        "iyz": (1, 2),
+        "izz": (2, 2),
+    }
     entries = " ".join(f'{key}="{number(tensor[place])}"' for key, place in keys.items())
     return (
         "    <inertial>\n"
@@ -76,7 +83,8 @@ def joint(
         damping, coulomb = (number(value) for value in friction)
         text += (
             f'    <axis xyz="{_AXES[axis]}"/>\n'
-            f'    <limit lower="{lower}" upper="{upper}" effort="{effort}" velocity="{velocity}"/>\n'
+            f'    <limit lower="{lower}" upper="{upper}" '
+            f'effort="{effort}" velocity="{velocity}"/>\n'
             f'    <dynamics damping="{damping}" friction="{coulomb}"/>\n'
         )
     return text + "  </joint>\n"
@@ -92,7 +100,7 @@ def bar(start: Sequence[float], end: Sequence[float], radius: float) -> str:
     yaw = math.atan2(direction[1], direction[0])
     return _geometry(
         f'<cylinder radius="{number(radius)}" length="{number(length)}"/>',
-        xyz=np.add(start, end) / 2,
+        xyz=(np.add(start, end) / 2).tolist(),
         rpy=(0.0, pitch, yaw),
     )
 
@@ -151,7 +159,10 @@ def extruded_polygon(outline: Sequence[Sequence[float]], height: float) -> str:
         first, second, third = points[[a, b, c]]
         if np.linalg.det(np.stack([second - first, third - first])) < 0:
             b, c = c, b
-        lines += [f"f {a + 1} {c + 1} {b + 1}", f"f {a + count + 1} {b + count + 1} {c + count + 1}"]
+        lines += [
+            f"f {a + 1} {c + 1} {b + 1}",
+            f"f {a + count + 1} {b + count + 1} {c + count + 1}",
+        ]
     for k in range(count):
         a, b = k + 1, (k + 1) % count + 1
         lines += [f"f {a} {b} {b + count}", f"f {a} {b + count} {a + count}"]

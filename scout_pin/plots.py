@@ -1,0 +1,104 @@
+"""Figures of a gait report: the thesis's own (5.1, 5.2) and those it has not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from scout_pin.report import GaitReport
+from scout_pin.specification import SIDES
+from scout_pin.stability import polygons
+from thesis_pin.report import PALETTE, figure_files, new_figure
+
+_NAMES = ("yaw", "roll", "pitch", "knee", "ankle pitch", "ankle roll")
+
+
+def figures(report: GaitReport) -> dict[str, bytes]:
+    """Every figure of a report as PNG and SVG: file name → content."""
+    files: dict[str, bytes] = {}
+    for name, draw in (
+        ("feet_and_torso", feet_and_torso),
+        ("joint_angles", joint_angles),
+        ("torques", torques),
+        ("stability", stability),
+    ):
+        files |= figure_files(name, draw(report))
+    return files
+
+
+def feet_and_torso(report: GaitReport) -> Any:
+    """Torso and feet over time: figure 5.1."""
+    figure, axes = new_figure(7, 4)
+    axis, motion = axes[0, 0], report.motion
+    curves = (
+        ("torso y", motion.torso.position[:, 1]),
+        ("left foot y", motion.left_foot.position[:, 1]),
+        ("left foot z", motion.left_foot.position[:, 2]),
+        ("right foot y", motion.right_foot.position[:, 1]),
+        ("right foot z", motion.right_foot.position[:, 2]),
+    )
+    for colour, (label, values) in zip(PALETTE, curves, strict=False):
+        axis.plot(motion.time, values * 1e3, color=colour, label=label)
+    axis.set(xlabel="time [s]", ylabel="[mm]", title=f"Gait {report.gait.name!r}")
+    axis.grid(alpha=0.3)
+    axis.legend()
+    return figure
+
+
+def joint_angles(report: GaitReport) -> Any:
+    """Joint angles over time, one panel a leg: figure 5.2."""
+    figure, axes = new_figure(7, 6, rows=2)
+    for k, side in enumerate(SIDES):
+        _per_joint(axes[k, 0], report, np.degrees(report.joints.q), k)
+        axes[k, 0].set(ylabel=f"{side} leg [°]")
+    axes[1, 0].set(xlabel="time [s]")
+    return figure
+
+
+def torques(report: GaitReport) -> Any:
+    """Joint torques against the servos' stall torque, one panel a leg."""
+    figure, axes = new_figure(7, 6, rows=2)
+    for k, side in enumerate(SIDES):
+        axis = axes[k, 0]
+        _per_joint(axis, report, report.dynamics.torque, k)
+        limit = report.robot.stall_torque[6 * k : 6 * k + 6].min()
+        for value in (limit, -limit):
+            axis.axhline(value, color="black", linestyle="--", linewidth=1)
+        axis.annotate("stall torque", (report.joints.time[0], limit), va="bottom", fontsize=8)
+        axis.set(ylabel=f"{side} leg [N·m]")
+    axes[1, 0].set(xlabel="time [s]")
+    return figure
+
+
+def stability(report: GaitReport) -> Any:
+    """Zero-moment point and soles from above, and its margin over time."""
+    figure, axes = new_figure(9, 4.5, columns=2)
+    plan, time = axes[0]
+    feet = {"left": report.motion.left_foot.placement, "right": report.motion.right_foot.placement}
+    stances = polygons(report.robot, report.motion, feet)
+    for number, (samples, polygon) in enumerate(stances):
+        closed = np.vstack([polygon, polygon[:1]]) * 1e3
+        label = "support polygon" if number == 0 else None
+        plan.plot(*closed.T, color="0.4", linewidth=1, label=label)
+        plan.plot(*(report.zmp[samples] * 1e3).T, ".", color=PALETTE[1], markersize=2)
+    plan.plot([], [], ".", color=PALETTE[1], label="zero-moment point")
+    plan.plot(*(report.com[:, :2] * 1e3).T, color=PALETTE[0], linewidth=1, label="centre of mass")
+    plan.set(xlabel="x, to the right [mm]", ylabel="y, forward [mm]", aspect="equal")
+    plan.legend(fontsize=8)
+    time.plot(report.joints.time, report.margin * 1e3, color=PALETTE[0])
+    time.axhline(0, color="black", linewidth=1)
+    low = min(0.0, float(report.margin.min()) * 1e3) - 2
+    time.axhspan(low, 0, color=PALETTE[1], alpha=0.15, label="outside: the robot tips")
+    time.set(xlabel="time [s]", ylabel="ZMP margin [mm]", ylim=(low, None))
+    time.legend(fontsize=8)
+    for axis in (plan, time):
+        axis.grid(alpha=0.3)
+    return figure
+
+
+def _per_joint(axis: Any, report: GaitReport, values: np.ndarray, leg: int) -> None:
+    for joint, (colour, name) in enumerate(zip(PALETTE, _NAMES, strict=True)):
+        axis.plot(report.joints.time, values[:, 6 * leg + joint], color=colour, label=name)
+    axis.grid(alpha=0.3)
+    axis.legend(fontsize=7, ncols=2)

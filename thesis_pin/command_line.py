@@ -1,0 +1,154 @@
+"""What both commands share: errors → exit code 2, tables, files written whole.
+
+Results go to standard output, messages to standard error. Exit codes: 0 done,
+1 done but a limit is violated (only where a verb has ``--strict``), 2 bad input.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+
+from thesis_pin.errors import BadInput, ThesisPinError
+
+OK, LIMIT_VIOLATED, BAD_INPUT = 0, 1, 2
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser whose examples keep their line breaks."""
+
+    def __init__(self, *args, **kwargs) -> None:  # type: ignore[no-untyped-def]
+        kwargs.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
+        kwargs.setdefault("allow_abbrev", False)
+        super().__init__(*args, **kwargs)
+
+
+def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None) -> int:
+    """Parse a command line and run its verb.
+
+    Each verb's sub-parser sets ``run`` to a function of the parsed arguments
+    that returns an exit code.
+
+    Args:
+        parser: The command's parser.
+        arguments: Words after the command's name; None takes the process's.
+
+    Returns:
+        The exit code.
+    """
+    parsed = parser.parse_args(arguments)
+    try:
+        return parsed.run(parsed)
+    except ThesisPinError as error:
+        print(f"{parser.prog}: error: {error}", file=sys.stderr)
+        return BAD_INPUT
+    except BrokenPipeError:
+        # The reader of our output has left; there is nobody to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return OK
+    except KeyboardInterrupt:
+        print(f"{parser.prog}: interrupted", file=sys.stderr)
+        return 130
+
+
+def number(name: str, *, positive: bool = False) -> Callable[[str], float]:
+    """An argparse type: a finite number, optionally positive."""
+
+    def read(text: str) -> float:
+        allowed = "a positive number" if positive else "a finite number"
+        try:
+            value = float(text)
+        except ValueError:
+            value = float("nan")
+        if value != value or abs(value) == float("inf") or (positive and value <= 0):
+            raise argparse.ArgumentTypeError(f"{name} is {text!r}; allowed: {allowed}")
+        return value
+
+    return read
+
+
+def count(name: str, least: int) -> Callable[[str], int]:
+    """An argparse type: a whole number of at least ``least``."""
+
+    def read(text: str) -> int:
+        try:
+            value = int(text)
+        except ValueError:
+            value = least - 1
+        if value < least:
+            raise argparse.ArgumentTypeError(
+                f"{name} is {text!r}; allowed: a whole number of at least {least}"
+            )
+        return value
+
+    return read
+
+
+def write_file(target: str | Path, content: bytes) -> None:
+    """Write one file whole or not at all; ``-`` is standard output.
+
+    Raises:
+        BadInput: The file can't be written.
+    """
+    if str(target) == "-":
+        sys.stdout.buffer.write(content)
+        sys.stdout.buffer.flush()
+        return
+    path = Path(target)
+    try:
+        with tempfile.NamedTemporaryFile(
+            dir=path.parent, prefix=f".{path.name}.", delete=False
+        ) as stream:
+            stream.write(content)
+        os.chmod(stream.name, 0o644)
+        os.replace(stream.name, path)
+    except OSError as error:
+        if "stream" in locals():
+            Path(stream.name).unlink(missing_ok=True)
+        raise BadInput(f"can't write it: {error.strerror}", where=str(path)) from None
+
+
+def write_folder(folder: str | Path, files: Mapping[str, bytes]) -> None:
+    """Write several files into a folder, which is made if need be.
+
+    Every content exists before the first byte is written.
+
+    Raises:
+        BadInput: The folder can't be made or written to.
+    """
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in files:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadInput(f"can't make the folder: {error.strerror}", where=str(folder)) from None
+    for name, content in files.items():
+        write_file(folder / name, content)
+
+
+def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: str = "") -> None:
+    """Print a table that fits 80 columns; the first column is text, the rest numbers."""
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=title or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for k, name in enumerate(columns):
+        table.add_column(name, justify="right" if k else "left", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    Console(highlight=False, markup=False).print(table)
+
+
+def print_text(*paragraphs: str) -> None:
+    """Print paragraphs wrapped to the terminal's width."""
+    from rich.console import Console
+
+    console = Console(highlight=False, markup=False)
+    for paragraph in paragraphs:
+        console.print(paragraph)
