@@ -111,9 +111,9 @@ class LegSolutions:
     sine_hip: np.ndarray
 
     @property
-    def reachable(self) -> np.ndarray:
+    def reachable(self) -> Any:
         """Whether a branch exists, limits aside, shape ``(..., 8)``."""
-        return np.asarray(self.excess <= TOLERANCES.reach)
+        return np.less_equal(self.excess, TOLERANCES.reach)
 
     @cached_property
     def beyond_limits(self) -> np.ndarray:

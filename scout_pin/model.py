@@ -12,7 +12,7 @@ from scout_pin import kinematics
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.arrays import finite_array, pose_array
-from thesis_pin.errors import SingularPose, UnknownName, Unreachable
+from thesis_pin.errors import SingularPose, UnknownName
 from thesis_pin.inertia import Reading
 from thesis_pin.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.rotations import euler_placement, euler_rate_matrix, invert

@@ -64,7 +64,9 @@ def momentum(
 
     Args:
         robot: The biped.
-        q, v, a: Pinocchio vectors of its model, shapes ``(n, nq)``, ``(n, nv)``, ``(n, nv)``.
+        q: Configurations, shape ``(n, nq)``.
+        v: Velocities, shape ``(n, nv)``.
+        a: Accelerations, shape ``(n, nv)``.
 
     Returns:
         Centre of mass [m] ``(n, 3)`` and rate of linear, then angular momentum

@@ -124,8 +124,10 @@ def new_figure(width: float, height: float, rows: int = 1, columns: int = 1) -> 
     """A Matplotlib figure and its axes, drawn without a display or global state.
 
     Args:
-        width, height: Size [inch].
-        rows, columns: Grid of axes.
+        width: Width [inch].
+        height: Height [inch].
+        rows: Rows of the grid of axes.
+        columns: Its columns.
 
     Returns:
         The figure and an array of axes, shape ``(rows, columns)``.
