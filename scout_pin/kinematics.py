@@ -111,9 +111,9 @@ class LegSolutions:
     sine_hip: np.ndarray
 
     @property
-    def reachable(self) -> Any:
+    def reachable(self) -> np.ndarray:
         """Whether a branch exists, limits aside, shape ``(..., 8)``."""
-        return np.less_equal(self.excess, TOLERANCES.reach)
+        return self.excess <= TOLERANCES.reach
 
     @cached_property
     def beyond_limits(self) -> np.ndarray:
@@ -125,7 +125,7 @@ class LegSolutions:
     def valid(self) -> np.ndarray:
         """Whether a branch exists and keeps every joint limit, shape ``(..., 8)``."""
         # NaN compares false, so unreachable branches drop out.
-        return (self.beyond_limits <= TOLERANCES.joint_limit).all(axis=-1)
+        return np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1)
 
     @cached_property
     def _reached(self) -> np.ndarray:

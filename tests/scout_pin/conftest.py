@@ -1,0 +1,49 @@
+"""Robots and random states shared by Scout's tests."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import scout_pin
+from scout_pin.specification import Specification
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+@pytest.fixture(scope="session")
+def scout():
+    return scout_pin.load()
+
+
+@pytest.fixture(scope="session")
+def scout_thesis():
+    return scout_pin.load(root="thesis")
+
+
+@pytest.fixture(scope="session")
+def lopsided():
+    return scout_pin.load(EXAMPLES / "lopsided.toml")
+
+
+@pytest.fixture(scope="session", params=["scout", "lopsided"])
+def biped(request):
+    """The thesis's robot and one with other dimensions and unequal legs."""
+    return request.getfixturevalue(request.param)
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(20101)
+
+
+def random_specification(rng: np.random.Generator) -> Specification:
+    """The thesis's robot with random lengths and constant angles, legs unequal."""
+    data = Specification.read().model_dump()
+    for side in ("left", "right"):
+        leg = data["legs"][side]
+        for length in ("x_0", "z_1", "x_2", "x_3", "x_4", "x_5", "y_6"):
+            leg[length] = float(rng.uniform(0.02, 0.1))
+        leg["beta_deg"] = tuple(rng.uniform(-180, 180, 6).tolist())
+        leg["beta_7_deg"], leg["beta_8_deg"] = rng.uniform(-180, 180, 2).tolist()
+    return Specification.model_validate(data)
