@@ -206,7 +206,7 @@ def _print_report(report: GaitReport) -> None:
     used = report.summary()["peak_friction_used"]
     print_text(
         f"Servo limits: {s.stall_torque.min():g} N·m, {s.no_load_speed.min():g} rad/s; "
-        "'servo' is |τ|/stall + |θ̇|/no-load, at most 100%.",
+        "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
         f"Fastest time unit by speed {f.speed:.4f} s, by torque {torque}, by both (line) {line}.",
         f"ZMP margin: worst {report.margin.min() * 1e3:.1f} mm; stable in "
         f"{report.stable_share:.1%} of samples.",

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import functools
 import math
+import shutil
 import tempfile
+import weakref
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -140,17 +142,18 @@ class LoadedRobot:
         self.v0 = np.zeros(self.model.nv)
 
     @functools.cached_property
-    def _folder(self) -> tempfile.TemporaryDirectory[str]:
+    def _folder(self) -> str:
         """Meshes on disk, where Pinocchio's reader wants them; lives as long as the robot."""
-        folder = tempfile.TemporaryDirectory(prefix="thesis_pin_")
+        folder = tempfile.mkdtemp(prefix="thesis_pin_")
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         for name, text in self._meshes.items():
-            path = Path(folder.name, name)
+            path = Path(folder, name)
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
         return folder
 
     def _geometry(self, kind: Any) -> pin.GeometryModel:
-        text = self.urdf.replace('filename="', f'filename="{self._folder.name}/')
+        text = self.urdf.replace('filename="', f'filename="{self._folder}/')
         return pin.buildGeomFromUrdfString(self.model, text, kind)
 
     @functools.cached_property

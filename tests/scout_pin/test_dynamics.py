@@ -22,7 +22,6 @@ from thesis_pin.errors import NoSupportForce
 from .conftest import EXAMPLES
 
 
-
 @pytest.fixture(scope="module", params=["thesis", "walk", "lopsided_walk"])
 def case(request, scout, lopsided):
     """A robot, a gait on it, and its dynamics at 81 samples."""

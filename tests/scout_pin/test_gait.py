@@ -172,7 +172,11 @@ ROWS = "0,double,0.23,-0.04,0.04\n0.1,double,0.23,-0.04,0.04\n0.2,left,0.23,-0.0
     ("text", "error", "says"),
     [
         (HEADER + ROWS, TrajectoryError, "3 samples"),
-        (HEADER + ROWS + "0.1,left,0.23,-0.04,0.04\n", TrajectoryError, "time goes from 0.2 to 0.1"),
+        (
+            HEADER + ROWS + "0.1,left,0.23,-0.04,0.04\n",
+            TrajectoryError,
+            "time goes from 0.2 to 0.1",
+        ),
         (HEADER + ROWS + "0.3,left,nan,-0.04,0.04\n", TrajectoryError, "torso_z is 'nan'"),
         (HEADER + ROWS + "0.3,left,,-0.04,0.04\n", TrajectoryError, "sample 4"),
         (HEADER + ROWS + "0.3,both,0.23,-0.04,0.04\n", UnknownName, "double"),
@@ -217,7 +221,11 @@ def test_a_broken_gait_is_refused_with_key_and_line(tmp_path, old, new, key, say
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
-        ("y_mm = [\n  { t = [0, 20], value = [0, 0] },\n", "y_mm = [\n  { t = [0, 20], value = [0, 3] },\n", "moves"),
+        (
+            "y_mm = [\n  { t = [0, 20], value = [0, 0] },\n",
+            "y_mm = [\n  { t = [0, 20], value = [0, 3] },\n",
+            "moves",
+        ),
         ("x_mm = -44.54", "x_mm = -44.54\nroll_deg = 2", "flat on the floor"),
     ],
 )

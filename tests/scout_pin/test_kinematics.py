@@ -73,9 +73,7 @@ def test_forward_kinematics_of_numpy_urdf_and_yourdfpy_agree(biped, side, rng, t
         np.testing.assert_allclose(ours, pinocchio_foot(biped, side, theta), atol=1e-12)
         np.testing.assert_allclose(ours, legs_product(leg, theta), atol=1e-12)
         other.update_cfg(dict(zip(leg.names, theta, strict=True)))
-        np.testing.assert_allclose(
-            ours, other.get_transform(f"{side}_sole", "torso"), atol=1e-12
-        )
+        np.testing.assert_allclose(ours, other.get_transform(f"{side}_sole", "torso"), atol=1e-12)
 
 
 def test_neutral_pose_stands_where_the_program_says_erect(scout):
@@ -170,7 +168,9 @@ def test_the_biped_is_mirror_symmetric(seed):
     mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
     pose = leg_forward_kinematics(left, theta)
     np.testing.assert_allclose(
-        leg_forward_kinematics(right, theta * [-1, 1, -1, -1, -1, -1]), mirror @ pose @ mirror, atol=1e-12
+        leg_forward_kinematics(right, theta * [-1, 1, -1, -1, -1, -1]),
+        mirror @ pose @ mirror,
+        atol=1e-12,
     )
 
 
@@ -190,7 +190,9 @@ def test_an_unreachable_pose_says_by_how_much(scout):
 
 def test_a_pose_outside_the_limits_names_the_joint_and_the_limit(scout):
     theta = np.array([0.0, 0.0, 0.2, 0.0, 1.9, 0.0])  # ankle at 109°
-    solutions = scout.leg_inverse_kinematics("left", leg_forward_kinematics(scout.legs["left"], theta))
+    solutions = scout.leg_inverse_kinematics(
+        "left", leg_forward_kinematics(scout.legs["left"], theta)
+    )
     assert solutions.reachable.any()
     assert not solutions.valid.any()
     assert "left_" in solutions.explain()

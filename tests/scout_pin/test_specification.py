@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from scout_pin.specification import JOINT_NAMES, SCOUT_PATH, SIDES, Specification
 
+from scout_pin.specification import JOINT_NAMES, SCOUT_PATH, SIDES, Specification
 from thesis_pin.errors import SpecificationError
 
 
@@ -45,7 +45,7 @@ def test_joint_names_are_twelve_left_leg_first_and_sorted_sides():
     assert len(set(JOINT_NAMES)) == 12
     assert [name.split("_")[0] for name in JOINT_NAMES] == ["left"] * 6 + ["right"] * 6
     # urdfdom sorts by name, so the left leg must come first in the alphabet.
-    assert SIDES == tuple(sorted(SIDES))
+    assert tuple(sorted(SIDES)) == SIDES
 
 
 @pytest.fixture

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Set up everything from scratch and check it: lint, types, tests, wheel.
+# Needs Python 3.11 or newer and the package registry; writes only below
+# .venv-check and a temporary folder.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+python="${PYTHON:-python3}"
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || {
+  echo "check.sh: Python 3.11 or newer is needed; set PYTHON=/path/to/python3.11" >&2
+  exit 2
+}
+"$python" -m venv .venv-check
+bin="$PWD/.venv-check/bin"
+"$bin/python" -m pip install --quiet --upgrade pip
+"$bin/python" -m pip install --quiet --editable '.[dev]'
+
+echo "== lint"
+"$bin/ruff" check .
+"$bin/ruff" format --check .
+
+echo "== types"
+"$bin/mypy"
+
+echo "== tests"
+"$bin/python" -m pytest -n auto
+
+echo "== wheel, used from a clean virtual environment outside the checkout"
+outside="$(mktemp -d)"
+trap 'rm -rf "$outside"' EXIT
+"$bin/python" -m pip wheel --quiet --no-deps --wheel-dir "$outside" .
+"$python" -m venv "$outside/venv"
+"$outside/venv/bin/python" -m pip install --quiet "$outside"/*.whl
+cp tests/wheel_smoke.py "$outside"
+(cd "$outside" && env -u PYTHONPATH "$outside/venv/bin/python" wheel_smoke.py "$outside/venv/bin")

@@ -1,0 +1,37 @@
+"""Every example runs, stays short, and prints what it promises."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SCRIPTS = sorted(EXAMPLES.glob("*.py"))
+
+SAYS = {
+    "scout_inverse_kinematics": "reach the target to",
+    "scout_gait_report": "Scout can walk this gait",
+    "scout_another_biped": "Lopsided can walk this gait",
+}
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_example_runs_from_anywhere(script, tmp_path):
+    done = subprocess.run(
+        [sys.executable, str(script)],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(EXAMPLES.parent)},
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert SAYS[script.stem] in done.stdout
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_example_is_under_60_lines(script):
+    assert len(script.read_text().splitlines()) < 60

@@ -1,0 +1,229 @@
+"""The command scout-pin as a user runs it: in a process of its own."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def scout_pin(
+    *arguments, cwd=None, code="import sys; from scout_pin.cli import main; sys.exit(main())"
+):
+    environment = os.environ | {"COLUMNS": "80", "PYTHONPATH": str(EXAMPLES.parent)}
+    return subprocess.run(
+        [sys.executable, "-c", code, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        cwd=cwd,
+        env=environment,
+        check=False,
+    )
+
+
+def test_default_report_says_plainly_that_the_thesis_gait_cannot_walk():
+    done = scout_pin("gait")
+    assert done.returncode == 0
+    assert done.stderr == ""
+    text = " ".join(done.stdout.split())
+    assert "Scout can't walk this gait" in text
+    assert "17.0 mm in 398 of 401 samples" in text
+    assert "tip onto the foot it means to lift" in text
+    assert "feet glued to the floor" in text
+    assert "left_hip_yaw θ_11" in text
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+def test_report_numbers_are_those_worked_out_by_hand_and_by_prototype():
+    summary = json.loads(scout_pin("gait", "--json", "-", "--samples", "2001").stdout)["summary"]
+    peaks = np.array(summary["peak_torque"])
+    # Largest of both legs, joints 2 to 6; joint 1 depends on the double-support rule.
+    largest = peaks.reshape(2, 6).max(axis=0)[1:]
+    np.testing.assert_allclose(largest, [0.390, 0.113, 0.377, 0.263, 0.388], atol=1e-3)
+    assert max(summary["peak_speed"]) == pytest.approx(1.46, abs=5e-3)
+    fastest = summary["fastest_time_unit"]
+    assert fastest["speed"] == pytest.approx(0.0321, abs=1e-4)
+    assert fastest["torque"] == pytest.approx(0.0183, abs=1e-4)
+    assert fastest["line"] > fastest["speed"]
+
+
+def test_a_gait_at_its_fastest_time_unit_just_meets_the_line():
+    first = json.loads(scout_pin("gait", "--json", "-").stdout)["summary"]
+    unit = first["fastest_time_unit"]["line"]
+    second = json.loads(scout_pin("gait", "--json", "-", "--time-unit", unit).stdout)["summary"]
+    assert max(second["servo_use"]) == pytest.approx(1.0, abs=2e-4)
+
+
+def test_json_has_every_documented_field_and_shape():
+    document = json.loads(scout_pin("gait", "--json", "-", "--samples", "11").stdout)
+    assert (document["schema"], document["version"]) == ("scout-pin/gait-report", 1)
+    shapes = {
+        "time": (11,),
+        "theta": (11, 12),
+        "theta_rate": (11, 12),
+        "theta_acceleration": (11, 12),
+        "torque": (11, 12),
+        "left_wrench": (11, 6),
+        "right_wrench": (11, 6),
+        "com": (11, 3),
+        "zmp": (11, 2),
+        "margin": (11,),
+    }
+    for name, shape in shapes.items():
+        assert np.shape(document[name]) == shape, name
+    assert len(document["joints"]) == 12
+    assert set(document["phase"]) == {"left", "right", "double"}
+    assert document["parameters"]["time_unit"] == 0.1
+    assert {a["name"] for a in document["assumptions"]} >= {"joint_range", "floor_friction"}
+
+
+def test_out_writes_report_table_and_figures(tmp_path):
+    done = scout_pin("gait", "--out", tmp_path / "report", "--gait", EXAMPLES / "walk.toml")
+    assert done.returncode == 0
+    names = {path.name for path in (tmp_path / "report").iterdir()}
+    assert {"report.json", "samples.csv", "torques.png", "stability.svg"} <= names
+    header, *rows = (tmp_path / "report/samples.csv").read_text().splitlines()
+    assert len(rows) == 401
+    assert "torque_left_hip_roll_Nm" in header.split(",")
+    assert (tmp_path / "report/torques.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("gait", "specification"),
+    [("walk.toml", None), ("lopsided_walk.toml", "lopsided.toml")],
+)
+def test_a_gait_that_walks_passes_strict(gait, specification):
+    arguments = ["--gait", EXAMPLES / gait, "--strict"]
+    if specification:
+        arguments += ["--specification", EXAMPLES / specification]
+    done = scout_pin("gait", *arguments)
+    assert done.returncode == 0, done.stdout
+    assert "can walk this gait" in done.stdout
+
+
+def test_strict_exits_1_when_the_gait_breaks_a_limit():
+    assert scout_pin("gait", "--strict").returncode == 1
+
+
+def test_printed_inertias_change_the_torques_by_a_thousandth():
+    physical, printed = (
+        np.array(json.loads(scout_pin("gait", "--json", "-", "--inertia", i).stdout)["torque"])
+        for i in ("physical", "printed")
+    )
+    change = np.abs(physical - printed).max() / np.abs(physical).max()
+    assert 1e-5 < change < 5e-3
+
+
+BAD = {
+    "missing gait": (["gait", "--gait", "no.toml"], "no.toml"),
+    "unknown gait": (["gait", "--gait", "moonwalk"], "thesis-program"),
+    "zero time unit": (["gait", "--time-unit", "0"], "positive"),
+    "NaN time unit": (["gait", "--time-unit", "nan"], "positive"),
+    "one sample": (["gait", "--samples", "1"], "at least 2"),
+    "unknown interpolation": (["gait", "--interpolation", "bezier"], "quintic"),
+    "missing specification": (["gait", "--specification", "no.toml"], "no.toml"),
+    "gait beyond the joints' limits": (
+        ["gait", "--specification", str(EXAMPLES / "lopsided.toml")],
+        "left foot, sample 238: reachable, but outside the joint limits",
+    ),
+    "too fast to stay on the floor": (["gait", "--time-unit", "0.001"], "floor would have to pull"),
+    "NaN pose": (["ik", "left", "--position", "nan", "0", "0"], "finite"),
+    "two coordinates": (["ik", "left", "--position", "0", "0"], "expected 3"),
+    "unknown verb": (["dance"], "gait"),
+    "out is a file": (["gait", "--out", __file__], "folder"),
+    "json into nowhere": (["gait", "--json", "no/where/report.json"], "can't write"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_input_is_one_clear_message_exit_2_and_no_file(name, tmp_path):
+    arguments, says = BAD[name]
+    out = (
+        []
+        if "ik" in arguments or "dance" in arguments or "--out" in arguments
+        else ["--out", "made"]
+    )
+    if name == "json into nowhere":
+        out = []
+    done = scout_pin(*arguments, *out, cwd=tmp_path)
+    assert done.returncode == 2, done.stdout + done.stderr
+    assert says in done.stderr
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_gait_out_of_reach_says_which_sample_and_by_how_much(tmp_path):
+    text = (EXAMPLES / "walk.toml").read_text()
+    (tmp_path / "tall.toml").write_text(text.replace("z_mm = 216.00", "z_mm = 300"))
+    done = scout_pin("gait", "--gait", "tall.toml", "--json", "report.json", cwd=tmp_path)
+    assert done.returncode == 2
+    assert "left foot, sample 0: unreachable: hip and ankle would be" in done.stderr
+    assert "mm outside the 17.31 to 131.89 mm" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["tall.toml"]
+
+
+def test_ik_lists_branches_and_explains():
+    done = scout_pin("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")
+    assert done.returncode == 0
+    assert done.stdout.count("valid") >= 1
+    assert max(map(len, done.stdout.splitlines())) <= 80
+    far = scout_pin("ik", "right", "--position", "0", "0", "-1")
+    assert far.returncode == 1
+    assert "Unreachable" in far.stdout
+    document = json.loads(
+        scout_pin("ik", "left", "--position", "-0.0445", "-0.02", "-0.22", "--json", "-").stdout
+    )
+    assert len(document["branches"]) == 8
+
+
+def test_info_and_urdf_describe_the_robot(tmp_path):
+    text = scout_pin("info").stdout
+    assert "0.89854 kg" in text
+    assert "Assumed joint range" in text
+    assert max(map(len, text.splitlines())) <= 80
+    assert json.loads(scout_pin("info", "--json", "-").stdout)["mass"] == pytest.approx(0.89854)
+    folder = EXAMPLES.parent / "urdf" / "scout"
+    assert scout_pin("urdf").stdout == (folder / "scout.urdf").read_text()
+    assert scout_pin("urdf", "--out", tmp_path / "made").returncode == 0
+    for path in folder.rglob("*"):
+        if path.is_file():
+            made = tmp_path / "made" / path.relative_to(folder)
+            assert made.read_bytes() == path.read_bytes()
+
+
+def test_help_imports_nothing_heavy():
+    probe = (
+        "import sys\n"
+        "from scout_pin.cli import main\n"
+        "try:\n    main()\nexcept SystemExit:\n    pass\n"
+        "heavy = {'numpy', 'scipy', 'pinocchio', 'matplotlib', 'pydantic', 'rich', 'meshcat'}\n"
+        "print(sorted(heavy & set(sys.modules)), file=sys.stderr)"
+    )
+    done = scout_pin("--help", code=probe)
+    assert done.stderr.strip() == "[]"
+    for verb in ("gait", "ik", "info", "urdf"):
+        assert verb in done.stdout
+        assert "Example: scout-pin" in scout_pin(verb, "--help").stdout
+
+
+def test_a_closed_pipe_is_no_error():
+    command = (
+        f'"{sys.executable}" -c "from scout_pin.cli import main; import sys; sys.exit(main())"'
+    )
+    environment = os.environ | {"PYTHONPATH": str(EXAMPLES.parent)}
+    done = subprocess.run(
+        f"{command} urdf | head -1",
+        shell=True,
+        capture_output=True,
+        text=True,
+        env=environment,
+        check=False,
+    )
+    assert done.stdout.startswith("<?xml")
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,33 @@
+"""Run in a clean virtual environment outside the checkout, with the wheel installed.
+
+Usage: python wheel_smoke.py BIN, the folder of the installed commands.
+"""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import scout_pin
+
+here = Path(scout_pin.__file__).parent
+assert "site-packages" in str(here), f"the checkout is imported, not the wheel: {here}"
+assert "site-packages" in scout_pin.URDF_PATH
+assert Path(scout_pin.URDF_PATH).is_file()
+assert not (here.parent / "urdf").exists(), "site-packages got a folder called urdf"
+assert scout_pin.load().model.nv == 18
+
+bin_folder = Path(sys.argv[1])
+
+
+def output(*words: str) -> str:
+    """Standard output of an installed command."""
+    command = [str(bin_folder / words[0]), *words[1:]]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+report = json.loads(output("scout-pin", "gait", "--json", "-"))
+assert report["summary"]["can_walk"] is False
+assert output("scout-pin", "urdf") == Path(scout_pin.URDF_PATH).read_text()
+assert "scout" in output("scout-pin", "info")
+print("the installed wheel works")
