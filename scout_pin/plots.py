@@ -76,16 +76,22 @@ def stability(report: GaitReport) -> Any:
     figure, axes = new_figure(9, 4.5, columns=2)
     plan, time = axes[0]
     feet = {"left": report.motion.left_foot.placement, "right": report.motion.right_foot.placement}
-    stances = polygons(report.robot, report.motion, feet)
-    for number, (samples, polygon) in enumerate(stances):
-        closed = np.vstack([polygon, polygon[:1]]) * 1e3
-        label = "support polygon" if number == 0 else None
-        plan.plot(*closed.T, color="0.4", linewidth=1, label=label)
+    labelled: set[str] = set()
+    for samples, polygon in polygons(report.robot, report.motion, feet):
+        phase = report.motion.phase[samples[0]]
+        style = {
+            "left": {"facecolor": PALETTE[5], "alpha": 0.35},
+            "right": {"facecolor": PALETTE[4], "alpha": 0.35},
+            "double": {"facecolor": "none", "edgecolor": "0.5", "linestyle": "--"},
+        }[phase]
+        label = None if phase in labelled else f"{phase} support"
+        labelled.add(phase)
+        plan.fill(*(polygon * 1e3).T, label=label, **style)
         plan.plot(*(report.zmp[samples] * 1e3).T, ".", color=PALETTE[1], markersize=2)
     plan.plot([], [], ".", color=PALETTE[1], label="zero-moment point")
     plan.plot(*(report.com[:, :2] * 1e3).T, color=PALETTE[0], linewidth=1, label="centre of mass")
     plan.set(xlabel="x, to the right [mm]", ylabel="y, forward [mm]", aspect="equal")
-    plan.legend(fontsize=8)
+    plan.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
     time.plot(report.joints.time, report.margin * 1e3, color=PALETTE[0])
     time.axhline(0, color="black", linewidth=1)
     low = min(0.0, float(report.margin.min()) * 1e3) - 2
@@ -101,4 +107,4 @@ def _per_joint(axis: Any, report: GaitReport, values: np.ndarray, leg: int) -> N
     for joint, (colour, name) in enumerate(zip(PALETTE, _NAMES, strict=True)):
         axis.plot(report.joints.time, values[:, 6 * leg + joint], color=colour, label=name)
     axis.grid(alpha=0.3)
-    axis.legend(fontsize=7, ncols=2)
+    axis.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))

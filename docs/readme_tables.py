@@ -1,0 +1,59 @@
+"""Tables of the README, worked out by the package itself.
+
+Run ``python docs/readme_tables.py`` to renew them; a test fails when they are stale.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+README = ROOT / "README.md"
+
+
+def gaits() -> Iterator[str]:
+    """What the report says of the gaits that come with the package."""
+    import scout_pin
+
+    yield "| gait | on | can it walk? | ZMP margin, worst | peak torque | servo line | fastest time unit |"
+    yield "| --- | --- | --- | --- | --- | --- | --- |"
+    examples = ROOT / "examples"
+    for gait, specification in (
+        ("thesis", None),
+        (examples / "walk.toml", None),
+        (examples / "lopsided_walk.toml", examples / "lopsided.toml"),
+    ):
+        robot = scout_pin.load(specification)
+        report = scout_pin.gait_report(robot, scout_pin.load_gait(gait))
+        name = gait if isinstance(gait, str) else f"`examples/{gait.name}`"
+        peak = report.actuators.peak_torque.max()
+        cells = (
+            name,
+            robot.specification.name,
+            "yes" if report.can_walk else "**no**",
+            f"{report.margin.min() * 1e3:.1f} mm",
+            f"{peak:.3f} N·m",
+            f"{report.servo_use.max():.0%}",
+            f"{report.fastest.line * 1e3:.1f} ms" if report.fastest.line else "none",
+        )
+        yield f"| {' | '.join(cells)} |"
+
+
+TABLES = {"gaits": gaits}
+
+
+def renewed(text: str) -> str:
+    """The README with every table between its markers worked out again."""
+    for name, rows in TABLES.items():
+        block = f"<!-- table:{name} -->\n" + "\n".join(rows()) + "\n<!-- end -->"
+        pattern = rf"<!-- table:{name} -->\n.*?<!-- end -->"
+        text, count = re.subn(pattern, lambda _, block=block: block, text, flags=re.DOTALL)
+        if count != 1:
+            raise SystemExit(f"README.md needs the markers of table {name!r} once, has {count}")
+    return text
+
+
+if __name__ == "__main__":
+    README.write_text(renewed(README.read_text(encoding="utf-8")), encoding="utf-8")
