@@ -17,7 +17,10 @@ def gaits() -> Iterator[str]:
     """What the report says of the gaits that come with the package."""
     import scout_pin
 
-    yield "| gait | on | can it walk? | ZMP margin, worst | peak torque | servo line | fastest time unit |"
+    yield (
+        "| gait | on | can it walk? | ZMP margin, worst | peak torque | servo line "
+        "| fastest time unit |"
+    )
     yield "| --- | --- | --- | --- | --- | --- | --- |"
     examples = ROOT / "examples"
     for gait, specification in (

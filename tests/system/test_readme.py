@@ -1,0 +1,52 @@
+"""The README and documents say what the package does now."""
+
+import re
+import runpy
+import shlex
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def blocks(language):
+    return re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
+
+
+def test_tables_are_what_the_package_works_out_now():
+    renew = runpy.run_path(str(ROOT / "docs" / "readme_tables.py"))["renewed"]
+    assert renew(README) == README, "run: python docs/readme_tables.py"
+
+
+@pytest.mark.parametrize("number", range(len(blocks("python"))))
+def test_python_snippet_runs(number, capsys):
+    exec(compile(blocks("python")[number], "README", "exec"), {})
+    assert capsys.readouterr().out
+
+
+def commands():
+    lines = "".join(blocks("bash")).splitlines()
+    return [shlex.split(line, comments=True) for line in lines if re.match(r"\w+-pin ", line)]
+
+
+@pytest.mark.parametrize("words", commands(), ids=" ".join)
+def test_every_command_line_of_the_readme_is_understood(words):
+    import importlib
+
+    cli = importlib.import_module(words[0].replace("-", "_") + ".cli")
+    cli.parser().parse_args(words[1:])
+
+
+def test_check_command_is_the_one_ci_runs():
+    assert "bash check.sh" in README
+    assert "bash ./check.sh" in (ROOT / ".ci" / "run").read_text()
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_links_lead_to_files_that_exist(document):
+    for target in re.findall(r"\]\(([^)#]+)\)", document.read_text(encoding="utf-8")):
+        if not target.startswith("http"):
+            assert (document.parent / target).exists(), target
