@@ -71,8 +71,8 @@ def scout_kinematics(count: int = 20_000) -> list[tuple[str, float, str, float]]
         few,
         repeats=3,
     )
-    rows.append(("leg IK, all branches, stack", stack, "Newton on Pinocchio, one branch", numeric))
-    rows.append(("leg IK, all branches, one pose", single, "Newton on Pinocchio", numeric))
+    rows.append(("leg IK, 8 branches, stack", stack, "Newton, one branch", numeric))
+    rows.append(("leg IK, 8 branches, one pose", single, "Newton, one branch", numeric))
     try:
         from eaik.IK_HP import HPRobot
     except ImportError:
@@ -88,13 +88,13 @@ def scout_kinematics(count: int = 20_000) -> list[tuple[str, float, str, float]]
         turned = poses[:2000].copy()
         turned[:, :3, :3] = turned[:, :3, :3] @ leg.foot.T
         eaik = median_time(lambda: other.IK_batched(turned), 2000, repeats=3)
-        rows.append(("leg IK, all branches, stack", stack, "EAIK, batched", eaik))
+        rows.append(("leg IK, 8 branches, stack", stack, "EAIK, batched", eaik))
     gait = scout_pin.load_gait("thesis")
     motion = gait.sample(gait.sample_times(count))
     joints = joint_trajectory(robot, motion)
     seen = motion.left_foot.seen_from(motion.torso)
     rates = median_time(lambda: leg_rates(leg, joints.q[:, :6], seen), count)
-    rows.append(("leg rates and accelerations", rates, "leg IK, all branches, stack", stack))
+    rows.append(("leg rates, accelerations", rates, "leg IK, 8 branches, stack", stack))
     return rows
 
 
@@ -110,7 +110,7 @@ def scout_dynamics(count: int = 20_000) -> list[tuple[str, float, str, float]]:
     whole = median_time(
         lambda: inverse_dynamics(robot, motion, joint_trajectory(robot, motion)), count
     )
-    peer = "rneaInParallel, one thread"
+    peer = "RNEA, one thread"
     return [
         ("contact inverse dynamics", contact, peer, rnea),
         ("task space to torques", whole, peer, rnea),

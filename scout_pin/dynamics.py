@@ -166,7 +166,7 @@ def inverse_dynamics(
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
-    contacts = (Contact.of(robot.specification, "left"), Contact.of(robot.specification, "right"))
+    contacts = robot.contacts
     shares, violation = _share_load(robot, motion, joints, forces, contacts)
     torque = forces[:, 6:].copy()
     count = len(forces)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 from typing import Any, Literal
 
@@ -9,6 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 from scout_pin import kinematics
+from scout_pin.contact import Contact
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.arrays import finite_array, pose_array
@@ -98,6 +100,11 @@ class Scout(LoadedRobot):
         order = [self.model.joints[joint_id(self.model, name)].idx_v for name in JOINT_NAMES]
         if order != list(range(6, 18)):
             raise RuntimeError(f"Pinocchio reordered the joints: {order}")
+
+    @functools.cached_property
+    def contacts(self) -> tuple[Contact, Contact]:
+        """What the floor can do to each sole, left then right."""
+        return Contact.of(self.specification, "left"), Contact.of(self.specification, "right")
 
     @property
     def mass(self) -> float:

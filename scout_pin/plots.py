@@ -13,6 +13,12 @@ from thesis_pin.report import PALETTE, figure_files, new_figure
 
 _NAMES = ("yaw", "roll", "pitch", "knee", "ankle pitch", "ankle roll")
 
+_SUPPORT_STYLE: dict[str, dict[str, Any]] = {
+    "left": {"facecolor": PALETTE[5], "alpha": 0.35},
+    "right": {"facecolor": PALETTE[4], "alpha": 0.35},
+    "double": {"facecolor": "none", "edgecolor": "0.5", "linestyle": "--"},
+}
+
 
 def figures(report: GaitReport) -> dict[str, bytes]:
     """Every figure of a report as PNG and SVG: file name → content."""
@@ -79,14 +85,9 @@ def stability(report: GaitReport) -> Any:
     labelled: set[str] = set()
     for samples, polygon in polygons(report.robot, report.motion, feet):
         phase = report.motion.phase[samples[0]]
-        style = {
-            "left": {"facecolor": PALETTE[5], "alpha": 0.35},
-            "right": {"facecolor": PALETTE[4], "alpha": 0.35},
-            "double": {"facecolor": "none", "edgecolor": "0.5", "linestyle": "--"},
-        }[phase]
         label = None if phase in labelled else f"{phase} support"
         labelled.add(phase)
-        plan.fill(*(polygon * 1e3).T, label=label, **style)
+        plan.fill(*(polygon * 1e3).T, label=label, **_SUPPORT_STYLE[phase])
         plan.plot(*(report.zmp[samples] * 1e3).T, ".", color=PALETTE[1], markersize=2)
     plan.plot([], [], ".", color=PALETTE[1], label="zero-moment point")
     plan.plot(*(report.com[:, :2] * 1e3).T, color=PALETTE[0], linewidth=1, label="centre of mass")

@@ -57,6 +57,28 @@ def zero_moment_point(
     return np.stack([x, y], axis=-1)
 
 
+def pressure_point(motion: Motion, wrench: np.ndarray) -> np.ndarray:
+    """Centre of pressure of all floor wrenches together: the ZMP by another route.
+
+    Args:
+        motion: The sampled gait.
+        wrench: Floor's wrench on each foot, world axes, about p_i, shape ``(n, 2, 6)``.
+
+    Returns:
+        Point on the floor [m], shape ``(n, 2)``.
+
+    Raises:
+        NoSupportForce: The floor doesn't push at some sample.
+    """
+    feet = np.stack([motion.left_foot.position, motion.right_foot.position], axis=1)
+    force = wrench[..., :3].sum(axis=1)
+    moment = (wrench[..., 3:] + np.cross(feet, wrench[..., :3])).sum(axis=1)
+    if (force[:, 2] <= 0).any():
+        k = int(np.argmax(force[:, 2] <= 0))
+        raise NoSupportForce("the floor doesn't push", where=f"sample {k}")
+    return np.stack([-moment[:, 1], moment[:, 0]], axis=1) / force[:, 2:]
+
+
 def momentum(
     robot: Scout, q: np.ndarray, v: np.ndarray, a: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -64,7 +64,10 @@ def pose_array(name: str, pose: Any) -> np.ndarray:
     rotation = array[..., :3, :3]
     error = np.abs(np.swapaxes(rotation, -1, -2) @ rotation - np.eye(3)).max(axis=(-1, -2))
     row = np.abs(array[..., 3, :] - [0.0, 0.0, 0.0, 1.0]).max(axis=-1)
-    bad = (error > TOLERANCES.rotation_orthogonality) | (row > 0) | (np.linalg.det(rotation) < 0)
+    # A reflection is orthogonal too; its third axis points the other way.
+    third = np.cross(rotation[..., 0], rotation[..., 1])
+    mirrored = np.einsum("...i,...i->...", third, rotation[..., 2]) < 0
+    bad = (error > TOLERANCES.rotation_orthogonality) | (row > 0) | mirrored
     if np.any(bad):
         index = tuple(int(k) for k in np.argwhere(np.atleast_1d(bad))[0])
         raise BadInput(

@@ -16,7 +16,13 @@ from scout_pin.dynamics import (
 )
 from scout_pin.gait import load_gait
 from scout_pin.specification import SIDES
-from scout_pin.stability import momentum, signed_margin, support_margin, zero_moment_point
+from scout_pin.stability import (
+    momentum,
+    pressure_point,
+    signed_margin,
+    support_margin,
+    zero_moment_point,
+)
 from thesis_pin.errors import NoSupportForce
 
 from .conftest import EXAMPLES
@@ -94,11 +100,7 @@ def test_newtons_and_eulers_laws_close_on_the_whole_robot(case):
 def test_zmp_by_6_1_is_the_centre_of_pressure_of_the_floors_wrenches(case):
     robot, motion, joints, dynamics = case
     zmp = zero_moment_point(robot.mass, *momentum(robot, *free_flyer_state(motion.torso, joints)))
-    feet = np.stack([motion.left_foot.position, motion.right_foot.position], axis=1)
-    force = dynamics.wrench[..., :3].sum(axis=1)
-    moment = (dynamics.wrench[..., 3:] + np.cross(feet, dynamics.wrench[..., :3])).sum(axis=1)
-    pressure = np.stack([-moment[:, 1], moment[:, 0]], axis=1) / force[:, 2:]
-    np.testing.assert_allclose(zmp, pressure, atol=1e-10)
+    np.testing.assert_allclose(zmp, pressure_point(motion, dynamics.wrench), atol=1e-10)
     single = ~motion.support.all(axis=1)
     for k, foot in enumerate((motion.left_foot, motion.right_foot)):
         mine = single & motion.support[:, k]
