@@ -19,7 +19,9 @@ from scout_pin.dynamics import (
     inverse_dynamics,
     joint_trajectory,
 )
-from scout_pin.kinematics import leg_forward_kinematics, leg_inverse_kinematics, leg_rates
+from scout_pin.forward import leg_forward_kinematics
+from scout_pin.kinematics import leg_inverse_kinematics
+from scout_pin.rates import leg_rates
 from thesis_pin.command_line import print_table
 
 

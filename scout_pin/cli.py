@@ -149,7 +149,7 @@ def _add_urdf(verbs: Any) -> None:
 
 
 def _gait(arguments: argparse.Namespace) -> int:
-    from scout_pin.gait import load_gait
+    from scout_pin.gait_files import load_gait
     from scout_pin.model import load
     from scout_pin.report import gait_report
 

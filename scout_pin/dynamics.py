@@ -14,16 +14,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-import daqp
 import numpy as np
 import pinocchio as pin
-from scipy.optimize import nnls
 from scipy.spatial.transform import Rotation
 
 from scout_pin.contact import Contact, in_sole_axes
-from scout_pin.gait import Gait, Motion
-from scout_pin.kinematics import leg_frames, leg_rates
+from scout_pin.forward import leg_frames
+from scout_pin.gait import Motion
+from scout_pin.load_sharing import share_load
 from scout_pin.model import Scout
+from scout_pin.rates import leg_rates
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.tolerances import TOLERANCES
@@ -167,7 +167,7 @@ def inverse_dynamics(
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
     contacts = robot.contacts
-    shares, violation = _share_load(robot, motion, joints, forces, contacts)
+    shares, violation = share_load(robot, motion, joints, forces, contacts)
     torque = forces[:, 6:].copy()
     count = len(forces)
     wrench, sole_wrench = np.zeros((count, 2, 6)), np.zeros((count, 2, 6))
@@ -204,162 +204,3 @@ def joint_friction(robot: Scout, v: np.ndarray) -> np.ndarray:
     friction = robot.specification.assumptions.joint_friction
     moving = np.abs(v) > TOLERANCES.static
     return friction.viscous * v + friction.coulomb * np.where(moving, np.sign(v), 0.0)
-
-
-def _share_load(
-    robot: Scout,
-    motion: Motion,
-    joints: JointTrajectory,
-    forces: np.ndarray,
-    contacts: tuple[Contact, ...],
-) -> tuple[np.ndarray, np.ndarray]:
-    """Wrench of each foot about the torso's origin, torso axes, ``(n, 2, 6)``."""
-    shares = motion.support[:, :, None] * forces[:, None, :6]
-    violation = np.full(len(forces), np.nan)
-    double = np.flatnonzero(motion.support.all(axis=1))
-    if not double.size:
-        return shares, violation
-    frames = [
-        leg_frames(robot.legs[s], joints.q[double, 6 * k : 6 * k + 6]) for k, s in enumerate(SIDES)
-    ]
-    feet = (motion.left_foot, motion.right_foot)
-    to_sole = [
-        np.einsum("nji,njk->nik", feet[k].rotation[double], motion.torso.rotation[double])
-        for k in range(2)
-    ]
-    for row, sample in enumerate(double):
-        # Transposed leg Jacobians and maps to scaled sole wrenches, of wrenches
-        # about the torso's origin.
-        jacobians, maps = [], []
-        for k in range(2):
-            axes, points = frames[k].axes[..., row], frames[k].points[..., row]
-            jacobians.append(np.concatenate([np.cross(points, axes), axes], axis=1))
-            maps.append(_to_scaled_sole(to_sole[k][row], frames[k].sole[:, row], contacts[k]))
-        left, violation[sample] = _least_torque(forces[sample], jacobians, maps, contacts)
-        shares[sample, 0], shares[sample, 1] = left, forces[sample, :6] - left
-    return shares, violation
-
-
-def _to_scaled_sole(rotation: np.ndarray, sole: np.ndarray, contact: Contact) -> np.ndarray:
-    """Map from a wrench about the torso's origin to the sole's scaled wrench, ``(6, 6)``."""
-    x, y, z = sole
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    result = np.zeros((6, 6))
-    result[:3, :3] = contact.length * rotation
-    result[3:, :3], result[3:, 3:] = -rotation @ skew, rotation
-    return result
-
-
-def _least_torque(
-    forces: np.ndarray,
-    jacobians: list[np.ndarray],
-    maps: list[np.ndarray],
-    contacts: tuple[Contact, ...],
-) -> tuple[np.ndarray, float]:
-    """Left foot's wrench w with least |τ|², the right one carrying the rest.
-
-    τ_left = τ − J_leftᵀ w and τ_right = τ − J_rightᵀ (W − w), subject to both
-    wrenches lying in their cones.
-    """
-    total = forces[:6]
-    matrix = np.concatenate([jacobians[0], -jacobians[1]])
-    target = np.concatenate([forces[6:12], forces[12:18] - jacobians[1] @ total])
-    # Columns scaled like the wrench, so that the programme works in N·m throughout.
-    unit = np.repeat([contacts[0].length, 1.0], 3)
-    scaled = matrix / unit
-    hessian = scaled.T @ scaled
-    gradient = -scaled.T @ target
-    normals = np.concatenate([contacts[0].facets @ maps[0], -contacts[1].facets @ maps[1]]) / unit
-    bounds = np.concatenate(
-        [np.zeros(len(contacts[0].facets)), -contacts[1].facets @ (maps[1] @ total)]
-    )
-    lower = np.full(len(bounds), -1e30)
-    sense = np.zeros(len(bounds), dtype=np.int32)
-    solution, _, flag, _ = daqp.solve(hessian, gradient, normals, bounds, lower, sense)
-    if flag > 0:
-        return solution / unit, 0.0
-    glued = np.linalg.lstsq(scaled, target, rcond=None)[0] / unit
-    return glued, _missing(total, maps, contacts)
-
-
-def _missing(total: np.ndarray, maps: list[np.ndarray], contacts: tuple[Contact, ...]) -> float:
-    """Size of the least wrench [N·m, forces scaled] two feet can't supply together."""
-    reference = maps[0]  # distances are measured about the left sole
-    rays = [contacts[0].rays, contacts[1].rays @ np.linalg.inv(maps[1]).T @ reference.T]
-    return float(nnls(np.concatenate(rays).T, reference @ total)[1])
-
-
-@dataclass(frozen=True)
-class Impact:
-    """An inelastic landing: what the velocity loses in an instant.
-
-    Attributes:
-        t: Time in the gait's unit.
-        side: Foot that lands.
-        held: Feet that stick to the floor in the impact.
-        foot_velocity: Planned velocity of the landing sole just before [m/s], ``(6,)``
-            linear then angular, world axes.
-        velocity_jump: Change of the joints' rates [rad/s], shape ``(12,)``.
-        impulse: Impulse on each held foot about p_i, world axes: [N·s], [N·m·s],
-            shape ``(held, 6)``.
-        energy_lost: Kinetic energy lost [J].
-    """
-
-    t: float
-    side: str
-    held: tuple[str, ...]
-    foot_velocity: np.ndarray
-    velocity_jump: np.ndarray
-    impulse: np.ndarray
-    energy_lost: float
-
-
-def touchdown_impact(
-    robot: Scout, q: np.ndarray, v: np.ndarray, side: str, t: float = 0.0
-) -> Impact:
-    """Inelastic landing of a foot, the other one standing.
-
-    The landing sole stops dead. The standing foot is held only while the floor
-    pushes it: if its vertical impulse would be negative it is let go. Servos
-    give no impulsive torque.
-
-    Args:
-        robot: The biped, with a free-flyer root.
-        q: Configuration, shape ``(19,)``.
-        v: Velocity just before, shape ``(18,)``.
-        side: The landing foot.
-        t: Time, for the record.
-
-    Returns:
-        The impact.
-    """
-    model, data = robot.model, robot.model.createData()
-    other = SIDES[1 - SIDES.index(side)]
-    pin.computeJointJacobians(model, data, q)
-    pin.updateFramePlacements(model, data)
-    rows = {
-        s: pin.getFrameJacobian(model, data, robot.sole_frames[s], pin.LOCAL_WORLD_ALIGNED).copy()
-        for s in SIDES
-    }
-    for held in ((side, other), (side,)):
-        jacobian = np.concatenate([rows[s] for s in held])
-        after = np.array(pin.impulseDynamics(model, data, q, v, jacobian, 0.0, 0.0))
-        impulse = np.array(data.impulse_c).reshape(-1, 6)
-        if len(held) == 1 or impulse[1, 2] >= 0:
-            break
-    mass = pin.crba(model, data, q)
-    mass = np.triu(mass) + np.triu(mass, 1).T
-    lost = 0.5 * float(v @ mass @ v - after @ mass @ after)
-    return Impact(t, side, held, rows[side] @ v, after[6:] - v[6:], impulse, lost)
-
-
-def impacts(robot: Scout, gait: Gait, time_unit: float | None = None) -> list[Impact]:
-    """Impacts of every touchdown of a gait, from the planned motion just before it."""
-    result = []
-    for t, side in gait.touchdowns():
-        before = np.array([np.nextafter(t, -np.inf)])
-        motion = gait.sample(before, time_unit)
-        joints = joint_trajectory(robot, motion)
-        q, v, _ = free_flyer_state(motion.torso, joints)
-        result.append(touchdown_impact(robot, q[0], v[0], side, t))
-    return result

@@ -1,16 +1,15 @@
-"""Closed-form kinematics of a leg: every branch, rates and accelerations.
+"""Closed-form inverse kinematics of a leg: every branch.
 
 A leg has joint axes z y z z z x. Joints 1 and 2 meet in p2; joints 3, 4, 5 are
 parallel, with common direction e; joint 6 passes through p5. So the foot fixes
 p5 and the axis a of joint 6, and e must be perpendicular to a and to
 v = p5 − p2: two choices of e, two of joint 2 for each, two of the knee.
 
-Symbols, in the torso frame: γ = θ + β; (i3, j3, e) is the frame of link 2
-(thesis frame 3i); a = i_11i and j11 = j_11i are axes of the foot link.
-Arrays inside this module are structures of arrays: the sample is the last axis.
+Symbols as in :mod:`scout_pin.forward`. Arrays inside :func:`_branches` are
+structures of arrays: the sample is the last axis.
 
-Source: Scout thesis, 3.1 for the loop equation (3.4), (3.16) and (3.24) for
-rates and accelerations. The closed form replaces the thesis's numeric solver.
+Source: Scout thesis, 3.1, the loop equation (3.4); the closed form replaces the
+thesis's numeric solver.
 """
 
 from __future__ import annotations
@@ -23,12 +22,11 @@ from typing import Any
 
 import numpy as np
 
-from scout_pin.specification import JOINT_NAMES, SIDES, Specification
+from scout_pin.forward import leg_forward_kinematics
+from scout_pin.geometry import LegGeometry
 from thesis_pin.arrays import finite_array, pose_array, wrap
-from thesis_pin.errors import SingularPose, Unreachable
-from thesis_pin.rotations import rotation, transform
+from thesis_pin.errors import Unreachable
 from thesis_pin.tolerances import TOLERANCES
-from thesis_pin.trajectory import BodyMotion
 
 BRANCHES = tuple((e, two, knee) for e in (1, -1) for two in (1, -1) for knee in (1, -1))
 """Signs (S_E, S_2, S_K) of the eight branches: direction of e, sign of
@@ -37,55 +35,6 @@ on (−1, 1, −1) for the right."""
 
 _CHUNK = 2048  # samples whose intermediates stay in a core's cache
 _FEW = 16  # below this many poses, Python floats beat NumPy arrays
-
-
-@dataclass(frozen=True)
-class LegGeometry:
-    """The lengths and angles of one leg that its kinematics need.
-
-    Attributes:
-        x_0: Signed lateral place of the hip [m]; negative on the left.
-        z_1, x_2, x_3, x_4, x_5, y_6: Lengths [m], appendix B.2.
-        beta: Constant angles β_1 … β_6 [rad], shape ``(6,)``, appendix B.3.
-        foot: Rotation from the foot link to the sole, Rz(β_7) Ry(β_8).
-        lower, upper: Joint limits [rad], shape ``(6,)``.
-        names: Joint names.
-    """
-
-    x_0: float
-    z_1: float
-    x_2: float
-    x_3: float
-    x_4: float
-    x_5: float
-    y_6: float
-    beta: np.ndarray
-    foot: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
-    names: tuple[str, ...]
-
-    @classmethod
-    def of(cls, specification: Specification, side: str) -> LegGeometry:
-        """Geometry of the ``"left"`` or ``"right"`` leg of a specification."""
-        leg, number = specification.leg(side), SIDES.index(side)
-        lower, upper = specification.assumptions.joint_range.radians()
-        mine = slice(6 * number, 6 * number + 6)
-        return cls(
-            x_0=(-1.0, 1.0)[number] * leg.x_0,
-            z_1=leg.z_1,
-            x_2=leg.x_2,
-            x_3=leg.x_3,
-            x_4=leg.x_4,
-            x_5=leg.x_5,
-            y_6=leg.y_6,
-            beta=np.radians(leg.beta_deg),
-            foot=rotation("z", np.radians(leg.beta_7_deg))
-            @ rotation("y", np.radians(leg.beta_8_deg)),
-            lower=lower[mine],
-            upper=upper[mine],
-            names=JOINT_NAMES[mine],
-        )
 
 
 @dataclass(frozen=True)
@@ -381,183 +330,3 @@ def _branches(
                 gammas[branch] = [gamma_1, gamma_2, gamma_3, gamma_4, gamma_5, gamma_6]
                 excesses[branch] = excess
     return gammas, excesses, (sine_axis, h)
-
-
-@dataclass(frozen=True)
-class LegFrames:
-    """Joint axes, joint centres and sole of a leg, in the torso frame.
-
-    Attributes:
-        axes: Unit axes of joints 1 to 6, shape ``(6, 3, n)``.
-        points: Centres p1 to p6 [m], shape ``(6, 3, n)``.
-        foot_link: Axes of the foot link, one a row, shape ``(3, 3, n)``.
-        sole: Origin of the sole frame [m], shape ``(3, n)``.
-    """
-
-    axes: np.ndarray
-    points: np.ndarray
-    foot_link: np.ndarray
-    sole: np.ndarray
-
-
-def leg_frames(leg: LegGeometry, theta: np.ndarray) -> LegFrames:
-    """Axes and centres of a leg's joints.
-
-    Args:
-        leg: Geometry of the leg.
-        theta: Joint angles [rad], shape ``(n, 6)``.
-    """
-    gamma = np.ascontiguousarray((theta + leg.beta).T)
-    count = gamma.shape[1]
-    sum_3 = gamma[2]
-    sum_4 = sum_3 + gamma[3]
-    sum_5 = sum_4 + gamma[4]
-    c1, c2, c3, c34, c345, c6 = np.cos([gamma[0], gamma[1], sum_3, sum_4, sum_5, gamma[5]])
-    s1, s2, s3, s34, s345, s6 = np.sin([gamma[0], gamma[1], sum_3, sum_4, sum_5, gamma[5]])
-    zero = np.zeros(count)
-    i3 = np.stack([c1 * c2, s1 * c2, -s2])
-    j3 = np.stack([-s1, c1, zero])
-    e = np.stack([c1 * s2, s1 * s2, c2])
-    a = c345 * i3 + s345 * j3
-    b = c345 * j3 - s345 * i3
-    axes = np.empty((6, 3, count))
-    axes[0] = [[0.0], [0.0], [1.0]]
-    axes[1], axes[2:5], axes[5] = j3, e, a
-    points = np.empty((6, 3, count))
-    points[0] = [[leg.x_0], [0.0], [0.0]]
-    points[1] = [[leg.x_0], [0.0], [-leg.z_1]]
-    points[2] = points[1] + leg.x_2 * i3
-    points[3] = points[2] + leg.x_3 * (c3 * i3 + s3 * j3)
-    points[4] = points[3] + leg.x_4 * (c34 * i3 + s34 * j3)
-    points[5] = points[4] + leg.x_5 * a
-    j11, k11 = c6 * b + s6 * e, c6 * e - s6 * b
-    return LegFrames(axes, points, np.stack([a, j11, k11]), points[5] + leg.y_6 * j11)
-
-
-def leg_forward_kinematics(leg: LegGeometry, theta: Any) -> np.ndarray:
-    """Placement of the sole in the torso frame, equation (3.4).
-
-    Args:
-        leg: Geometry of the leg.
-        theta: Joint angles [rad], shape ``(..., 6)``; NaN gives NaN.
-
-    Returns:
-        Placements, shape ``(..., 4, 4)``.
-    """
-    theta = np.asarray(theta, dtype=float)
-    frames = leg_frames(leg, theta.reshape(-1, 6))
-    rotation_part = np.einsum("jkn,ji->nki", frames.foot_link, leg.foot)
-    placement = transform(rotation_part, frames.sole.T)
-    return placement.reshape(*theta.shape[:-1], 4, 4)
-
-
-def leg_rates(
-    leg: LegGeometry, theta: np.ndarray, foot: BodyMotion
-) -> tuple[np.ndarray, np.ndarray]:
-    """Joint rates and accelerations that give the foot its motion.
-
-    The 6×6 systems (3.16) and (3.24) come apart: joints 5 and 6 don't move p5,
-    and joints 3, 4, 5 neither move it along e nor turn the foot about b = e × a.
-    That leaves two equations for joints 1 and 2, then two for 3 and 4.
-
-    Args:
-        leg: Geometry of the leg.
-        theta: Joint angles [rad], shape ``(n, 6)``.
-        foot: Motion of the sole seen from the torso, in the torso's axes.
-
-    Returns:
-        θ̇ [rad/s] and θ̈ [rad/s²], each of shape ``(n, 6)``.
-
-    Raises:
-        SingularPose: At some sample the leg's Jacobian has lost rank.
-
-    Source: Scout thesis, equations (3.16) and (3.24); determinant
-    sin γ2 · x_3 x_4 sin γ4 · e·(v × a).
-    """
-    gamma = np.ascontiguousarray((theta + leg.beta).T)
-    sum_4 = gamma[2] + gamma[3]
-    sum_5 = sum_4 + gamma[4]
-    c1, c2, c3, c34, c345 = np.cos([gamma[0], gamma[1], gamma[2], sum_4, sum_5])
-    s1, s2, s3, s34, s345 = np.sin([gamma[0], gamma[1], gamma[2], sum_4, sum_5])
-    s4 = np.sin(gamma[3])
-    r3_i, r3_j = leg.x_3 * c3, leg.x_3 * s3
-    r4_i, r4_j = leg.x_4 * c34, leg.x_4 * s34
-    v_i, v_j = leg.x_2 + r3_i + r4_i, r3_j + r4_j
-    moment = v_j * c345 - v_i * s345  # v·b
-    _refuse_singular(leg, s2, s4, moment, np.hypot(v_i, v_j))
-
-    def in_frame_3(vector: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        x, y, z = vector.T
-        radial = c1 * x + s1 * y
-        return c2 * radial - s2 * z, c1 * y - s1 * x, s2 * radial + c2 * z
-
-    def solve(p: tuple[np.ndarray, ...], w: tuple[np.ndarray, ...]) -> np.ndarray:
-        """Rates from the velocity p of p5 and the angular velocity w, in frame 3."""
-        about_b = c345 * w[1] - s345 * w[0]
-        # −s2 v_j q1 − v_i q2 = p_e  and  s2 s345 q1 + c345 q2 = w·b
-        q1 = (p[2] * c345 + v_i * about_b) / (-s2 * moment)
-        q2 = (s345 * p[2] + v_j * about_b) / moment
-        left_i = p[0] + c2 * v_j * q1
-        left_j = p[1] - c2 * v_i * q1
-        scale = leg.x_3 * leg.x_4 * s4
-        q3 = (left_i * r4_i + left_j * r4_j) / scale
-        q34 = -(left_i * r3_i + left_j * r3_j) / scale
-        q345 = w[2] - c2 * q1
-        q6 = c345 * (w[0] + s2 * q1) + s345 * (w[1] - q2)
-        return np.stack([q1, q2, q3, q34 - q3, q345 - q34, q6])
-
-    # Move the reference point from the sole to p5, which is fixed in the foot.
-    arm = np.einsum("nij,j->ni", foot.rotation, leg.foot[1] * leg.y_6 + leg.foot[0] * leg.x_5)
-    spin = np.cross(foot.omega, arm)
-    velocity = foot.velocity - spin
-    rate = solve(in_frame_3(velocity), in_frame_3(foot.omega))
-
-    # What p5 and the foot would accelerate with if θ̈ were zero.
-    q1, q2, q3, q4, q5, q6 = rate
-    w_i, w_j, w_e = -s2 * q1, q2, c2 * q1  # ω of link 2
-    d_i, d_j, d_e = -c2 * q1 * q2, 0.0 * q1, -s2 * q1 * q2  # (q1 k) × (q2 j3)
-    bias = np.zeros((3, gamma.shape[1]))
-
-    def swing(r_i: Any, r_j: Any) -> None:
-        """Add d × r + w × (w × r) of one link to the bias of p5."""
-        dot = w_i * r_i + w_j * r_j
-        square = w_i * w_i + w_j * w_j + w_e * w_e
-        bias[0] += -d_e * r_j + w_i * dot - square * r_i
-        bias[1] += d_e * r_i + w_j * dot - square * r_j
-        bias[2] += d_i * r_j - d_j * r_i + w_e * dot
-
-    swing(leg.x_2, 0.0)
-    for q, r_i, r_j in ((q3, r3_i, r3_j), (q4, r4_i, r4_j), (q5, 0.0, 0.0)):
-        d_i, d_j = d_i + w_j * q, d_j - w_i * q  # ω × (q e)
-        w_e = w_e + q
-        swing(r_i, r_j)
-    d_i, d_j, d_e = (
-        d_i - w_e * s345 * q6,
-        d_j + w_e * c345 * q6,
-        d_e + (w_i * s345 - w_j * c345) * q6,
-    )
-    acceleration = foot.acceleration - np.cross(foot.alpha, arm) - np.cross(foot.omega, spin)
-    p, w = in_frame_3(acceleration), in_frame_3(foot.alpha)
-    second = solve(
-        (p[0] - bias[0], p[1] - bias[1], p[2] - bias[2]), (w[0] - d_i, w[1] - d_j, w[2] - d_e)
-    )
-    return rate.T, second.T
-
-
-def _refuse_singular(
-    leg: LegGeometry, s2: np.ndarray, s4: np.ndarray, moment: np.ndarray, length: np.ndarray
-) -> None:
-    reasons = (
-        (np.abs(s2), "hip roll is ±90° from neutral, hip yaw is free (sin γ2 = 0)"),
-        (np.abs(s4), "the knee is straight or folded (sin γ4 = 0)"),
-        (np.abs(moment) / length, "hip and ankle axes are in line (v × a = 0)"),
-    )
-    for value, reason in reasons:
-        if (bad := value < TOLERANCES.near_singular).any():
-            k = int(np.argmax(bad))
-            raise SingularPose(
-                f"no joint rates exist: {reason}",
-                where=f"{leg.names[0].split('_')[0]} leg, sample {k}",
-                allowed=f"sines of at least {TOLERANCES.near_singular:.0e}",
-                remedy="Move the pose away from the singularity",
-            )

@@ -9,8 +9,9 @@ from typing import Any, Literal
 import numpy as np
 import pinocchio as pin
 
-from scout_pin import kinematics
+from scout_pin import forward, kinematics
 from scout_pin.contact import Contact
+from scout_pin.geometry import LegGeometry
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.arrays import finite_array, pose_array
@@ -93,7 +94,7 @@ class Scout(LoadedRobot):
         joint = pin.JointModelFreeFlyer() if root == "free_flyer" else _thesis_root()
         super().__init__(urdf(specification, inertia), meshes(specification), joint)
         self.specification, self.root, self.inertia = specification, root, inertia
-        self.legs = {side: kinematics.LegGeometry.of(specification, side) for side in SIDES}
+        self.legs = {side: LegGeometry.of(specification, side) for side in SIDES}
         self.sole_frames = {side: frame_id(self.model, f"{side}_sole") for side in SIDES}
         self.lower, self.upper = specification.assumptions.joint_range.radians()
         self.stall_torque, self.no_load_speed = specification.servo_limits()
@@ -254,7 +255,7 @@ class Scout(LoadedRobot):
 
     def leg_forward_kinematics(self, side: str, theta: Any) -> np.ndarray:
         """Sole in the torso frame from six angles, ``(..., 6)`` → ``(..., 4, 4)``."""
-        return kinematics.leg_forward_kinematics(self._leg(side), finite_array("theta", theta, 6))
+        return forward.leg_forward_kinematics(self._leg(side), finite_array("theta", theta, 6))
 
     def forward_kinematics(self, theta: Any, torso: Any = None) -> dict[str, np.ndarray]:
         """Soles in the world from twelve angles.
@@ -287,7 +288,7 @@ class Scout(LoadedRobot):
         """Soles in the torso frame with all servos neutral, by side."""
         return self.forward_kinematics(np.zeros(12))
 
-    def _leg(self, side: str) -> kinematics.LegGeometry:
+    def _leg(self, side: str) -> LegGeometry:
         if side not in self.legs:
             raise UnknownName("side", side, SIDES)
         return self.legs[side]

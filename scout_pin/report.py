@@ -10,13 +10,12 @@ import numpy as np
 
 from scout_pin.dynamics import (
     ContactDynamics,
-    Impact,
     free_flyer_state,
-    impacts,
     inverse_dynamics,
     joint_trajectory,
 )
 from scout_pin.gait import Gait, Motion
+from scout_pin.impact import Impact, impacts
 from scout_pin.model import Scout
 from scout_pin.servo_limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES

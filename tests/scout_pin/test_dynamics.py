@@ -8,13 +8,12 @@ from scipy.optimize import linprog
 from scout_pin.contact import Contact, support_polygon
 from scout_pin.dynamics import (
     free_flyer_state,
-    impacts,
     inverse_dynamics,
     joint_friction,
     joint_trajectory,
-    touchdown_impact,
 )
-from scout_pin.gait import load_gait
+from scout_pin.gait_files import load_gait
+from scout_pin.impact import impacts, touchdown_impact
 from scout_pin.specification import SIDES
 from scout_pin.stability import (
     momentum,

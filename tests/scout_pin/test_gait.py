@@ -8,7 +8,8 @@ import pytest
 
 import scout_pin
 from scout_pin.dynamics import joint_trajectory
-from scout_pin.gait import BODIES, load_gait
+from scout_pin.gait import BODIES
+from scout_pin.gait_files import load_gait
 from thesis_pin.errors import BadInput, SpecificationError, TrajectoryError, UnknownName
 
 from .conftest import EXAMPLES

@@ -6,13 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scout_pin.kinematics import (
-    BRANCHES,
-    LegGeometry,
-    leg_forward_kinematics,
-    leg_inverse_kinematics,
-    leg_rates,
-)
+from scout_pin.forward import leg_forward_kinematics
+from scout_pin.geometry import LegGeometry
+from scout_pin.kinematics import BRANCHES, leg_inverse_kinematics
+from scout_pin.rates import leg_rates
 from scout_pin.specification import SIDES, Specification
 from scout_pin.urdf import JOINT_AXES, offsets
 from thesis_pin.arrays import wrap

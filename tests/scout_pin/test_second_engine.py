@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from scout_pin.dynamics import free_flyer_state, inverse_dynamics, joint_trajectory
-from scout_pin.gait import load_gait
+from scout_pin.gait_files import load_gait
 from scout_pin.urdf import meshes
 
 from .conftest import EXAMPLES
