@@ -220,7 +220,8 @@ def _print_report(report: GaitReport) -> None:
             f"Touchdown of the {impact.side} foot at t = {impact.t:g}: "
             f"{-impact.foot_velocity[2] * 1e3:.0f} mm/s down, impulse {normal * 1e3:.1f} mN·s, "
             f"joints jump by {abs(impact.velocity_jump).max():.2f} rad/s, "
-            f"{impact.energy_lost * 1e3:.2f} mJ lost."
+            f"{impact.energy_lost * 1e3:.2f} mJ lost"
+            + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
     print_text("", *report.verdict())
 

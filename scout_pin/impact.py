@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio as pin
 
+from scout_pin.contact import in_sole_axes
 from scout_pin.dynamics import free_flyer_state, joint_trajectory
 from scout_pin.gait import Gait
 from scout_pin.model import Scout
@@ -30,6 +31,8 @@ class Impact:
         impulse: Impulse on each held foot about p_i, world axes: [N·s], [N·m·s],
             shape ``(held, 6)``.
         energy_lost: Kinetic energy lost [J].
+        admissible: Whether the floor can give every impulse: no pull, friction,
+            centre of pressure and yaw moment inside the sole's wrench cone.
     """
 
     t: float
@@ -39,6 +42,7 @@ class Impact:
     velocity_jump: np.ndarray
     impulse: np.ndarray
     energy_lost: float
+    admissible: bool
 
 
 def touchdown_impact(
@@ -77,7 +81,13 @@ def touchdown_impact(
     mass = pin.crba(model, data, q)
     mass = np.triu(mass) + np.triu(mass, 1).T
     lost = 0.5 * float(v @ mass @ v - after @ mass @ after)
-    return Impact(t, side, held, rows[side] @ v, after[6:] - v[6:], impulse, lost)
+    turns = (data.oMf[robot.sole_frames[s]].rotation for s in held)
+    local = [in_sole_axes(turn[None], p[None])[0] for turn, p in zip(turns, impulse, strict=True)]
+    contacts = [robot.contacts[SIDES.index(s)] for s in held]
+    # Impulses of a landing at rest are rounding; they ask nothing of the floor.
+    least = -1e-9 * robot.mass
+    fine = all(c.margin(p) >= least for c, p in zip(contacts, local, strict=True))
+    return Impact(t, side, held, rows[side] @ v, after[6:] - v[6:], impulse, lost, fine)
 
 
 def impacts(robot: Scout, gait: Gait, time_unit: float | None = None) -> list[Impact]:

@@ -102,8 +102,10 @@ class GaitReport:
         d = self.dynamics
         single = np.where(d.support, d.contact_margin, np.inf).min(axis=1)
         margin = np.where(d.support.all(axis=1), -d.double_violation, single)
-        sample = int(np.argmin(margin))
-        return sample, d.least_violation(sample)[0]
+        # The margin bounds the violation from below, so the worst few are measured.
+        worst = np.argsort(margin)[:32]
+        sizes = [d.least_violation(int(sample))[0] for sample in worst]
+        return int(worst[np.argmax(sizes)]), max(sizes)
 
     @cached_property
     def clearance(self) -> float:
@@ -235,6 +237,7 @@ class GaitReport:
                     "impulse": impact.impulse,
                     "velocity_jump": impact.velocity_jump,
                     "energy_lost": impact.energy_lost,
+                    "admissible": impact.admissible,
                 }
                 for impact in self.impacts
             ],

@@ -275,6 +275,24 @@ def test_a_landing_at_rest_costs_nothing(scout):
     for impact in found:
         assert np.abs(impact.impulse).max() < 1e-9
         assert impact.energy_lost < 1e-12
+        assert impact.admissible
+
+
+def test_an_impact_the_floor_cannot_give_is_called_so(scout, lopsided):
+    """A foot that lands sliding sideways needs more friction than there is."""
+    for robot in (scout, lopsided):
+        q = robot.q0.copy()
+        falling, sliding = np.zeros((2, 18))
+        falling[2] = sliding[2] = -0.1
+        sliding[0] = 5.0
+        assert not touchdown_impact(robot, q, sliding, "left").admissible
+        straight = touchdown_impact(robot, q, falling, "left")
+        # The soles are level in the neutral pose, so world axes are theirs.
+        by_hand = [
+            linear_programme_admits(robot.contacts[SIDES.index(side)], impulse)
+            for side, impulse in zip(straight.held, straight.impulse, strict=True)
+        ]
+        assert straight.admissible == all(by_hand)
 
 
 def test_support_polygon_and_margin_of_known_shapes():
