@@ -64,6 +64,15 @@ class Motion:
         names = {(True, False): "left", (False, True): "right", (True, True): "double"}
         return [names[bool(left), bool(right)] for left, right in self.support]
 
+    def at_rest(self, samples: np.ndarray) -> Motion:
+        """The poses of some samples (indices or a mask), without any motion."""
+        return Motion(
+            self.time[samples],
+            self.t[samples],
+            self.support[samples],
+            *(body.at_rest(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+        )
+
 
 @dataclass(frozen=True)
 class Gait:
@@ -118,19 +127,6 @@ class Gait:
                 if has and not had and after.start > self.start:
                     events.append((after.start, side))
         return events
-
-    def t_in_double_support(self, most: int) -> np.ndarray:
-        """At most ``most`` times t spread over double support, instants included."""
-        instants = [p.start for p in self.phases if p.support == "double"]
-        spans = [p for p in self.phases if p.support == "double" and p.end > p.start]
-        changes = [
-            after.start
-            for before, after in zip(self.phases, self.phases[1:], strict=False)
-            if {before.support, after.support} == {"left", "right"}
-        ]
-        each = max(2, most // max(1, len(spans)))
-        inner = [np.linspace(p.start, p.end, each) for p in spans]
-        return np.unique(np.concatenate([instants, changes, *inner]))
 
     def sample_times(self, samples: int) -> np.ndarray:
         """``samples`` times t, evenly spaced from start to end."""

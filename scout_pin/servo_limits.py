@@ -10,7 +10,10 @@ import numpy as np
 from scout_pin.dynamics import ContactDynamics, inverse_dynamics, joint_friction, joint_trajectory
 from scout_pin.gait import Gait, Motion
 from scout_pin.model import Scout
-from thesis_pin.trajectory import BodyMotion, JointTrajectory
+from thesis_pin.trajectory import JointTrajectory
+
+_TRIED = 32  # samples of double support added at a time to those it is bisected on
+_MOST = 2048  # samples of double support among which they are chosen
 
 
 @dataclass(frozen=True)
@@ -41,26 +44,25 @@ def fastest_time_unit(
     Running the gait s times faster multiplies speeds by s and the part of the
     torques that comes from motion by s²; gravity's part stays. In single support
     the smallest s at which a limit is met is therefore a root of a quadratic. In
-    double support the sharing rule isn't quadratic in s, so up to 64 samples of
-    it are tried directly, by bisection.
+    double support the sharing rule isn't quadratic in s: at the speed that single
+    support allows, the samples that ask most are found, and s is bisected on them.
     """
     speed = float(unit * (np.abs(joints.v) / robot.no_load_speed).max())
-    still = BodyMotion(
-        motion.torso.rotation, motion.torso.position, *(np.zeros((len(joints.q), 3)),) * 4
+    single = np.flatnonzero(~motion.support.all(axis=1))
+    at_rest = motion.at_rest(single)
+    zero = np.zeros(joints.q[single].shape)
+    static = inverse_dynamics(
+        robot, at_rest, JointTrajectory(at_rest.time, joints.q[single], zero, zero)
     )
-    at_rest = Motion(
-        motion.time, motion.t, motion.support, still, motion.left_foot, motion.right_foot
-    )
-    zero = np.zeros(joints.q.shape)
-    static = inverse_dynamics(robot, at_rest, JointTrajectory(joints.time, joints.q, zero, zero))
-    single = ~motion.support.all(axis=1)
-    friction = joint_friction(robot, joints.v)
-    viscous = robot.specification.assumptions.joint_friction.viscous * joints.v
-    constant = (static.torque + friction - viscous)[single]
-    square = (dynamics.torque - friction - static.torque)[single]
-    linear = viscous[single]
+    friction = joint_friction(robot, joints.v[single])
+    linear = robot.specification.assumptions.joint_friction.viscous * joints.v[single]
+    constant = static.torque + friction - linear
+    square = dynamics.torque[single] - friction - static.torque
+    double = motion.t[motion.support.all(axis=1)]
+    double = double[:: 1 + len(double) // _MOST]
     results = []
-    double = gait.t_in_double_support(64)
+    double = motion.t[motion.support.all(axis=1)]
+    double = double[:: 1 + len(double) // _MOST]
     for line in (False, True):
         slope = robot.stall_torque / robot.no_load_speed if line else 0.0
         growth = np.abs(joints.v[single]) * slope
@@ -94,21 +96,29 @@ def _limit_in_double_support(
 ) -> float:
     """The largest speed-up, at most ``factor``, at which double support keeps the limit too."""
 
-    def kept(speed_up: float) -> bool:
+    def use(t: np.ndarray, speed_up: float) -> np.ndarray:
         motion = gait.sample(t, unit / speed_up)
         joints = joint_trajectory(robot, motion)
-        use = np.abs(inverse_dynamics(robot, motion, joints).torque) / robot.stall_torque
+        share = np.abs(inverse_dynamics(robot, motion, joints).torque) / robot.stall_torque
         if line:
-            use = use + np.abs(joints.v) / robot.no_load_speed
-        return bool((use <= 1.0).all())
+            share = share + np.abs(joints.v) / robot.no_load_speed
+        return share.max(axis=1)
 
     upper = min(factor, 1e3)
-    if kept(upper):
+    active = np.zeros(len(t), dtype=bool)
+    share = use(t, upper)
+    if (share <= 1.0).all():
         return factor
-    lower = 1e-3 * upper
-    if not kept(lower):
-        return 0.0
-    while upper / lower > 1.0 + 1e-4:
-        middle = float(np.sqrt(lower * upper))
-        lower, upper = (middle, upper) if kept(middle) else (lower, middle)
-    return lower
+    # Samples that ask most at one speed need not at another: bisect on those known
+    # to matter, and go on while some other sample breaks the limit found.
+    while (share > 1.0).any():
+        active[np.argsort(share)[-_TRIED:]] = True
+        lower = 1e-3 * upper
+        if (use(t[active], lower) > 1.0).any():
+            return 0.0
+        while upper / lower > 1.0 + 1e-5:
+            middle = float(np.sqrt(lower * upper))
+            kept = (use(t[active], middle) <= 1.0).all()
+            lower, upper = (middle, upper) if kept else (lower, middle)
+        upper, share = lower, use(t, lower)
+    return upper

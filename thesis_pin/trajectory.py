@@ -51,6 +51,12 @@ class BodyMotion:
         """Placement in the world, shape ``(n, 4, 4)``."""
         return transform(self.rotation, self.position)
 
+    def at_rest(self, samples: np.ndarray) -> BodyMotion:
+        """The placements of some samples (indices or a mask), at rest."""
+        position = self.position[samples]
+        zero = np.zeros(position.shape)
+        return BodyMotion(self.rotation[samples], position, zero, zero, zero, zero)
+
     def seen_from(self, other: BodyMotion) -> BodyMotion:
         """The same motion observed in the moving frame of another body.
 

@@ -262,7 +262,7 @@ def test_impact_stops_the_landing_foot_and_keeps_momentum(scout):
         lost = 0.5 * (v @ mass @ v - after @ mass @ after)
         assert impact.energy_lost == pytest.approx(lost, abs=1e-12)
         assert impact.energy_lost > 0
-        assert impact.impulse[0, 2] > 0
+        assert (impact.impulse[:, 2] > 0).all()
         # The foot that was let go leaves the floor, it isn't pressed into it.
         for other in set(SIDES) - set(impact.held):
             assert (jacobians[other] @ after)[2] >= 0
