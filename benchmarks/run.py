@@ -73,8 +73,8 @@ def scout_kinematics(count: int = 20_000) -> list[tuple[str, float, str, float]]
         few,
         repeats=3,
     )
-    rows.append(("leg IK, 8 branches, stack", stack, "Newton, one branch", numeric))
-    rows.append(("leg IK, 8 branches, one pose", single, "Newton, one branch", numeric))
+    rows.append(("leg IK, stack", stack, "Newton on Pinocchio", numeric))
+    rows.append(("leg IK, one pose", single, "Newton on Pinocchio", numeric))
     try:
         from eaik.IK_HP import HPRobot
     except ImportError:
@@ -90,13 +90,13 @@ def scout_kinematics(count: int = 20_000) -> list[tuple[str, float, str, float]]
         turned = poses[:2000].copy()
         turned[:, :3, :3] = turned[:, :3, :3] @ leg.foot.T
         eaik = median_time(lambda: other.IK_batched(turned), 2000, repeats=3)
-        rows.append(("leg IK, 8 branches, stack", stack, "EAIK, batched", eaik))
+        rows.append(("leg IK, stack", stack, "EAIK, batched", eaik))
     gait = scout_pin.load_gait("thesis")
     motion = gait.sample(gait.sample_times(count))
     joints = joint_trajectory(robot, motion)
     seen = motion.left_foot.seen_from(motion.torso)
     rates = median_time(lambda: leg_rates(leg, joints.q[:, :6], seen), count)
-    rows.append(("leg rates, accelerations", rates, "leg IK, 8 branches, stack", stack))
+    rows.append(("leg rates", rates, "leg IK, stack", stack))
     return rows
 
 
