@@ -116,39 +116,49 @@ class LegSolutions:
             text = np.char.add(text, np.where(which.any(axis=-1), name, ""))
         return np.asarray(np.char.rstrip(text, "; "))
 
-    def explain(self, index: tuple[int, ...] | int = ()) -> str:
-        """Say in words why a pose has no valid branch, or which ones it has.
+    def explain(self, index: tuple[int, ...] | int = (), branch: int | None = None) -> str:
+        """Say in words which branches a pose has, or why it, or one of them, fails.
 
         Args:
             index: Which pose of the stack.
+            branch: Number of a branch in :data:`BRANCHES`; None speaks of the pose.
         """
-        leg = self.geometry
         index = (index,) if isinstance(index, int) else index
-        excess, valid = self.excess[index], self.valid[index]
-        if valid.any():
+        if branch is not None:
+            text = f"branch {BRANCHES[branch]} is {self._explain_branch(index, branch)}"
+        elif (valid := self.valid[index]).any():
             text = f"{int(valid.sum())} of 8 branches are valid"
-        elif not self.reachable[index].any():
-            gap = float(excess.min())
-            low, high = abs(leg.x_3 - leg.x_4), leg.x_3 + leg.x_4
-            text = (
-                f"unreachable: hip and ankle would be {gap * 1e3:.3f} mm outside the "
-                f"{low * 1e3:.2f} to {high * 1e3:.2f} mm that thigh and shank span"
-            )
-        else:
-            beyond = np.where(self.reachable[index][:, None], self.beyond_limits[index], np.inf)
+        elif (reachable := self.reachable[index]).any():
+            beyond = np.where(reachable[:, None], self.beyond_limits[index], np.inf)
             best = int(np.argmin(beyond.max(axis=-1)))
-            joint = int(np.argmax(beyond[best]))
-            angle, (low, high) = (
-                math.degrees(self.angles[index][best, joint]),
-                (math.degrees(leg.lower[joint]), math.degrees(leg.upper[joint])),
-            )
             text = (
                 f"reachable, but outside the joint limits in each of the "
-                f"{int(self.reachable[index].sum())} branches; the nearest, {BRANCHES[best]}, "
-                f"needs {leg.names[joint]} at {angle:.2f}°, outside {low:g}° to {high:g}°"
+                f"{int(reachable.sum())} branches; the nearest, {BRANCHES[best]}, "
+                f"is {self._explain_branch(index, best)}"
             )
+        else:
+            text = self._explain_branch(index, int(np.argmin(self.excess[index])))
         singular = str(self.singularity[index])
         return text + (f" (singular: {singular})" if singular else "")
+
+    def _explain_branch(self, index: tuple[int, ...], branch: int) -> str:
+        leg = self.geometry
+        if not self.reachable[index][branch]:
+            low, high = abs(leg.x_3 - leg.x_4), leg.x_3 + leg.x_4
+            return (
+                f"unreachable: hip and ankle would be {self.excess[index][branch] * 1e3:.3f} mm "
+                f"outside the {low * 1e3:.2f} to {high * 1e3:.2f} mm that thigh and shank span"
+            )
+        if self.valid[index][branch]:
+            return "valid"
+        joint = int(np.argmax(self.beyond_limits[index][branch]))
+        angle, low, high = np.degrees(
+            [self.angles[index][branch, joint], leg.lower[joint], leg.upper[joint]]
+        )
+        return (
+            f"outside the limits: it needs {leg.names[joint]} at {angle:.2f}°, "
+            f"outside {low:g}° to {high:g}°"
+        )
 
 
 def leg_inverse_kinematics(

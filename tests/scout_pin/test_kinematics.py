@@ -183,6 +183,8 @@ def test_an_unreachable_pose_says_by_how_much(scout):
     by_hand = np.linalg.norm(p5 - p3) - (leg.x_3 + leg.x_4)
     assert solutions.excess.min() == pytest.approx(by_hand, abs=1e-6)
     assert f"{by_hand * 1e3:.2f}" in solutions.explain()
+    for branch in range(8):
+        assert f"{solutions.excess[branch] * 1e3:.3f} mm" in solutions.explain(branch=branch)
 
 
 def test_a_pose_outside_the_limits_names_the_joint_and_the_limit(scout):
