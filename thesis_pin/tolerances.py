@@ -15,6 +15,10 @@ class Tolerances:
         near_singular: The same, below which rates are refused [-].
         reach: Excess of distance still taken as touching the boundary [m].
         loop_closure: Distance at which a loop counts as closed [m].
+        loop_motion: Rate and acceleration of its opening still taken as none,
+            relative to 1 + the largest joint rate or acceleration [-].
+        rank: Singular value, relative to the largest, below which a matrix has
+            lost rank [-].
         stance_drift: How far a foot in support may stray from rest or floor [m].
         joint_limit: Excess still taken as inside a joint limit [rad].
         static: Joint speed below which Coulomb friction is taken as zero [rad/s].
@@ -25,6 +29,8 @@ class Tolerances:
     near_singular: float = 1e-8
     reach: float = 1e-12
     loop_closure: float = 1e-9
+    loop_motion: float = 1e-7
+    rank: float = 1e-9
     stance_drift: float = 1e-6
     joint_limit: float = 1e-9
     static: float = 1e-9
