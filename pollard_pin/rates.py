@@ -109,7 +109,7 @@ def joint_rates(posture: Posture, wrist: Vector, omega: Vector) -> np.ndarray:
     Returns:
         Rates [rad/s], shape ``(12, ..., n)``.
     """
-    still = np.zeros((3, 1))
+    still = np.zeros((3,) + (1,) * (wrist.ndim - 1))
     return _solve(posture, wrist, omega, (still, still))
 
 

@@ -1,0 +1,259 @@
+"""``load()`` → the robot: Pinocchio model, loops, motors, kinematics and dynamics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import pinocchio as pin
+
+from pollard_pin import dynamics, forward, kinematics, rates, singularity
+from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
+from pollard_pin.closure import closures
+from pollard_pin.geometry import (
+    ALL_BRANCHES,
+    DEFAULT_BRANCH,
+    USEFUL_BRANCHES,
+    Branch,
+    Geometry,
+    pose_from_placement,
+)
+from pollard_pin.posture import Posture
+from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
+from pollard_pin.urdf import urdf
+from thesis_pin import loop_dynamics, loops
+from thesis_pin.arrays import finite_array
+from thesis_pin.closures import ClosedRobot
+from thesis_pin.errors import UnknownName
+from thesis_pin.inertia import Reading
+from thesis_pin.loading import model_folder
+from thesis_pin.trajectory import JointTrajectory
+
+PACKAGE_PATH = str(model_folder("pollard"))
+URDF_PATH = str(Path(PACKAGE_PATH) / "pollard.urdf")
+
+Branches = Branch | Literal["all", "useful"] | Sequence[Branch]
+
+
+def load(
+    specification: Specification | str | Path | None = None, *, inertia: Reading = "physical"
+) -> Pollard:
+    """Load a Pollard-like robot.
+
+    Args:
+        specification: A specification, the path of one, or None for the thesis's robot.
+        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.inertia`.
+
+    Returns:
+        The robot.
+
+    Raises:
+        SpecificationError: The specification is invalid.
+        NonPhysicalInertia: A link's inertia is impossible.
+        UnknownName: ``inertia`` isn't one of the above.
+    """
+    if not isinstance(specification, Specification):
+        specification = Specification.read(specification)
+    if inertia not in ("physical", "printed"):
+        raise UnknownName("inertia", inertia, ("physical", "printed"))
+    return Pollard(specification, inertia)
+
+
+class Pollard(ClosedRobot):
+    """A three-chain robot of Pollard's kind, in Pinocchio and in closed form.
+
+    Joint vectors have twelve entries in the order of :data:`JOINT_NAMES`, torques
+    six in the order of :data:`ACTUATOR_NAMES`, poses six: x, y, z [m], ψ, θ, φ [rad].
+
+    Attributes:
+        specification: The numbers it was made from.
+        inertia: Reading of the printed inertias.
+        geometry: Lengths for the closed forms.
+        lower, upper: Joint limits [rad], each ``(12,)``.
+    """
+
+    def __init__(self, specification: Specification, inertia: Reading) -> None:
+        super().__init__(urdf(specification, inertia), closures(specification))
+        self.specification, self.inertia = specification, inertia
+        self.geometry = Geometry.of(specification)
+        self.lower, self.upper = self.geometry.lower, self.geometry.upper
+        self._pool = pin.ModelPool(self.model, 1)
+        order = tuple(list(self.model.names)[1:])
+        if order != JOINT_NAMES or tuple(self.passive) != PASSIVE:
+            raise RuntimeError(f"Pinocchio reordered the joints: {order}")
+        if tuple(self.actuated) != ACTUATORS:
+            raise RuntimeError(f"the closure file reordered the motors: {self.actuated}")
+
+    @property
+    def mass(self) -> float:
+        """Mass of everything that moves [kg]."""
+        return self.specification.mass
+
+    # -- kinematics ----------------------------------------------------------
+
+    def inverse_kinematics(
+        self, pose: Any, branch: Branches = DEFAULT_BRANCH, reference: Any = None
+    ) -> kinematics.Solutions:
+        """Joint angles for poses; see :func:`pollard_pin.kinematics.inverse_kinematics`.
+
+        Args:
+            pose: (x, y, z, ψ, θ, φ), shape ``(..., 6)``.
+            branch: One :class:`Branch`, several, ``"useful"`` (16) or ``"all"`` (128).
+            reference: Angles that fill in what a straight wrist leaves free.
+
+        Returns:
+            Angles ``(..., 12)`` on one branch, ``(..., branches, 12)`` on several.
+        """
+        if isinstance(branch, Branch):
+            return kinematics.inverse_kinematics(self.geometry, pose, (branch,), reference)
+        named = {"all": ALL_BRANCHES, "useful": USEFUL_BRANCHES}
+        if isinstance(branch, str):
+            if branch not in named:
+                raise UnknownName("set of branches", branch, list(named))
+            branch = named[branch]
+        return kinematics.inverse_kinematics(
+            self.geometry, pose, tuple(branch), reference, squeeze=False
+        )
+
+    def forward_kinematics(self, motors: Any, reference: Any = None) -> Any:
+        """Assembly modes of motor angles ``(..., 6)`` [rad].
+
+        Args:
+            motors: Angles of the six motors, in the order of :data:`ACTUATOR_NAMES`.
+            reference: Joint angles ``(12,)`` or ``(..., 12)``; picks the nearest mode.
+
+        Returns:
+            Every mode, as :class:`Assemblies`; or with a reference the angles
+            ``(..., 12)`` of the nearest.
+        """
+        modes = forward.forward_kinematics(self.geometry, motors)
+        return modes if reference is None else modes.nearest(reference)
+
+    def posture(self, q: Any) -> Posture:
+        """Points and axes of configurations ``(..., 12)``."""
+        return Posture.of(self.geometry, finite_array("q", q, 12))
+
+    def pose(self, q: Any) -> np.ndarray:
+        """Pose of the spray tip, by chain 0: ``(..., 12)`` → ``(..., 6)``."""
+        posture = self.posture(q)
+        return pose_from_placement(posture.tip, posture.tool_rotation)
+
+    def branch_of(self, q: Any) -> Branch:
+        """Label of a closed configuration ``(12,)``."""
+        return forward.branch_of(self.geometry, finite_array("q", q, 12))
+
+    def joint_motion(
+        self,
+        pose: Any,
+        rate: Any,
+        acceleration: Any = None,
+        branch: Branch = DEFAULT_BRANCH,
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Joint angles, rates and accelerations of a motion of the tool.
+
+        Args:
+            pose: Shape ``(..., 6)``.
+            rate: Its time derivative, same shape.
+            acceleration: Its second time derivative; None for zero.
+            branch: Which solution.
+
+        Returns:
+            θ, θ̇, θ̈, each ``(..., 12)``.
+
+        Raises:
+            Unreachable: A pose has no solution on the branch within the limits.
+            SingularPose: Rates don't exist at a pose.
+        """
+        solution = self.inverse_kinematics(pose, branch).require()
+        return solution.angles, *self._derivatives(solution.posture, pose, rate, acceleration)
+
+    def rates(self, pose: Any, rate: Any, branch: Branch = DEFAULT_BRANCH) -> np.ndarray:
+        """Joint rates ``(..., 12)``; see :meth:`joint_motion`."""
+        return self.joint_motion(pose, rate, None, branch)[1]
+
+    def accelerations(
+        self, pose: Any, rate: Any, acceleration: Any, branch: Branch = DEFAULT_BRANCH
+    ) -> np.ndarray:
+        """Joint accelerations ``(..., 12)``; see :meth:`joint_motion`."""
+        return self.joint_motion(pose, rate, acceleration, branch)[2]
+
+    def _derivatives(
+        self, posture: Posture, pose: Any, rate: Any, acceleration: Any
+    ) -> tuple[np.ndarray, np.ndarray]:
+        rates.check_regular(posture)
+        shape = posture.shape
+        acceleration = np.zeros(6) if acceleration is None else acceleration
+        pose, rate, acceleration = (
+            np.ascontiguousarray(
+                np.broadcast_to(finite_array(name, value, 6), (*shape, 6)).reshape(-1, 6).T
+            )
+            for name, value in (("pose", pose), ("rate", rate), ("acceleration", acceleration))
+        )
+        v = rates.joint_rates(posture, *rates.tool_twist(posture, pose[3:5], rate))
+        wrist, alpha = rates.tool_acceleration(posture, pose[3:5], rate, acceleration)
+        a = rates.joint_accelerations(posture, v, wrist, alpha)
+        return v.T.reshape(*shape, 12), a.T.reshape(*shape, 12)
+
+    def rate_jacobian(self, q: Any) -> np.ndarray:
+        """Joint rates over the pose's rates at closed configurations, ``(..., 12, 6)``."""
+        posture = self.posture(q)
+        rates.check_regular(posture)
+        return singularity.rate_jacobian(posture, self.pose(q))
+
+    def actuation(self, q: Any) -> singularity.Actuation:
+        """Condition and determinants of the six motors' Jacobian at ``(..., 12)``."""
+        posture = self.posture(q)
+        rates.check_regular(posture)
+        return singularity.actuation(posture, self.pose(q))
+
+    def mobility(self, q: Any) -> loops.Mobility:
+        """Degrees of freedom by rank at one configuration ``(12,)``."""
+        return loops.mobility(self, finite_array("q", q, 12))
+
+    # -- dynamics ------------------------------------------------------------
+
+    def inverse_dynamics(self, q: Any, v: Any, a: Any) -> dynamics.PollardDynamics:
+        """Six torques and both ball-joint forces of closed motions ``(..., 12)``.
+
+        v and a are taken to keep the loops closed; those of :meth:`joint_motion` do.
+
+        Raises:
+            BadInput: q opens a ball joint.
+            SingularPose: The forces aren't determined.
+        """
+        q, v, a = (finite_array(name, x, 12) for name, x in (("q", q), ("v", v), ("a", a)))
+        return dynamics.inverse_dynamics(
+            self.model, self._pool, Posture.of(self.geometry, q), q, v, a
+        )
+
+    def forward_dynamics(self, q: Any, v: Any, torque: Any) -> np.ndarray:
+        """Joint accelerations ``(..., 12)`` under six torques, the loops closed."""
+        return loop_dynamics.forward_dynamics(self, q, v, torque)
+
+    def simulate(
+        self,
+        q: Any,
+        v: Any,
+        torque: Callable[[float, np.ndarray, np.ndarray], np.ndarray],
+        duration: float,
+        step: float = 1e-3,
+    ) -> JointTrajectory:
+        """Motion under six torques; see :func:`thesis_pin.loop_dynamics.simulate`."""
+        return loop_dynamics.simulate(self, q, v, torque, duration, step)
+
+    def three_torques(self, q: Any, joint_force: Any) -> dynamics.ThreeTorques:
+        """The thesis's three base torques; see :func:`pollard_pin.dynamics.three_torques`."""
+        return dynamics.three_torques(self.rate_jacobian(q), np.asarray(joint_force))
+
+    def energy(self, q: Any, v: Any) -> np.ndarray:
+        """Kinetic plus potential energy [J], shape ``(...)``."""
+        q, v = finite_array("q", q, 12), finite_array("v", v, 12)
+        data = self.model.createData()
+        values = [
+            pin.computeKineticEnergy(self.model, data, one, rate)
+            + pin.computePotentialEnergy(self.model, data, one)
+            for one, rate in zip(q.reshape(-1, 12), v.reshape(-1, 12), strict=True)
+        ]
+        return np.array(values).reshape(q.shape[:-1])
