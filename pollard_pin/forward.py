@@ -53,6 +53,20 @@ class Assemblies:
     residual: np.ndarray
     count: np.ndarray
 
+    def require(self) -> None:
+        """Raise if some motor angles have no mode.
+
+        Raises:
+            Unreachable: Names the first of them.
+        """
+        if not self.count.all():
+            index = [int(k) for k in np.argwhere(~np.atleast_1d(self.count > 0))[0]]
+            raise Unreachable(
+                "no assembly mode: a rod is too short or too long to join its arm to the forearm",
+                where=f"motor angles {index}" if self.count.ndim else "motor angles",
+                remedy="Bring the base motors nearer to a pose found by inverse kinematics",
+            )
+
     def nearest(self, reference: Any) -> np.ndarray:
         """Joint angles of the mode nearest to reference angles, shape ``(..., 12)``.
 
@@ -63,13 +77,7 @@ class Assemblies:
             Unreachable: Some motor angles have no mode at all.
         """
         reference = finite_array("reference", reference, 12)
-        if not self.count.all():
-            index = tuple(int(k) for k in np.argwhere(~np.atleast_1d(self.count > 0))[0])
-            raise Unreachable(
-                "no assembly mode: a rod is too short or too long to join its arm to the forearm",
-                where=f"motor angles {list(index) if self.count.ndim else ''}".strip(),
-                remedy="Bring the base motors nearer to a pose found by inverse kinematics",
-            )
+        self.require()
         gap = np.abs(wrap(self.angles - reference[..., None, :]))
         distance = np.where(np.isnan(gap), np.inf, gap).sum(axis=-1)
         best = np.argmin(distance, axis=-1)

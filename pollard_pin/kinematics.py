@@ -26,7 +26,7 @@ from pollard_pin.geometry import Branch, Geometry, pose_rotation
 from pollard_pin.posture import Posture
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.arrays import finite_array, wrap
-from thesis_pin.errors import Unreachable
+from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.tolerances import TOLERANCES
 
 _CHUNK = 2048  # samples whose intermediates stay in a core's cache
@@ -156,13 +156,47 @@ class Solutions:
             )
         pose = np.broadcast_to(self.pose, (*self.reachable.shape, 6))[index]
         wrist = pose[:3] - geometry.x_1918 * pose_rotation(pose)[:, 0]
-        distance = float(np.linalg.norm(wrist - [0.0, 0.0, geometry.z_10]))
-        low = abs(geometry.x_32 - geometry.forearm)
-        high = geometry.x_32 + geometry.forearm
-        text = f"the wrist would be {distance:.3f} m from the shoulder"
-        if low <= distance <= high:
-            return text + ", too far sideways for an upper arm that moves in the plane y = 0"
-        return text + f", where upper arm and forearm span {low:.3f} to {high:.3f} m"
+        side = abs(float(wrist[1]))
+        if side >= geometry.forearm:
+            return (
+                f"the wrist would be {side:.3f} m beside the plane in which the upper arm moves, "
+                f"and the forearm is {geometry.forearm:.3f} m long"
+            )
+        reach = math.sqrt(geometry.forearm**2 - side**2)
+        distance = math.hypot(wrist[0], wrist[2] - geometry.z_10)
+        low, high = abs(geometry.x_32 - reach), geometry.x_32 + reach
+        near = "near to" if distance < low else "far from"
+        return (
+            f"the wrist would be too {near} the shoulder: {distance:.3f} m from its axis, where "
+            f"upper arm and forearm span {low:.3f} to {high:.3f} m (wrist {side:.3f} m to the side)"
+        )
+
+    def require_one(self, *, allow_singular: bool = False) -> Solutions:
+        """Return itself, or raise if one pose has no valid, regular solution on any branch.
+
+        Args:
+            allow_singular: Accept singular solutions.
+
+        Raises:
+            Unreachable: No branch reaches the pose within the limits.
+            SingularPose: Every branch that does is singular.
+        """
+        valid = np.atleast_1d(self.valid)
+        if not valid.any():
+            near = int(np.argmax(np.atleast_1d(self.margin)))
+            reason = self.explain(near if self.valid.ndim else ())
+            raise Unreachable(
+                f"no branch of {len(self.branches)} reaches the pose; the nearest, "
+                f"{self.branches[near]}: {reason}",
+                remedy="Move it, or turn the tool",
+            )
+        singular = np.atleast_1d(self.singularity)
+        if not allow_singular and not (valid & (singular == "")).any():
+            raise SingularPose(
+                f"the pose is singular: {singular[int(np.argmax(valid))]}",
+                remedy="Move it a little, or pass --allow-singular for angles alone",
+            )
+        return self
 
     def require(self, what: str = "pose", time: np.ndarray | None = None) -> Solutions:
         """Return itself, or raise if any pose has no solution within the limits.
@@ -183,6 +217,7 @@ class Solutions:
             f"({values}) on branch {self.branches[index[-1] if len(self.branches) > 1 else 0]}: "
             f"{self.explain(index)}",
             where=where,
+            remedy="Move it, turn the tool, or choose another branch",
         )
 
 

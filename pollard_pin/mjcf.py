@@ -59,12 +59,14 @@ def mjcf(specification: Specification, anchors: np.ndarray, inertia: Reading = "
         base = (0.0, sign * side.y_10, 0.0)
         content.append(writer.body(f"chain{i}_arm", 6, [(first, "z")], base, [rod]))
     connects = "".join(
-        f'    <connect name="ball_joint_{i}" site1="forearm_anchor_{i}" site2="chain{i}_rod_tip"/>\n'
+        f'    <connect name="ball_joint_{i}" site1="forearm_anchor_{i}" '
+        f'site2="chain{i}_rod_tip"/>\n'
         for i in (1, 2)
     )
     effort = number(specification.assumptions.joint_limits.effort)
     motors = "".join(
-        f'    <motor name="{name}" joint="{name}" ctrllimited="true" ctrlrange="-{effort} {effort}"/>\n'
+        f'    <motor name="{name}" joint="{name}" ctrllimited="true" '
+        f'ctrlrange="-{effort} {effort}"/>\n'
         for name in ACTUATOR_NAMES
     )
     return (

@@ -9,6 +9,7 @@ Source: Pollard thesis, appendix B.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -247,9 +248,7 @@ def arc(
     return _single("arc", curve, duration, timing)
 
 
-def _single(
-    name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str
-) -> Path:
+def _single(name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str) -> Path:
     timing_law(timing, duration, np.zeros(1))
     return Path(
         name,
@@ -259,9 +258,7 @@ def _single(
     )
 
 
-def through(
-    time: Any, poses: Any, method: str = "cubic", *, name: str = "poses over time"
-) -> Path:
+def through(time: Any, poses: Any, method: str = "cubic", *, name: str = "poses over time") -> Path:
     """A spline through poses at given times, with its exact derivatives.
 
     Args:
@@ -299,7 +296,7 @@ def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
     """
     if not paths:
         raise TrajectoryError("a path needs at least one segment")
-    for number, (before, after) in enumerate(zip(paths[:-1], paths[1:], strict=True), start=1):
+    for number, (before, after) in enumerate(itertools.pairwise(paths), start=1):
         end, start = before.at(before.duration), after.at(0.0)
         for what, one, two in (
             ("pose", end.pose, start.pose),
@@ -335,6 +332,4 @@ def load_path(file: Any) -> Path:
         return read_csv(file)
     if suffix == "toml":
         return read_toml_path(file)
-    raise BadInput(
-        f"a path can't be a .{suffix} file", where=str(file), allowed=".csv or .toml"
-    )
+    raise BadInput(f"a path can't be a .{suffix} file", where=str(file), allowed=".csv or .toml")

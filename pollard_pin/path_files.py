@@ -26,6 +26,7 @@ TOML::
 from __future__ import annotations
 
 import csv
+import itertools
 import math
 from collections.abc import Iterator
 from pathlib import Path as File
@@ -94,7 +95,7 @@ class PathFile(Strict):
             yield (), "[[segments]] need a [start]", None
         if self.poses and len(self.poses) < 2:
             yield ("poses",), "needs at least two poses", None
-        for k, (before, after) in enumerate(zip(self.poses[:-1], self.poses[1:], strict=True)):
+        for k, (before, after) in enumerate(itertools.pairwise(self.poses)):
             if after.time <= before.time:
                 yield (
                     ("poses", k + 1, "time"),

@@ -38,8 +38,12 @@ def _scaled(k: np.ndarray, v: Vector) -> Vector:
     return np.stack([k * v[0], k * v[1], k * v[2]])
 
 
-def check_regular(posture: Posture) -> None:
+def check_regular(posture: Posture, time: np.ndarray | None = None) -> None:
     """Refuse postures in which rates don't exist.
+
+    Args:
+        posture: The postures.
+        time: Their times [s], for the message.
 
     Raises:
         SingularPose: Names the first one and the direction that is lost.
@@ -50,7 +54,8 @@ def check_regular(posture: Posture) -> None:
         sample, which = (int(k) for k in np.argwhere(lost)[0])
         raise SingularPose(
             f"rates don't exist: {Posture.SERIAL_NAMES[which]} (sine {sines[sample, which]:.1e})",
-            where=f"pose {sample}" if len(sines) > 1 else "pose",
+            where=(f"pose {sample}" if len(sines) > 1 else "pose")
+            + ("" if time is None else f" at t = {time[sample]:.6g} s"),
             allowed=f"sines above {TOLERANCES.near_singular:.0e}",
             remedy="Move the path away from this posture, or choose another branch",
         )

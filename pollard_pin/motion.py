@@ -1,0 +1,87 @@
+"""Tool motion → joint motion, with everything that can go wrong on the way named."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pollard_pin.geometry import DEFAULT_BRANCH, Branch
+from pollard_pin.kinematics import Solutions
+from pollard_pin.model import Pollard
+from pollard_pin.path import ToolMotion
+from pollard_pin.rates import (
+    check_regular,
+    joint_accelerations,
+    joint_rates,
+    tool_acceleration,
+    tool_twist,
+)
+from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.arrays import wrap
+from thesis_pin.errors import SingularPose, Unreachable
+from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.trajectory import JointTrajectory
+
+_JUMP = 1.0  # rad between two samples that only a break of the branch explains …
+_UNFORESEEN = 0.5  # … if the rates on both sides foretell less than this of it
+
+
+def joint_trajectory(
+    robot: Pollard, motion: ToolMotion, branch: Branch = DEFAULT_BRANCH
+) -> tuple[JointTrajectory, Solutions]:
+    """Angles, rates and accelerations of the twelve joints along a path.
+
+    Args:
+        robot: The robot.
+        motion: Sampled path.
+        branch: Which solution; it is kept all along.
+
+    Returns:
+        The joint trajectory, its angles without jumps of a whole turn, and the
+        solutions with margins and residuals.
+
+    Raises:
+        Unreachable: A pose can't be reached, or an angle leaves its limits.
+        SingularPose: A sample is singular, or the path crosses a serial singularity.
+    """
+    solution = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
+    posture = solution.posture
+    check_regular(posture, motion.time)
+    pose, rate, acceleration = (
+        np.ascontiguousarray(x.T) for x in (motion.pose, motion.rate, motion.acceleration)
+    )
+    v = joint_rates(posture, *tool_twist(posture, pose[3:5], rate))
+    a = joint_accelerations(posture, v, *tool_acceleration(posture, pose[3:5], rate, acceleration))
+    v, a = np.ascontiguousarray(v.T), np.ascontiguousarray(a.T)
+    _check_unbroken(motion.time, solution.angles, v)
+    q = np.unwrap(solution.angles, axis=0)
+    _check_limits(robot, motion.time, q)
+    return JointTrajectory(motion.time, q, v, a), solution
+
+
+def _check_unbroken(time: np.ndarray, q: np.ndarray, v: np.ndarray) -> None:
+    step = np.diff(time)[:, None]
+    change = wrap(np.diff(q, axis=0))
+    foreseen = step * (v[1:] + v[:-1]) / 2
+    broken = (np.abs(change) > _JUMP) & (np.abs(change - foreseen) > _UNFORESEEN)
+    if broken.any():
+        k, joint = (int(i) for i in np.argwhere(broken)[0])
+        raise SingularPose(
+            f"the path crosses a serial singularity: {JOINT_NAMES[joint]} "
+            f"({JOINT_SYMBOLS[joint]}) jumps by {np.degrees(change[k, joint]):.0f}°",
+            where=f"between t = {time[k]:.6g} and {time[k + 1]:.6g} s",
+            remedy="Move the path, turn the tool or choose another branch; if the samples are "
+            "far apart, take more of them",
+        )
+
+
+def _check_limits(robot: Pollard, time: np.ndarray, q: np.ndarray) -> None:
+    beyond = np.maximum(robot.lower - q, q - robot.upper)
+    if (beyond > TOLERANCES.joint_limit).any():
+        k, joint = (int(i) for i in np.argwhere(beyond > TOLERANCES.joint_limit)[0])
+        low, high = np.degrees([robot.lower[joint], robot.upper[joint]])
+        raise Unreachable(
+            f"{JOINT_NAMES[joint]} ({JOINT_SYMBOLS[joint]}) leaves its limits: "
+            f"{np.degrees(q[k, joint]):.2f}°, outside {low:g}° to {high:g}°",
+            where=f"t = {time[k]:.6g} s",
+            remedy="Move the path, or start it nearer to the middle of the joint's range",
+        )

@@ -1,0 +1,46 @@
+"""What every joint has to carry, so that its pin and bearings can be sized."""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+
+from pollard_pin.specification import JOINT_NAMES
+from pollard_pin.urdf import ANCHOR_FRAMES, ROD_TIP_FRAMES
+from thesis_pin.closures import ClosedRobot
+
+
+def joint_reactions(
+    robot: ClosedRobot, q: np.ndarray, v: np.ndarray, a: np.ndarray, loop_force: np.ndarray
+) -> np.ndarray:
+    """Force and moment in each of the twelve joints of the closed mechanism.
+
+    Args:
+        robot: The robot.
+        q: Closed configurations [rad], shape ``(n, 12)``.
+        v: Their rates [rad/s], same shape.
+        a: Their accelerations [rad/s²], same shape.
+        loop_force: On the forearm at the two ball joints, world axes [N], ``(n, 2, 3)``.
+
+    Returns:
+        What the link before a joint does to the link after it: force [N], then moment
+        about the joint's origin [N·m], in the axes of the link after it, shape
+        ``(n, 12, 6)``. The component of the moment along the joint's axis is the motor
+        torque, zero in a passive joint.
+    """
+    model, data = robot.model, robot.model.createData()
+    frames = [(robot.model.getFrameId(f), 1.0, i) for i, f in enumerate(ANCHOR_FRAMES)]
+    frames += [(robot.model.getFrameId(f), -1.0, i) for i, f in enumerate(ROD_TIP_FRAMES)]
+    result = np.empty((len(q), len(JOINT_NAMES), 6))
+    for k in range(len(q)):
+        external = [pin.Force.Zero() for _ in range(model.njoints)]
+        pin.forwardKinematics(model, data, q[k])
+        for number, sign, i in frames:
+            frame = model.frames[number]
+            local = data.oMi[frame.parentJoint].rotation.T @ (sign * loop_force[k, i])
+            point = frame.placement.translation
+            external[frame.parentJoint] += pin.Force(local, np.cross(point, local))
+        pin.rnea(model, data, q[k], v[k], a[k], external)
+        for joint in range(1, model.njoints):
+            result[k, joint - 1] = data.f[joint].vector
+    return result
