@@ -340,7 +340,7 @@ def _workspace(arguments: argparse.Namespace) -> int:
     from pollard_pin.workspace import workspace
     from thesis_pin.errors import BadInput
 
-    axes = []
+    axes: dict[str, Any] = {}
     for name in "xyz":
         ends = getattr(arguments, name)
         if len(ends) > 2 or (len(ends) == 2 and not ends[0] < ends[1]):
@@ -348,14 +348,14 @@ def _workspace(arguments: argparse.Namespace) -> int:
                 f"--{name} is {' '.join(f'{end:g}' for end in ends)}",
                 allowed="one value, or from and to in ascending order",
             )
-        axes.append(np.linspace(*ends, arguments.points) if len(ends) == 2 else np.array(ends))
+        axes[name] = np.linspace(ends[0], ends[-1], arguments.points if len(ends) == 2 else 1)
     robot = load(arguments.specification, inertia=arguments.inertia)
     with _Bar() as bar:
         space = workspace(
             robot,
-            *axes,
-            np.radians(arguments.orientation),
-            _branch(arguments),
+            **axes,
+            orientation=np.radians(arguments.orientation),
+            branch=_branch(arguments),
             jobs=arguments.jobs,
             progress=bar,
         )

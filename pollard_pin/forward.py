@@ -126,11 +126,15 @@ def branch_of(geometry: Geometry, angles: np.ndarray) -> Branch:
     posture = Posture.of(geometry, angles)
     wrist = posture.elbow[:, 0] + geometry.forearm * posture.forearm_axes[0][:, 0]
     line = math.atan2(geometry.z_10 - wrist[2], wrist[0])
-    signs = [_sign(wrap(angles[0] - line)), _sign(math.cos(angles[2])), _sign(math.sin(angles[4]))]
+    signs = [
+        _sign(math.sin(angles[0] - line)),
+        _sign(math.cos(angles[2])),
+        _sign(math.sin(angles[4])),
+    ]
     for i in (0, 1):
         ball = posture.ball_joint(i)[:, 0]
         line = math.atan2(ball[1] - geometry.y_10[i], ball[0])
-        signs += [_sign(wrap(angles[6 + 3 * i] - line)), _sign(math.cos(angles[8 + 3 * i]))]
+        signs += [_sign(math.sin(angles[6 + 3 * i] - line)), _sign(math.cos(angles[8 + 3 * i]))]
     return Branch(*signs)
 
 

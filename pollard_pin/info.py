@@ -81,7 +81,7 @@ def print_info(robot: Pollard) -> None:
         kind = "motor" if joint["motor"] else "passive"
         rows.append((joint["name"], joint["symbol"], kind, f"{low:g}", f"{high:g}"))
     print_table(("joint", "symbol", "", "lower [°]", "upper [°]"), rows)
-    rows = [
+    weights = [
         (
             body["name"],
             f"{body['mass']:.3f}",
@@ -90,7 +90,7 @@ def print_info(robot: Pollard) -> None:
         )
         for body in content["bodies"]
     ]
-    print_table(("body", "mass [kg]", "gyration [mm]", "length [mm]"), rows)
+    print_table(("body", "mass [kg]", "gyration [mm]", "length [mm]"), weights)
     freedom = content["freedom"]
     print_text(
         f"Degrees of freedom: {freedom['counted']} by counting (2.2), "

@@ -76,7 +76,7 @@ class Solutions:
     def valid(self) -> np.ndarray:
         """Whether a solution exists and keeps the joint limits, shape ``(...)``."""
         # NaN compares false, so unreachable poses drop out.
-        return (self.beyond_limits <= TOLERANCES.joint_limit).all(axis=-1)
+        return np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1)
 
     @cached_property
     def posture(self) -> Posture:
@@ -145,30 +145,28 @@ class Solutions:
         geometry = self.geometry
         if broken:
             side = broken - 1
-            low = abs(geometry.x_43[side] - geometry.x_87[side])
-            high = geometry.x_43[side] + geometry.x_87[side]
+            arm, rod = float(geometry.x_43[side]), float(geometry.x_87[side])
             far = "too far from" if cosines[broken] > 0 else "too near to"
             return (
                 f"{_CONDITIONS[broken]} can't close: its ball joint would be {far} its base for "
-                f"an arm of {geometry.x_43[side]:g} m that turns about a vertical axis and a rod "
-                f"of {geometry.x_87[side]:g} m (they span {low:g} to {high:g} m; "
-                f"cosine {cosines[broken]:.4f}, allowed ±1)"
+                f"an arm of {arm:g} m that turns about a vertical axis and a rod of {rod:g} m "
+                f"(cosine {cosines[broken]:.4f}, allowed ±1)"
             )
         pose = np.broadcast_to(self.pose, (*self.reachable.shape, 6))[index]
         wrist = pose[:3] - geometry.x_1918 * pose_rotation(pose)[:, 0]
-        side = abs(float(wrist[1]))
-        if side >= geometry.forearm:
+        beside = abs(float(wrist[1]))
+        if beside >= geometry.forearm:
             return (
-                f"the wrist would be {side:.3f} m beside the plane in which the upper arm moves, "
+                f"the wrist would be {beside:.3f} m beside the plane in which the upper arm moves, "
                 f"and the forearm is {geometry.forearm:.3f} m long"
             )
-        reach = math.sqrt(geometry.forearm**2 - side**2)
+        reach = math.sqrt(geometry.forearm**2 - beside**2)
         distance = math.hypot(wrist[0], wrist[2] - geometry.z_10)
         low, high = abs(geometry.x_32 - reach), geometry.x_32 + reach
         near = "near to" if distance < low else "far from"
         return (
             f"the wrist would be too {near} the shoulder: {distance:.3f} m from its axis, where "
-            f"upper arm and forearm span {low:.3f} to {high:.3f} m (wrist {side:.3f} m to the side)"
+            f"upper arm and forearm span {low:.3f} to {high:.3f} m (wrist {beside:.3f} m to the side)"
         )
 
     def require_one(self, *, allow_singular: bool = False) -> Solutions:
@@ -184,7 +182,7 @@ class Solutions:
         valid = np.atleast_1d(self.valid)
         if not valid.any():
             near = int(np.argmax(np.atleast_1d(self.margin)))
-            reason = self.explain(near if self.valid.ndim else ())
+            reason = self.explain(near if self.valid.ndim else ()).removeprefix("unreachable: ")
             raise Unreachable(
                 f"no branch of {len(self.branches)} reaches the pose; the nearest, "
                 f"{self.branches[near]}: {reason}",

@@ -185,9 +185,7 @@ def appendix_b(
     )
 
 
-def line(
-    start: Sequence[float], end: Sequence[float], duration: float, timing: str = "rest-to-rest"
-) -> Path:
+def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") -> Path:
     """A straight line between two poses (x, y, z, ψ, θ, φ)."""
     first, last = finite_array("start", start, 6), finite_array("end", end, 6)
 
@@ -199,9 +197,9 @@ def line(
 
 
 def arc(
-    start: Sequence[float],
-    via: Sequence[float],
-    end: Sequence[float],
+    start: Any,
+    via: Any,
+    end: Any,
     duration: float,
     timing: str = "rest-to-rest",
 ) -> Path:

@@ -23,6 +23,14 @@ _CHAINS = (
 )
 
 
+_POINTS = 1000  # more along a curve don't show
+
+
+def _thin(report: TrajectoryReport) -> slice:
+    """Every how many samples to draw."""
+    return slice(None, None, max(1, len(report.joints.time) // _POINTS))
+
+
 def joints_figure(report: TrajectoryReport, order: int) -> Figure:
     """Positions, velocities or accelerations of all joints (4.1, 4.2, 4.3).
 
@@ -33,11 +41,12 @@ def joints_figure(report: TrajectoryReport, order: int) -> Figure:
     values = (report.joints.q, report.joints.v, report.joints.a)[order]
     unit = ("°", "°/s", "°/s²")[order]
     figure, axes = new_figure(10, 7, 2, 2)
+    some = _thin(report)
     for ax, (title, joints) in zip(axes.flat, _CHAINS, strict=True):
         for colour, joint in zip(PALETTE, joints, strict=False):
             ax.plot(
-                report.joints.time,
-                np.degrees(values[:, joint]),
+                report.joints.time[some],
+                np.degrees(values[some, joint]),
                 color=colour,
                 label=JOINT_SYMBOLS[joint],
             )
@@ -50,6 +59,7 @@ def joints_figure(report: TrajectoryReport, order: int) -> Figure:
 def actuators_figure(report: TrajectoryReport) -> Figure:
     """Torque, power and work of base and wrist motors (4.4)."""
     figure, axes = new_figure(10, 9, 3, 2)
+    some = _thin(report)
     rows = (
         ("torque [N·m]", report.torque),
         ("power [W]", report.power),
@@ -59,8 +69,8 @@ def actuators_figure(report: TrajectoryReport) -> Figure:
         for ax, title, motors in zip(row, ("base", "wrist"), (range(3), range(3, 6)), strict=True):
             for k in motors:
                 ax.plot(
-                    report.joints.time,
-                    values[:, k],
+                    report.joints.time[some],
+                    values[some, k],
                     color=PALETTE[k % 3],
                     label=ACTUATOR_SYMBOLS[k],
                 )
@@ -74,29 +84,40 @@ def margins_figure(report: TrajectoryReport) -> Figure:
     """Ball-joint forces, condition number and reach margin."""
     figure, axes = new_figure(8, 8, 3, 1)
     force, condition, margin = axes[:, 0]
+    some = _thin(report)
+    time = report.joints.time[some]
     for i in (0, 1):
         force.plot(
-            report.joints.time,
-            report.loop_force_size[:, i],
+            time,
+            report.loop_force_size[some, i],
             color=PALETTE[i],
             label=f"ball joint {i + 1}",
         )
     force.legend(fontsize="small")
     force.set(ylabel="force [N]", title="Loop reactions")
-    condition.plot(report.joints.time, report.holding.condition, color=PALETTE[0])
+    condition.plot(time, report.holding.condition[some], color=PALETTE[0])
     condition.set(ylabel="condition [-]", title="Six-motor Jacobian, lengths in 0.1 m")
-    margin.plot(report.joints.time, report.solutions.margin, color=PALETTE[2])
+    margin.plot(time, report.solutions.margin[some], color=PALETTE[2])
     margin.set(ylabel="margin [-]", xlabel="time [s]", title="Reach margin")
     return figure
+
+
+def _files(name: str, figure: Figure) -> dict[str, bytes]:
+    # Lay out once, not once a format: that is half the time a figure takes.
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+    figure.set_layout_engine("none")
+    return figure_files(name, figure)
 
 
 def report_files(report: TrajectoryReport) -> dict[str, bytes]:
     """Every figure of a report as PNG and SVG: file name → content."""
     files: dict[str, bytes] = {}
     for order, name in enumerate(("positions", "velocities", "accelerations")):
-        files |= figure_files(f"{name}", joints_figure(report, order))
-    files |= figure_files("actuators", actuators_figure(report))
-    files |= figure_files("margins", margins_figure(report))
+        files |= _files(name, joints_figure(report, order))
+    files |= _files("actuators", actuators_figure(report))
+    files |= _files("margins", margins_figure(report))
     return files
 
 
@@ -134,4 +155,4 @@ def workspace_figure(space: Workspace) -> Figure:
 
 def workspace_files(space: Workspace) -> dict[str, bytes]:
     """The workspace as PNG and SVG: file name → content."""
-    return figure_files("workspace", workspace_figure(space))
+    return _files("workspace", workspace_figure(space))

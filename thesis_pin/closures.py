@@ -16,7 +16,7 @@ first; the force reported for a loop acts on the first frame's body.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -291,7 +291,9 @@ _PER_VELOCITY = (
 )
 
 
-def replace_joints(model: pin.Model, kinds: dict[str, str], *, where: str = FILE_KIND) -> pin.Model:
+def replace_joints(
+    model: pin.Model, kinds: Mapping[str, str], *, where: str = FILE_KIND
+) -> pin.Model:
     """A model in which some joints have types that a URDF can't express.
 
     Args:
