@@ -43,13 +43,11 @@ class PollardDynamics:
     separation: np.ndarray
 
 
-def tree_torques(
-    model: pin.Model, pool: pin.ModelPool, q: np.ndarray, v: np.ndarray, a: np.ndarray
-) -> np.ndarray:
+def tree_torques(pool: pin.ModelPool, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> np.ndarray:
     """RNEA of the open tree over a stack ``(n, 12)`` [N·m]."""
-    del model
     columns = [np.asfortranarray(np.ascontiguousarray(x).T) for x in (q, v, a)]
-    return np.asarray(pin.rneaInParallel(1, pool, *columns)).T
+    # For a single sample Pinocchio drops the second axis.
+    return np.asarray(pin.rneaInParallel(1, pool, *columns)).reshape(12, -1).T
 
 
 def loop_forces(posture: Posture, tau: np.ndarray) -> tuple[Vector, Vector, np.ndarray]:
@@ -113,7 +111,6 @@ def motor_torques(posture: Posture, tau: np.ndarray, forces: tuple[Vector, Vecto
 
 
 def inverse_dynamics(
-    model: pin.Model,
     pool: pin.ModelPool,
     posture: Posture,
     q: np.ndarray,
@@ -134,7 +131,7 @@ def inverse_dynamics(
             remedy="Use angles from inverse_kinematics or forward_kinematics",
         )
     flat = [np.broadcast_to(x, q.shape).reshape(-1, 12) for x in (q, v, a)]
-    tau = tree_torques(model, pool, *flat)
+    tau = tree_torques(pool, *flat)
     rows = np.ascontiguousarray(tau.T)
     one, two, sine = loop_forces(posture, rows)
     torque = motor_torques(posture, rows, (one, two))

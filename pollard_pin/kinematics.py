@@ -166,7 +166,8 @@ class Solutions:
         near = "near to" if distance < low else "far from"
         return (
             f"the wrist would be too {near} the shoulder: {distance:.3f} m from its axis, where "
-            f"upper arm and forearm span {low:.3f} to {high:.3f} m (wrist {beside:.3f} m to the side)"
+            f"upper arm and forearm span {low:.3f} to {high:.3f} m (wrist {beside:.3f} m to the "
+            "side)"
         )
 
     def require_one(self, *, allow_singular: bool = False) -> Solutions:

@@ -224,9 +224,7 @@ class Pollard(ClosedRobot):
             SingularPose: The forces aren't determined.
         """
         q, v, a = (finite_array(name, x, 12) for name, x in (("q", q), ("v", v), ("a", a)))
-        return dynamics.inverse_dynamics(
-            self.model, self._pool, Posture.of(self.geometry, q), q, v, a
-        )
+        return dynamics.inverse_dynamics(self._pool, Posture.of(self.geometry, q), q, v, a)
 
     def forward_dynamics(self, q: Any, v: Any, torque: Any) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` under six torques, the loops closed."""
