@@ -7,7 +7,7 @@ import numpy as np
 from pollard_pin.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.kinematics import Solutions
 from pollard_pin.model import Pollard
-from pollard_pin.path import ToolMotion
+from pollard_pin.path import Path, ToolMotion
 from pollard_pin.rates import (
     check_regular,
     joint_accelerations,
@@ -26,7 +26,10 @@ _UNFORESEEN = 0.5  # … if the rates on both sides foretell less than this of i
 
 
 def joint_trajectory(
-    robot: Pollard, motion: ToolMotion, branch: Branch = DEFAULT_BRANCH
+    robot: Pollard,
+    motion: ToolMotion,
+    branch: Branch = DEFAULT_BRANCH,
+    path: Path | None = None,
 ) -> tuple[JointTrajectory, Solutions]:
     """Angles, rates and accelerations of the twelve joints along a path.
 
@@ -34,6 +37,7 @@ def joint_trajectory(
         robot: The robot.
         motion: Sampled path.
         branch: Which solution; it is kept all along.
+        path: Where the samples come from, to look closer where they are far apart.
 
     Returns:
         The joint trajectory, its angles without jumps of a whole turn, and the
@@ -43,6 +47,25 @@ def joint_trajectory(
         Unreachable: A pose can't be reached, or an angle leaves its limits.
         SingularPose: A sample is singular, or the path crosses a serial singularity.
     """
+    solution, v, a = _solve(robot, motion, branch)
+    for k, joint, change in _suspicious(motion.time, solution.angles, v):
+        if path is None or _breaks(robot, path, motion.time[k : k + 2], branch):
+            raise SingularPose(
+                f"the path crosses a serial singularity: {JOINT_NAMES[joint]} "
+                f"({JOINT_SYMBOLS[joint]}) jumps by {np.degrees(change):.0f}°",
+                where=f"between t = {motion.time[k]:.6g} and {motion.time[k + 1]:.6g} s",
+                remedy="Move the path, turn the tool or choose another branch"
+                + ("" if path else "; if the samples are far apart, take more of them"),
+            )
+    q = np.unwrap(solution.angles, axis=0)
+    _check_limits(robot, motion.time, q)
+    return JointTrajectory(motion.time, q, v, a), solution
+
+
+def _solve(
+    robot: Pollard, motion: ToolMotion, branch: Branch
+) -> tuple[Solutions, np.ndarray, np.ndarray]:
+    """Angles in (−π, π], rates and accelerations at the samples."""
     solution = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
     posture = solution.posture
     check_regular(posture, motion.time)
@@ -51,27 +74,23 @@ def joint_trajectory(
     )
     v = joint_rates(posture, *tool_twist(posture, pose[3:5], rate))
     a = joint_accelerations(posture, v, *tool_acceleration(posture, pose[3:5], rate, acceleration))
-    v, a = np.ascontiguousarray(v.T), np.ascontiguousarray(a.T)
-    _check_unbroken(motion.time, solution.angles, v)
-    q = np.unwrap(solution.angles, axis=0)
-    _check_limits(robot, motion.time, q)
-    return JointTrajectory(motion.time, q, v, a), solution
+    return solution, np.ascontiguousarray(v.T), np.ascontiguousarray(a.T)
 
 
-def _check_unbroken(time: np.ndarray, q: np.ndarray, v: np.ndarray) -> None:
+def _suspicious(time: np.ndarray, q: np.ndarray, v: np.ndarray) -> list[tuple[int, int, float]]:
+    """Sample, joint and change [rad] wherever an angle changes much more than its rate says."""
     step = np.diff(time)[:, None]
     change = wrap(np.diff(q, axis=0))
     foreseen = step * (v[1:] + v[:-1]) / 2
     broken = (np.abs(change) > _JUMP) & (np.abs(change - foreseen) > _UNFORESEEN)
-    if broken.any():
-        k, joint = (int(i) for i in np.argwhere(broken)[0])
-        raise SingularPose(
-            f"the path crosses a serial singularity: {JOINT_NAMES[joint]} "
-            f"({JOINT_SYMBOLS[joint]}) jumps by {np.degrees(change[k, joint]):.0f}°",
-            where=f"between t = {time[k]:.6g} and {time[k + 1]:.6g} s",
-            remedy="Move the path, turn the tool or choose another branch; if the samples are "
-            "far apart, take more of them",
-        )
+    return [(int(k), int(joint), float(change[k, joint])) for k, joint in np.argwhere(broken)]
+
+
+def _breaks(robot: Pollard, path: Path, ends: np.ndarray, branch: Branch) -> bool:
+    """Whether the branch breaks between two samples, looked at 300 times as closely."""
+    motion = path.at(np.linspace(ends[0], ends[1], 301))
+    solution, v, _ = _solve(robot, motion, branch)
+    return bool(_suspicious(motion.time, solution.angles, v))
 
 
 def _check_limits(robot: Pollard, time: np.ndarray, q: np.ndarray) -> None:

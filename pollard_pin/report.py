@@ -279,7 +279,7 @@ def trajectory_report(
     if actuators not in ("six", "three"):
         raise UnknownName("number of actuators", actuators, ("six", "three"))
     motion = path.sample(samples)
-    joints, solutions = joint_trajectory(robot, motion, branch)
+    joints, solutions = joint_trajectory(robot, motion, branch, path)
     posture = solutions.posture
     holding = actuation(posture, motion.pose)
 

@@ -155,6 +155,12 @@ def test_angles_along_a_path_do_not_jump_by_a_turn(pollard):
     assert np.abs(report.joints.q).max() > np.pi
 
 
+def test_few_samples_are_not_mistaken_for_a_break(skewed):
+    """60 samples of 18 periods change by more than the rates foretell, and nothing breaks."""
+    report = trajectory_report(skewed, appendix_b(skewed.specification), samples=60)
+    assert np.abs(np.diff(report.joints.q, axis=0)).max() > 1.0
+
+
 def test_an_unknown_number_of_actuators_is_refused(pollard):
     with pytest.raises(UnknownName, match="six, three"):
         trajectory_report(pollard, appendix_b(), actuators="four")

@@ -80,8 +80,8 @@ def test_forward_dynamics_with_our_torques_agree_within_soft_constraints(pair):
     asks for 0.9999), which a hard loop doesn't have.
     """
     robot, model, _ = pair
-    motion = appendix_b(robot.specification).sample(60)
-    joints, _ = joint_trajectory(robot, motion)
+    path = appendix_b(robot.specification)
+    joints, _ = joint_trajectory(robot, path.sample(60), path=path)
     found = robot.inverse_dynamics(joints.q, joints.v, joints.a)
     data = mujoco.MjData(model)
     acceleration, force = np.empty((60, 12)), np.empty((60, 2))
