@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from pollard_pin.geometry import Branch
     from pollard_pin.path import Path
 
-_POSE = ("X", "Y", "Z", "PSI", "THETA", "PHI")
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point; returns the exit code."""
@@ -131,8 +129,8 @@ def _add_ik(verbs: Any) -> None:
         "pose",
         nargs=6,
         type=number("the pose"),
-        metavar=_POSE,
-        help="spray tip [m] and ψ, θ, φ [°]; put -- before a negative first number",
+        metavar="VALUE",
+        help="x y z of the spray tip [m], then ψ θ φ of the tool [°]",
     )
     verb.add_argument(
         "--allow-singular",
@@ -148,15 +146,15 @@ def _add_fk(verbs: Any) -> None:
         "fk",
         help="every assembly mode of six motor angles",
         description="Poses of the spray tip for angles of the six motors, every assembly mode.",
-        epilog="Example: pollard-pin fk -- -35 -40 40 0 20 0",
+        epilog="Example: pollard-pin fk -35 -40 40 0 20 0",
     )
     _add_robot(verb)
     verb.add_argument(
         "motors",
         nargs=6,
         type=number("a motor angle"),
-        metavar=("T21", "T211", "T212", "T1615", "T1716", "T1817"),
-        help="motor angles [°]",
+        metavar="ANGLE",
+        help="θ21 θ211 θ212 θ1615 θ1716 θ1817 [°]",
     )
     verb.add_argument("--json", metavar="FILE|-", help="write the modes as JSON")
     verb.set_defaults(run=_fk)

@@ -230,7 +230,9 @@ def _exact(robot: ClosedRobot, gap: np.ndarray, matrix: np.ndarray) -> np.ndarra
     for loop in robot.loops:
         block = matrix[row : row + loop.size]
         if loop.size == 6:
-            block = pin.Jlog6(pin.exp6(gap[row : row + 6])) @ block
+            # Pinocchio's twist is in the first frame, the derivative wants the second.
+            moved = pin.exp6(gap[row : row + 6])
+            block = pin.Jlog6(moved) @ moved.toActionMatrixInverse() @ block
         blocks.append(block)
         row += loop.size
     return np.concatenate(blocks)

@@ -1,0 +1,289 @@
+"""The command pollard-pin as a user runs it: in a process of its own."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).parents[2]
+DATA = ROOT / "tests" / "thesis_pin" / "data"
+
+
+def pollard_pin(
+    *arguments, cwd=None, code="import sys; from pollard_pin.cli import main; sys.exit(main())"
+):
+    environment = os.environ | {"COLUMNS": "80", "PYTHONPATH": str(ROOT)}
+    return subprocess.run(
+        [sys.executable, "-c", code, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        cwd=cwd,
+        env=environment,
+        check=False,
+    )
+
+
+def test_default_run_with_printed_inertias_shows_the_peaks_and_the_assumptions():
+    done = pollard_pin("trajectory", "--inertia", "printed")
+    assert done.returncode == 0
+    assert done.stderr == ""
+    text = " ".join(done.stdout.split())
+    for peak in ("θ21 1.7478", "θ211 1.2762", "θ212 1.2699"):
+        assert peak in text
+    assert "determinant of constant sign" in text
+    assert "the thesis uses them (3.2) and prints none" in text
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+def test_report_as_json_has_the_documented_keys():
+    done = pollard_pin("trajectory", "--json", "-", "--samples", "51", "--inertia", "printed")
+    document = json.loads(done.stdout)
+    keys = (
+        "actuators joints time pose theta theta_rate theta_acceleration torque power work "
+        "loop_force condition margin parameters summary"
+    )
+    assert set(keys.split()) <= document.keys()
+    assert np.shape(document["loop_force"]) == (51, 2, 3)
+    np.testing.assert_allclose(
+        document["work"], np.array(document["summary"]["net_work"]), atol=1e-9
+    )
+
+
+def test_out_writes_report_samples_and_the_thesis_figures(tmp_path):
+    done = pollard_pin("trajectory", "--out", tmp_path / "new" / "report", "--samples", "101")
+    assert done.returncode == 0, done.stderr
+    names = {file.name for file in (tmp_path / "new" / "report").iterdir()}
+    figures = ("positions", "velocities", "accelerations", "actuators", "margins")
+    assert names == {
+        "report.json",
+        "samples.csv",
+        *(f"{figure}.{kind}" for figure in figures for kind in ("png", "svg")),
+    }
+    report = json.loads((tmp_path / "new" / "report" / "report.json").read_text())
+    lines = (tmp_path / "new" / "report" / "samples.csv").read_text().splitlines()
+    assert len(lines) == 102
+    row = dict(zip(lines[0].split(","), map(float, lines[50].split(",")), strict=True))
+    assert row["torque_chain0_shoulder_Nm"] == report["torque"][49][0]
+
+
+@pytest.mark.parametrize("verb", ["trajectory", "ik", "fk", "workspace", "info", "urdf", "check"])
+def test_help_of_every_verb_has_an_example_that_names_it(verb):
+    done = pollard_pin(verb, "--help")
+    assert done.returncode == 0
+    assert f"Example: pollard-pin {verb}" in done.stdout
+
+
+def test_help_imports_nothing_heavy():
+    code = (
+        "import sys; from pollard_pin.cli import main\n"
+        "try: main(['--help'])\n"
+        "except SystemExit: pass\n"
+        "heavy = {'numpy', 'pinocchio', 'scipy', 'matplotlib', 'pydantic', 'rich', 'yaml'}\n"
+        "sys.stderr.write(' '.join(sorted(heavy & set(sys.modules))))"
+    )
+    done = pollard_pin(code=code)
+    assert "Pollard" in done.stdout
+    assert done.stderr == ""
+
+
+def test_a_short_report_needs_neither_scipy_nor_matplotlib():
+    code = (
+        "import sys; from pollard_pin.cli import main\n"
+        "main(['trajectory', '--samples', '11', '--json', '-'])\n"
+        "sys.stderr.write(' '.join(sorted({'scipy', 'matplotlib'} & set(sys.modules))))"
+    )
+    done = pollard_pin(code=code)
+    assert json.loads(done.stdout)["schema"] == "pollard-pin/trajectory-report"
+    assert done.stderr == ""
+
+
+def test_inverse_and_forward_kinematics_return_to_the_pose():
+    done = pollard_pin("ik", "--json", "-", "--", 0.45, 0.03, 0.05, 5, 10, -20)
+    document = json.loads(done.stdout)
+    assert len(document["branches"]) == 16
+    best = next(one for one in document["branches"] if one["branch"] == "-++-+++")
+    motors = np.degrees(best["angles"])[[0, 6, 9, 3, 4, 5]]
+    modes = json.loads(pollard_pin("fk", "--json", "-", "--", *motors).stdout)["modes"]
+    poses = np.array([mode["pose"] for mode in modes])
+    gaps = np.abs(poses - document["pose"]).max(axis=1)
+    assert gaps.min() < 1e-9
+    assert modes[int(gaps.argmin())]["branch"] == "-++-+++"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("ik", "0.45", "0", "0.05", "0", "10", "0"), "16 of 16 branches are valid"),
+        (("ik", "0.45", "0", "0.05", "0", "10", "0", "--branch=-++-+++"), "1 of 1 branches"),
+        (("fk", "-35", "-40", "40", "0", "20", "0"), "2 assembly modes"),
+        (("info",), "6 by counting (2.2), 6 by rank"),
+        (("check", DATA / "five_bar.urdf", DATA / "five_bar.yaml"), "2 by rank"),
+        (("workspace", "--points", "15"), "reachable share"),
+    ],
+)
+def test_tables_fit_a_terminal_and_say_what_matters(arguments, says):
+    done = pollard_pin(*arguments)
+    assert done.returncode == 0, done.stderr
+    assert says in " ".join(done.stdout.split())
+    assert "…" not in done.stdout
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+def test_urdf_writes_the_four_files_and_check_accepts_them(tmp_path):
+    done = pollard_pin("urdf", "--out", tmp_path)
+    assert done.returncode == 0
+    names = ("pollard.urdf", "pollard_printed.urdf", "pollard.closures.yaml", "pollard.mjcf.xml")
+    assert {file.name for file in tmp_path.iterdir()} == set(names)
+    done = pollard_pin("check", tmp_path / names[0], tmp_path / names[2], "--json", "-")
+    assert json.loads(done.stdout)["freedom"]["by_rank"] == 6
+
+
+def test_workspace_writes_data_and_picture(tmp_path):
+    done = pollard_pin("workspace", "--points", "21", "--out", tmp_path, "--y", "-0.2", "0.2")
+    assert done.returncode == 0, done.stderr
+    assert {file.name for file in tmp_path.iterdir()} == {
+        "workspace.csv",
+        "workspace.json",
+        "workspace.png",
+        "workspace.svg",
+    }
+    assert len((tmp_path / "workspace.csv").read_text().splitlines()) == 21**3 + 1
+
+
+def test_everything_runs_on_the_second_specification(tmp_path):
+    other = ROOT / "pollard_pin" / "specifications" / "skewed.toml"
+    for arguments in (
+        ("trajectory", "--samples", "101"),
+        ("ik", "0.47", "0", "0.05", "0", "10", "0"),
+        ("info",),
+        ("urdf", "--out", tmp_path),
+        ("workspace", "--points", "9"),
+    ):
+        done = pollard_pin(*arguments, "--specification", other)
+        assert done.returncode == 0, done.stderr
+
+
+POSES = "time_s,x_m,y_m,z_m,psi_deg,theta_deg,phi_deg\n"
+CROSSING = POSES + "0,0.45,0,-0.1,0,0,0\n2,0.25,0,-0.1,0,0,0\n"
+BACKWARDS = POSES + "0,0.45,0,0,0,0,0\n2,0.46,0,0,0,0,0\n1,0.47,0,0,0,0,0\n"
+LOOPS = "closed_loop: [[left_tip, right_tip]]\ntype: ['3d']\nname_mot: [motor_left]\n"
+
+
+def bad_inputs(folder):
+    """Command lines that must be refused, with a word of the reason."""
+    files = {
+        "crossing.csv": CROSSING,
+        "backwards.csv": BACKWARDS,
+        "four.csv": "0,0.45,0,0\n1,0.46,0,0\n",
+        "frame.yaml": LOOPS.replace("right_tip", "wrong_tip"),
+        "lengths.yaml": LOOPS.replace("['3d']", "['3d', '6d']"),
+        "broken.toml": "format = 1\nname = 3\n",
+        "two_parents.urdf": (DATA / "five_bar.urdf")
+        .read_text()
+        .replace('<child link="right_tip"/>', '<child link="left_tip"/>')
+        .replace('  <link name="right_tip"/>\n', ""),
+    }
+    for name, text in files.items():
+        (folder / name).write_text(text)
+    bar, loops = DATA / "five_bar.urdf", DATA / "five_bar.yaml"
+    return {
+        "unreachable pose": (("ik", "2", "0", "0", "0", "0", "0"), "too far from the shoulder"),
+        "pose that only other orientations reach": (
+            ("ik", "0.07", "0", "0.05", "0", "0", "0"),
+            "too near to the shoulder",
+        ),
+        "singular pose": (
+            # Straight up the wrist: with the elbow up, tool along the forearm.
+            ("ik", "--branch=-++-+++", *straight_wrist()),
+            "wrist straight",
+        ),
+        "motor angles without a mode": (
+            ("fk", "-35", "-140", "140", "0", "20", "0"),
+            "no assembly mode",
+        ),
+        "path across a singularity": (
+            ("trajectory", "--path", folder / "crossing.csv"),
+            "determinant of the three base motors changes sign",
+        ),
+        "the print unshifted": (
+            ("trajectory", "--placement", "0", "0", "0"),
+            "too near to the shoulder",
+        ),
+        "four columns": (("trajectory", "--path", folder / "four.csv"), "4 columns"),
+        "time backwards": (
+            ("trajectory", "--path", folder / "backwards.csv"),
+            "backwards.csv:4: time goes from 2 to 1",
+        ),
+        "path and duration": (
+            ("trajectory", "--path", folder / "crossing.csv", "--duration", "3"),
+            "--duration belongs to appendix B",
+        ),
+        "missing path": (("trajectory", "--path", folder / "none.csv"), "can't read the path"),
+        "broken specification": (
+            ("trajectory", "--specification", folder / "broken.toml"),
+            "problems in the specification",
+        ),
+        "unknown frame": (("check", bar, folder / "frame.yaml"), "unknown frame 'wrong_tip'"),
+        "unequal lists": (("check", bar, folder / "lengths.yaml"), "2 entries for 1 loops"),
+        "two parents": (("check", folder / "two_parents.urdf", loops), "has two parents"),
+        "branch": (("ik", "0.45", "0", "0", "0", "0", "0", "--branch=+-"), "seven signs"),
+        "axis the wrong way": (("workspace", "--x", "0.8", "0.1"), "ascending"),
+    }
+
+
+def straight_wrist():
+    from pollard_pin.model import load
+
+    robot = load()
+    angles = robot.inverse_kinematics([0.45, 0.03, 0.02, 0.0, 0.0, 0.0]).angles.copy()
+    angles[4] = 0.0
+    pose = robot.pose(angles)
+    pose[3:] = np.degrees(pose[3:])
+    return ["--", *map(repr, pose.tolist())]
+
+
+def test_every_bad_input_gets_one_message_exit_code_2_and_writes_nothing(tmp_path):
+    inputs, out = tmp_path / "inputs", tmp_path / "out"
+    inputs.mkdir()
+    out.mkdir()
+    for name, (arguments, says) in bad_inputs(inputs).items():
+        arguments = list(map(str, arguments))
+        flags = ["--json", str(out / "x.json")]
+        if arguments[0] in ("trajectory", "workspace"):
+            flags += ["--out", str(out / "new")]
+        done = pollard_pin(arguments[0], *flags, *arguments[1:], cwd=out)
+        assert done.returncode == 2, (name, done.stdout, done.stderr)
+        assert says in " ".join(done.stderr.split()), (name, done.stderr)
+        assert done.stderr.startswith("pollard-pin: error: "), name
+        assert "Traceback" not in done.stderr, name
+        assert done.stdout == "", name
+        assert list(out.iterdir()) == [], name
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("trajectory", "--samples", "1"),
+        ("trajectory", "--duration", "-3"),
+        ("trajectory", "--actuators", "four"),
+        ("ik", "1", "2", "nan", "0", "0", "0"),
+        ("fly",),
+    ],
+)
+def test_a_bad_flag_is_refused_by_name(arguments):
+    done = pollard_pin(*arguments)
+    assert done.returncode == 2
+    assert "usage: pollard-pin" in done.stderr
+    assert done.stdout == ""
+
+
+def test_an_unwritable_place_is_named(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    done = pollard_pin("trajectory", "--samples", "11", "--json", blocked / "x.json")
+    assert done.returncode == 2
+    assert str(blocked) in done.stderr.replace("\n", "")
