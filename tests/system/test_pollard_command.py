@@ -1,10 +1,11 @@
-"""The command pollard-pin as a user runs it: in a process of its own."""
+"""The command pollard-pin: in a process of its own where that matters, else called directly."""
 
 import json
 import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,22 +14,40 @@ ROOT = Path(__file__).parents[2]
 DATA = ROOT / "tests" / "thesis_pin" / "data"
 
 
-def pollard_pin(
-    *arguments, cwd=None, code="import sys; from pollard_pin.cli import main; sys.exit(main())"
-):
+def process(*arguments, code="import sys; from pollard_pin.cli import main; sys.exit(main())"):
+    """Run the command as a user does."""
     environment = os.environ | {"COLUMNS": "80", "PYTHONPATH": str(ROOT)}
     return subprocess.run(
         [sys.executable, "-c", code, *map(str, arguments)],
         capture_output=True,
         text=True,
-        cwd=cwd,
         env=environment,
         check=False,
     )
 
 
+@pytest.fixture
+def pollard_pin(capfd, monkeypatch):
+    """The command called in this process: saves starting Python seventy times."""
+    monkeypatch.setenv("COLUMNS", "80")
+
+    def call(*arguments):
+        from pollard_pin.cli import main
+
+        capfd.readouterr()
+        try:
+            code = main(list(map(str, arguments)))
+        except SystemExit as stop:
+            code = stop.code
+        sys.stdout.flush()
+        said = capfd.readouterr()
+        return SimpleNamespace(returncode=code, stdout=said.out, stderr=said.err)
+
+    return call
+
+
 def test_default_run_with_printed_inertias_shows_the_peaks_and_the_assumptions():
-    done = pollard_pin("trajectory", "--inertia", "printed")
+    done = process("trajectory", "--inertia", "printed")
     assert done.returncode == 0
     assert done.stderr == ""
     text = " ".join(done.stdout.split())
@@ -40,7 +59,7 @@ def test_default_run_with_printed_inertias_shows_the_peaks_and_the_assumptions()
 
 
 def test_report_as_json_has_the_documented_keys():
-    done = pollard_pin("trajectory", "--json", "-", "--samples", "51", "--inertia", "printed")
+    done = process("trajectory", "--json", "-", "--samples", "51", "--inertia", "printed")
     document = json.loads(done.stdout)
     keys = (
         "actuators joints time pose theta theta_rate theta_acceleration torque power work "
@@ -53,7 +72,7 @@ def test_report_as_json_has_the_documented_keys():
     )
 
 
-def test_out_writes_report_samples_and_the_thesis_figures(tmp_path):
+def test_out_writes_report_samples_and_the_thesis_figures(pollard_pin, tmp_path):
     done = pollard_pin("trajectory", "--out", tmp_path / "new" / "report", "--samples", "101")
     assert done.returncode == 0, done.stderr
     names = {file.name for file in (tmp_path / "new" / "report").iterdir()}
@@ -71,7 +90,7 @@ def test_out_writes_report_samples_and_the_thesis_figures(tmp_path):
 
 
 @pytest.mark.parametrize("verb", ["trajectory", "ik", "fk", "workspace", "info", "urdf", "check"])
-def test_help_of_every_verb_has_an_example_that_names_it(verb):
+def test_help_of_every_verb_has_an_example_that_names_it(pollard_pin, verb):
     done = pollard_pin(verb, "--help")
     assert done.returncode == 0
     assert f"Example: pollard-pin {verb}" in done.stdout
@@ -85,7 +104,7 @@ def test_help_imports_nothing_heavy():
         "heavy = {'numpy', 'pinocchio', 'scipy', 'matplotlib', 'pydantic', 'rich', 'yaml'}\n"
         "sys.stderr.write(' '.join(sorted(heavy & set(sys.modules))))"
     )
-    done = pollard_pin(code=code)
+    done = process(code=code)
     assert "Pollard" in done.stdout
     assert done.stderr == ""
 
@@ -96,12 +115,12 @@ def test_a_short_report_needs_neither_scipy_nor_matplotlib():
         "main(['trajectory', '--samples', '11', '--json', '-'])\n"
         "sys.stderr.write(' '.join(sorted({'scipy', 'matplotlib'} & set(sys.modules))))"
     )
-    done = pollard_pin(code=code)
+    done = process(code=code)
     assert json.loads(done.stdout)["schema"] == "pollard-pin/trajectory-report"
     assert done.stderr == ""
 
 
-def test_inverse_and_forward_kinematics_return_to_the_pose():
+def test_inverse_and_forward_kinematics_return_to_the_pose(pollard_pin):
     done = pollard_pin("ik", "--json", "-", "--", 0.45, 0.03, 0.05, 5, 10, -20)
     document = json.loads(done.stdout)
     assert len(document["branches"]) == 16
@@ -125,7 +144,7 @@ def test_inverse_and_forward_kinematics_return_to_the_pose():
         (("workspace", "--points", "15"), "reachable share"),
     ],
 )
-def test_tables_fit_a_terminal_and_say_what_matters(arguments, says):
+def test_tables_fit_a_terminal_and_say_what_matters(pollard_pin, arguments, says):
     done = pollard_pin(*arguments)
     assert done.returncode == 0, done.stderr
     assert says in " ".join(done.stdout.split())
@@ -133,7 +152,7 @@ def test_tables_fit_a_terminal_and_say_what_matters(arguments, says):
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
-def test_urdf_writes_the_four_files_and_check_accepts_them(tmp_path):
+def test_urdf_writes_the_four_files_and_check_accepts_them(pollard_pin, tmp_path):
     done = pollard_pin("urdf", "--out", tmp_path)
     assert done.returncode == 0
     names = ("pollard.urdf", "pollard_printed.urdf", "pollard.closures.yaml", "pollard.mjcf.xml")
@@ -142,7 +161,7 @@ def test_urdf_writes_the_four_files_and_check_accepts_them(tmp_path):
     assert json.loads(done.stdout)["freedom"]["by_rank"] == 6
 
 
-def test_workspace_writes_data_and_picture(tmp_path):
+def test_workspace_writes_data_and_picture(pollard_pin, tmp_path):
     done = pollard_pin("workspace", "--points", "21", "--out", tmp_path, "--y", "-0.2", "0.2")
     assert done.returncode == 0, done.stderr
     assert {file.name for file in tmp_path.iterdir()} == {
@@ -154,7 +173,7 @@ def test_workspace_writes_data_and_picture(tmp_path):
     assert len((tmp_path / "workspace.csv").read_text().splitlines()) == 21**3 + 1
 
 
-def test_everything_runs_on_the_second_specification(tmp_path):
+def test_everything_runs_on_the_second_specification(pollard_pin, tmp_path):
     other = ROOT / "pollard_pin" / "specifications" / "skewed.toml"
     for arguments in (
         ("trajectory", "--samples", "101"),
@@ -246,7 +265,7 @@ def straight_wrist():
     return ["--", *map(repr, pose.tolist())]
 
 
-def test_every_bad_input_gets_one_message_exit_code_2_and_writes_nothing(tmp_path):
+def test_every_bad_input_gets_one_message_exit_code_2_and_writes_nothing(pollard_pin, tmp_path):
     inputs, out = tmp_path / "inputs", tmp_path / "out"
     inputs.mkdir()
     out.mkdir()
@@ -255,7 +274,7 @@ def test_every_bad_input_gets_one_message_exit_code_2_and_writes_nothing(tmp_pat
         flags = ["--json", str(out / "x.json")]
         if arguments[0] in ("trajectory", "workspace"):
             flags += ["--out", str(out / "new")]
-        done = pollard_pin(arguments[0], *flags, *arguments[1:], cwd=out)
+        done = pollard_pin(arguments[0], *flags, *arguments[1:])
         assert done.returncode == 2, (name, done.stdout, done.stderr)
         assert says in " ".join(done.stderr.split()), (name, done.stderr)
         assert done.stderr.startswith("pollard-pin: error: "), name
@@ -274,14 +293,14 @@ def test_every_bad_input_gets_one_message_exit_code_2_and_writes_nothing(tmp_pat
         ("fly",),
     ],
 )
-def test_a_bad_flag_is_refused_by_name(arguments):
+def test_a_bad_flag_is_refused_by_name(pollard_pin, arguments):
     done = pollard_pin(*arguments)
     assert done.returncode == 2
     assert "usage: pollard-pin" in done.stderr
     assert done.stdout == ""
 
 
-def test_an_unwritable_place_is_named(tmp_path):
+def test_an_unwritable_place_is_named(pollard_pin, tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("")
     done = pollard_pin("trajectory", "--samples", "11", "--json", blocked / "x.json")
