@@ -214,17 +214,21 @@ class Pollard(ClosedRobot):
 
     # -- dynamics ------------------------------------------------------------
 
-    def inverse_dynamics(self, q: Any, v: Any, a: Any) -> dynamics.PollardDynamics:
+    def inverse_dynamics(
+        self, q: Any, v: Any, a: Any, posture: Posture | None = None
+    ) -> dynamics.PollardDynamics:
         """Six torques and both ball-joint forces of closed motions ``(..., 12)``.
 
         v and a are taken to keep the loops closed; those of :meth:`joint_motion` do.
+        ``posture`` is that of q, if it is known already.
 
         Raises:
             BadInput: q opens a ball joint.
             SingularPose: The forces aren't determined.
         """
         q, v, a = (finite_array(name, x, 12) for name, x in (("q", q), ("v", v), ("a", a)))
-        return dynamics.inverse_dynamics(self._pool, Posture.of(self.geometry, q), q, v, a)
+        posture = posture or Posture.of(self.geometry, q)
+        return dynamics.inverse_dynamics(self._pool, posture, q, v, a)
 
     def forward_dynamics(self, q: Any, v: Any, torque: Any) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` under six torques, the loops closed."""

@@ -16,7 +16,6 @@ from pollard_pin.rates import (
     tool_twist,
 )
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin.arrays import wrap
 from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.trajectory import JointTrajectory
@@ -48,7 +47,8 @@ def joint_trajectory(
         SingularPose: A sample is singular, or the path crosses a serial singularity.
     """
     solution, v, a = _solve(robot, motion, branch)
-    for k, joint, change in _suspicious(motion.time, solution.angles, v):
+    q, changes = _unwrapped(solution.angles)
+    for k, joint, change in _suspicious(motion.time, changes, v):
         if path is None or _breaks(robot, path, motion.time[k : k + 2], branch):
             raise SingularPose(
                 f"the path crosses a serial singularity: {JOINT_NAMES[joint]} "
@@ -57,7 +57,6 @@ def joint_trajectory(
                 remedy="Move the path, turn the tool or choose another branch"
                 + ("" if path else "; if the samples are far apart, take more of them"),
             )
-    q = np.unwrap(solution.angles, axis=0)
     _check_limits(robot, motion.time, q)
     return JointTrajectory(motion.time, q, v, a), solution
 
@@ -77,20 +76,34 @@ def _solve(
     return solution, np.ascontiguousarray(v.T), np.ascontiguousarray(a.T)
 
 
-def _suspicious(time: np.ndarray, q: np.ndarray, v: np.ndarray) -> list[tuple[int, int, float]]:
+def _unwrapped(q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Angles without jumps of a whole turn, and their changes from sample to sample."""
+    changes = np.diff(q, axis=0)
+    turns = np.rint(changes / (2 * np.pi))
+    if turns.any():
+        changes = changes - 2 * np.pi * turns
+        q = q.copy()
+        q[1:] -= 2 * np.pi * np.cumsum(turns, axis=0)
+    return q, changes
+
+
+def _suspicious(
+    time: np.ndarray, changes: np.ndarray, v: np.ndarray
+) -> list[tuple[int, int, float]]:
     """Sample, joint and change [rad] wherever an angle changes much more than its rate says."""
-    step = np.diff(time)[:, None]
-    change = wrap(np.diff(q, axis=0))
-    foreseen = step * (v[1:] + v[:-1]) / 2
-    broken = (np.abs(change) > _JUMP) & (np.abs(change - foreseen) > _UNFORESEEN)
-    return [(int(k), int(joint), float(change[k, joint])) for k, joint in np.argwhere(broken)]
+    found = []
+    for k, joint in np.argwhere(np.abs(changes) > _JUMP):
+        foreseen = (time[k + 1] - time[k]) * (v[k + 1, joint] + v[k, joint]) / 2
+        if abs(changes[k, joint] - foreseen) > _UNFORESEEN:
+            found.append((int(k), int(joint), float(changes[k, joint])))
+    return found
 
 
 def _breaks(robot: Pollard, path: Path, ends: np.ndarray, branch: Branch) -> bool:
     """Whether the branch breaks between two samples, looked at 300 times as closely."""
     motion = path.at(np.linspace(ends[0], ends[1], 301))
     solution, v, _ = _solve(robot, motion, branch)
-    return bool(_suspicious(motion.time, solution.angles, v))
+    return bool(_suspicious(motion.time, _unwrapped(solution.angles)[1], v))
 
 
 def _check_limits(robot: Pollard, time: np.ndarray, q: np.ndarray) -> None:

@@ -288,7 +288,7 @@ def trajectory_report(
         return float(actuation(there.posture, there.pose).base_determinant[0])
 
     require_one_sign(determinant, motion.time, holding.base_determinant)
-    dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a)
+    dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a, posture)
     three = None
     if actuators == "three":
         three = three_torques(rate_jacobian(posture, motion.pose), dynamics.joint_force)
