@@ -176,9 +176,16 @@ class ClosedRobot(LoadedRobot):
     """
 
     def __init__(
-        self, urdf: str, closures: ClosureFile, root_joint: Any = None, *, where: str = FILE_KIND
+        self,
+        urdf: str,
+        closures: ClosureFile,
+        root_joint: Any = None,
+        *,
+        where: str = FILE_KIND,
+        folder: Path | None = None,
     ) -> None:
         super().__init__(urdf, {}, root_joint)
+        self._urdf_folder = folder
         if closures.joint_name:
             kinds = dict(zip(closures.joint_name, closures.joint_type, strict=True))
             self.model = replace_joints(self.model, kinds, where=where)
@@ -199,6 +206,13 @@ class ClosedRobot(LoadedRobot):
         self.actuated_q = np.array([joint.idx_q for joint in joints])
         self.passive = np.setdiff1d(np.arange(self.model.nv), self.actuated)
         self.constraint_models = [loop.constraint_model(self.model) for loop in self.loops]
+
+    def _geometry(self, kind: Any) -> pin.GeometryModel:
+        """Geometry; meshes are looked for beside the URDF and in the folder above."""
+        if self._urdf_folder is None:
+            return super()._geometry(kind)
+        folders = [str(self._urdf_folder), str(self._urdf_folder.parent)]
+        return pin.buildGeomFromUrdfString(self.model, self.urdf, kind, package_dirs=folders)
 
     @property
     def equations(self) -> int:
@@ -237,7 +251,8 @@ def load(urdf: str | Path, closures: str | Path, root_joint: Any = None) -> Clos
         raise BadInput(f"can't read the URDF: {reason}", where=str(urdf)) from None
     content = ClosureFile.read(closures)
     check_urdf(text, where=str(urdf))  # once more below, but here its messages name the file
-    return ClosedRobot(text, content, root_joint, where=str(closures))
+    folder = Path(urdf).resolve().parent
+    return ClosedRobot(text, content, root_joint, where=str(closures), folder=folder)
 
 
 def _loops(model: pin.Model, closures: ClosureFile, where: str) -> tuple[Loop, ...]:

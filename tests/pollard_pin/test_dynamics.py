@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pinocchio as pin
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import pollard_pin
 from pollard_pin import USEFUL_BRANCHES
@@ -106,6 +108,36 @@ def test_base_reactions_carry_the_weight_at_rest(robot, rng):
             for joint in (1, robot.model.getJointId("chain1_shoulder"), 10)
         )
         np.testing.assert_allclose(total, [0, 0, 9.81 * robot.mass], atol=1e-10)
+
+
+ANGLE, RATE = st.floats(-0.3, 0.3), st.floats(-2, 2)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.tuples(st.floats(0.38, 0.52), st.floats(-0.1, 0.1), st.floats(-0.05, 0.1)),
+    st.tuples(ANGLE, ANGLE, ANGLE),
+    st.tuples(*[RATE] * 6),
+    st.tuples(*[RATE] * 6),
+)
+def test_torques_are_the_same_backwards_in_time_and_linear_in_acceleration(
+    place, turn, rate, acceleration
+):
+    robot = pollard_pin.load()
+    pose, rate, acceleration = map(np.array, ((*place, *turn), rate, acceleration))
+    q, v, a = robot.joint_motion(pose, rate, acceleration)
+    _, back, same = robot.joint_motion(pose, -rate, acceleration)
+    np.testing.assert_allclose(back, -v, atol=1e-12)
+    np.testing.assert_allclose(same, a, atol=1e-9 * (1 + np.abs(a).max()))
+    forth = robot.inverse_dynamics(q, v, a).torque
+    size = 1 + np.abs(forth).max()
+    np.testing.assert_allclose(robot.inverse_dynamics(q, -v, a).torque, forth, atol=1e-9 * size)
+    # Torques with no, half and whole tool acceleration lie on a line.
+    torques = [
+        robot.inverse_dynamics(*robot.joint_motion(pose, rate, k * acceleration)).torque
+        for k in (0.0, 0.5, 1.0)
+    ]
+    np.testing.assert_allclose(torques[1], (torques[0] + torques[2]) / 2, atol=1e-9 * size)
 
 
 def test_a_mirrored_motion_mirrors_the_torques():

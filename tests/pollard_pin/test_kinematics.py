@@ -97,6 +97,25 @@ def test_branches_of_a_pose_are_all_different_and_carry_their_label(robot, rng):
         assert [robot.branch_of(one) for one in angles] == list(ALL_BRANCHES)
 
 
+POSITION = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1))
+TURN = st.tuples(*[st.floats(-3.1, 3.1)] * 3)
+THESIS_ROBOT = pollard_pin.load()
+
+
+@settings(max_examples=300, deadline=None)
+@given(POSITION, TURN)
+def test_whatever_the_pose_a_solution_reaches_it_or_says_why_not(position, turn):
+    found = THESIS_ROBOT.inverse_kinematics([*position, *turn], "useful")
+    for k in range(16):
+        if found.reachable[k]:
+            assert found.tool_residual[k] < 1e-12
+            assert found.rotation_residual[k] < 1e-12
+            assert found.loop_residual[k].max() < 1e-12
+        else:
+            assert found.margin[k] < 0
+            assert found.explain(k).startswith("unreachable: ")
+
+
 def test_one_pose_and_a_stack_give_the_same_angles(robot, rng):
     poses = random_poses(rng, 40)
     stack = robot.inverse_kinematics(poses.reshape(2, 20, 6), "useful")

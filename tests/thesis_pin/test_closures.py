@@ -179,7 +179,8 @@ def test_a_link_with_two_parents_is_refused_with_both_joints(tmp_path):
         '  <link name="right_tip"/>\n', ""
     )
     (tmp_path / "looped.urdf").write_text(looped)
-    with pytest.raises(ModelError, match=r"looped\.urdf: link 'left_tip' has two parents") as caught:
+    says = r"looped\.urdf: link 'left_tip' has two parents"
+    with pytest.raises(ModelError, match=says) as caught:
         load(tmp_path / "looped.urdf", DATA / "five_bar.yaml")
     assert "'left_tip_joint' and 'right_tip_joint'" in str(caught.value)
     assert "closure file" in caught.value.remedy
@@ -213,3 +214,19 @@ def test_a_free_flying_looped_robot_loads():
     found = load(DATA / "five_bar.urdf", DATA / "five_bar.yaml", pin.JointModelFreeFlyer())
     assert found.model.nv == 10
     np.testing.assert_array_equal(found.actuated, [8, 6])
+
+
+def test_meshes_are_found_beside_the_urdf(tmp_path):
+    """Also in a model whose joints were replaced."""
+    (tmp_path / "bar.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
+    visual = '<visual><geometry><mesh filename="package://bar.obj"/></geometry></visual>'
+    text = (
+        (DATA / "rssr.urdf")
+        .read_text()
+        .replace('<link name="coupler">', f'<link name="coupler">{visual}')
+    )
+    (tmp_path / "robot.urdf").write_text(text)
+    found = load(tmp_path / "robot.urdf", DATA / "rssr.yaml")
+    (shape,) = found.visual_model.geometryObjects
+    assert Path(shape.meshPath) == tmp_path / "bar.obj"
+    assert shape.parentJoint == found.model.getJointId("ball")
