@@ -166,8 +166,8 @@ def _evaluate(robot: Pollard, pose: np.ndarray, branch: Branch) -> np.ndarray:
     solution = robot.inverse_kinematics(pose, branch)
     result = np.full((3, len(pose)), np.nan)
     # A pose that only a joint limit forbids is out of reach too.
-    result[0] = np.where(solution.valid, solution.margin, np.minimum(solution.margin, -0.0))
-    result[0] = np.where(~solution.valid & (result[0] >= 0), -np.inf, result[0])
+    beyond = ~solution.valid & (solution.margin >= 0)
+    result[0] = np.where(beyond, -np.inf, solution.margin)
     some = np.flatnonzero(solution.valid)
     if some.size:
         posture = Posture.of(robot.geometry, solution.angles[some])

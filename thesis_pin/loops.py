@@ -39,6 +39,20 @@ def jacobian(robot: ClosedRobot, q: np.ndarray) -> np.ndarray:
     return each(robot, lambda q: constraints(robot, robot.model.createData(), q)[1], q)
 
 
+def residual_derivative(robot: ClosedRobot, q: np.ndarray) -> np.ndarray:
+    """d residual / dq in open configurations too, shape ``(..., equations, nv)``.
+
+    The same as :func:`jacobian` but for open welds, where Pinocchio's rows are the
+    relative twist in the first frame's axes.
+    """
+
+    def one(q: np.ndarray) -> np.ndarray:
+        gap, matrix, _ = constraints(robot, robot.model.createData(), q)
+        return _derivative(robot, gap, matrix)
+
+    return each(robot, one, q)
+
+
 def drift(robot: ClosedRobot, q: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Ȧ v of closed loops, shape ``(..., equations)``: their acceleration at v̇ = 0."""
     return each(robot, lambda q, v: constraint_drift(robot, robot.model.createData(), q, v), q, v)
@@ -210,9 +224,9 @@ def closing_step(robot: ClosedRobot, q: np.ndarray, movable: Any, iterations: in
         if now == 0.0:
             break
         step = np.zeros(robot.model.nv)
-        step[movable] = -np.linalg.lstsq(_exact(robot, gap, matrix)[:, movable], gap, rcond=1e-10)[
-            0
-        ]
+        step[movable] = -np.linalg.lstsq(
+            _derivative(robot, gap, matrix)[:, movable], gap, rcond=1e-10
+        )[0]
         step *= min(1.0, 0.5 / max(float(np.abs(step).max()), 1e-300))
         q = pin.integrate(robot.model, q, step)
     if size > TOLERANCES.loop_closure:
@@ -224,13 +238,12 @@ def closing_step(robot: ClosedRobot, q: np.ndarray, movable: Any, iterations: in
     return best
 
 
-def _exact(robot: ClosedRobot, gap: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    """d residual / dq of open loops: the twist of a weld times the derivative of log6."""
+def _derivative(robot: ClosedRobot, gap: np.ndarray, matrix: np.ndarray) -> np.ndarray:
     row, blocks = 0, [np.empty((0, robot.model.nv))]
     for loop in robot.loops:
         block = matrix[row : row + loop.size]
         if loop.size == 6:
-            # Pinocchio's twist is in the first frame, the derivative wants the second.
+            # log6 is derived in the second frame's axes, the twist is in the first's.
             moved = pin.exp6(gap[row : row + 6])
             block = pin.Jlog6(moved) @ moved.toActionMatrixInverse() @ block
         blocks.append(block)

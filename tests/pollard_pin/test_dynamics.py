@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import pollard_pin
 from pollard_pin import USEFUL_BRANCHES
-from pollard_pin.dynamics import loop_forces
+from pollard_pin.dynamics import loop_forces, three_torques
 from pollard_pin.path import line
 from pollard_pin.posture import Posture
 from pollard_pin.reactions import joint_reactions
@@ -171,6 +171,21 @@ def test_three_motors_leave_part_of_the_load_unexplained(robot, rng):
     assert (np.abs(product) / (scale * np.abs(rows).max())).max() < 1e-9
     assert (three.share > 0).all()
     assert np.median(three.share) > 1e-3
+
+
+def test_the_length_weighs_forces_against_moments(pollard, rng):
+    """Least squares over (F ℓ, M), solved here by NumPy's own routine."""
+    _, _, _, q, v, a = closed_motion(pollard, rng, 5)
+    force = pollard.inverse_dynamics(q, v, a).joint_force
+    jacobian = pollard.rate_jacobian(q)
+    found = three_torques(jacobian, force, length=0.2)
+    scale = np.array([0.2] * 3 + [1.0] * 3)
+    for k in range(5):
+        rows = jacobian[k, list(ACTUATORS[:3])].T * scale[:, None]
+        load = jacobian[k].T @ force[k] * scale
+        torque, rest, *_ = np.linalg.lstsq(rows, load)
+        np.testing.assert_allclose(found.torque[k], torque, rtol=1e-8)
+        assert found.share[k] == pytest.approx(np.sqrt(rest[0]) / np.linalg.norm(load), rel=1e-6)
 
 
 def test_angles_that_open_a_loop_are_refused(pollard):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import pollard_pin
 from pollard_pin.workspace import workspace
 from thesis_pin.errors import BadInput
 
@@ -18,6 +19,19 @@ def test_every_position_agrees_with_inverse_kinematics_and_actuation(robot):
     holding = robot.actuation(found.angles[some])
     np.testing.assert_allclose(space.condition[some], holding.condition, rtol=1e-9)
     np.testing.assert_allclose(space.determinant[some], holding.base_determinant, rtol=1e-9)
+
+
+def test_what_a_joint_limit_forbids_is_out_of_reach():
+    data = pollard_pin.Specification.read().model_dump()
+    data["assumptions"]["joint_limits"]["lower_deg"] = -140
+    data["assumptions"]["joint_limits"]["upper_deg"] = 140
+    tight = pollard_pin.load(pollard_pin.Specification.model_validate(data))
+    space = workspace(tight, X, 0.0, Z)
+    pose = np.concatenate([space.points, np.zeros_like(space.points)], -1)
+    found = tight.inverse_kinematics(pose)
+    assert (found.reachable & ~found.valid).any()
+    np.testing.assert_array_equal(space.reachable, found.valid)
+    assert np.isnan(space.condition[~found.valid]).all()
 
 
 def test_threads_and_progress_do_not_change_the_result(pollard):
