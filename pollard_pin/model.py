@@ -21,6 +21,7 @@ from pollard_pin.geometry import (
     pose_from_placement,
 )
 from pollard_pin.posture import Posture
+from pollard_pin.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
 from pollard_pin.urdf import urdf
 from thesis_pin import loop_dynamics, loops
@@ -95,7 +96,7 @@ class Pollard(ClosedRobot):
 
     def inverse_kinematics(
         self, pose: Any, branch: Branches = DEFAULT_BRANCH, reference: Any = None
-    ) -> kinematics.Solutions:
+    ) -> Solutions:
         """Joint angles for poses; see :func:`pollard_pin.kinematics.inverse_kinematics`.
 
         Args:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from pollard_pin.geometry import DEFAULT_BRANCH, Branch
-from pollard_pin.kinematics import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.path import Path, ToolMotion
 from pollard_pin.rates import (
@@ -15,6 +14,7 @@ from pollard_pin.rates import (
     tool_acceleration,
     tool_twist,
 )
+from pollard_pin.solutions import Solutions
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.tolerances import TOLERANCES

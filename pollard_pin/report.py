@@ -10,12 +10,12 @@ import numpy as np
 
 from pollard_pin.dynamics import PollardDynamics, ThreeTorques, three_torques
 from pollard_pin.geometry import DEFAULT_BRANCH, POSE_NAMES, Branch
-from pollard_pin.kinematics import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.motion import joint_trajectory
 from pollard_pin.path import Path, ToolMotion
 from pollard_pin.reactions import joint_reactions
 from pollard_pin.singularity import LENGTH, Actuation, actuation, rate_jacobian, require_one_sign
+from pollard_pin.solutions import Solutions
 from pollard_pin.specification import (
     ACTUATOR_NAMES,
     ACTUATOR_SYMBOLS,

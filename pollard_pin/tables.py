@@ -9,9 +9,9 @@ import pinocchio as pin
 
 from pollard_pin.forward import Assemblies
 from pollard_pin.geometry import DEFAULT_BRANCH, POSE_NAMES
-from pollard_pin.kinematics import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.report import TrajectoryReport
+from pollard_pin.solutions import Solutions
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin import loops
 from thesis_pin.closures import ClosedRobot

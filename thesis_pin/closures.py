@@ -16,7 +16,7 @@ first; the force reported for a loop acts on the first frame's body.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -27,7 +27,8 @@ import yaml
 from pydantic import Field, field_validator
 
 from thesis_pin.errors import BadInput, ModelError, UnknownName
-from thesis_pin.loading import LoadedRobot, check_urdf, frame_id, joint_id
+from thesis_pin.joint_types import replace_joints
+from thesis_pin.loading import LoadedRobot, check_urdf, frame_id
 from thesis_pin.specification import Key, Strict, key_lines, validate
 
 FILE_KIND = "closure file"
@@ -289,73 +290,3 @@ def _motors(model: pin.Model, identifiers: Sequence[str], where: str) -> tuple[s
                 )
             motors.append(name)
     return tuple(motors)
-
-
-_PER_POSITION = ("lowerPositionLimit", "upperPositionLimit", "positionLimitMargin")
-_PER_VELOCITY = (
-    "lowerEffortLimit",
-    "upperEffortLimit",
-    "lowerVelocityLimit",
-    "upperVelocityLimit",
-    "lowerDryFrictionLimit",
-    "upperDryFrictionLimit",
-    "damping",
-    "armature",
-    "rotorInertia",
-    "rotorGearRatio",
-)
-
-
-def replace_joints(
-    model: pin.Model, kinds: Mapping[str, str], *, where: str = FILE_KIND
-) -> pin.Model:
-    """A model in which some joints have types that a URDF can't express.
-
-    Args:
-        model: The model read from the URDF.
-        kinds: Joint name → ``SPHERICAL``, ``CARDAN`` (about x, then y; the joint
-            becomes two, ``…_X`` and ``…_Y``) or ``FIXED``.
-        where: File name for messages.
-
-    Returns:
-        The new model. Limits, friction and inertias of all other joints are kept.
-    """
-    for name in kinds:
-        joint_id(model, name, where=f"{where}: joint_name")
-    new = pin.Model()
-    new.name, new.gravity = model.name, model.gravity
-    image = {0: 0}
-    for old in range(1, model.njoints):
-        name, placement = model.names[old], model.jointPlacements[old]
-        parent, joint = image[model.parents[old]], model.joints[old]
-        kind = kinds.get(name)
-        if kind == "SPHERICAL":
-            joint = pin.JointModelSpherical()
-        elif kind == "CARDAN":
-            parent = new.addJoint(parent, pin.JointModelRX(), placement, f"{name}_X")
-            joint, placement, name = pin.JointModelRY(), pin.SE3.Identity(), f"{name}_Y"
-        image[old] = new.addJoint(parent, joint, placement, name)
-        new.appendBodyToJoint(image[old], model.inertias[old], pin.SE3.Identity())
-        if kind in (None, "FIXED"):
-            _copy_limits(model, model.joints[old], new, new.joints[image[old]])
-    for frame in list(model.frames)[1:]:
-        above = new.getFrameId(model.frames[frame.parentFrame].name)
-        new.addFrame(
-            pin.Frame(frame.name, image[frame.parentJoint], above, frame.placement, frame.type),
-            False,
-        )
-    fixed = [new.getJointId(name) for name, kind in kinds.items() if kind == "FIXED"]
-    return pin.buildReducedModel(new, fixed, pin.neutral(new)) if fixed else new
-
-
-def _copy_limits(model: pin.Model, old: Any, new_model: pin.Model, new: Any) -> None:
-    for names, start, target, count in (
-        (_PER_POSITION, old.idx_q, new.idx_q, old.nq),
-        (_PER_VELOCITY, old.idx_v, new.idx_v, old.nv),
-    ):
-        for name in names:
-            values = getattr(new_model, name, None)
-            if values is not None:
-                values = np.array(values)
-                values[target : target + count] = getattr(model, name)[start : start + count]
-                setattr(new_model, name, values)

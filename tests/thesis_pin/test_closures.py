@@ -6,8 +6,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from thesis_pin.closures import ClosureFile, load, replace_joints
+from thesis_pin.closures import ClosureFile, load
 from thesis_pin.errors import BadInput, ModelError, SpecificationError, UnknownName
+from thesis_pin.joint_types import replace_joints
 
 DATA = Path(__file__).parent / "data"
 

@@ -1,0 +1,226 @@
+"""What each verb of ``pollard-pin`` does. Each imports what it needs when it runs."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING, Any
+
+from thesis_pin.command_line import OK, print_table, print_text, write_file, write_folder
+
+if TYPE_CHECKING:
+    from pollard_pin.geometry import Branch
+    from pollard_pin.path import Path
+
+
+def _branch(arguments: argparse.Namespace) -> Branch:
+    from pollard_pin.geometry import DEFAULT_BRANCH, Branch
+
+    return Branch.parse(arguments.branch) if arguments.branch else DEFAULT_BRANCH
+
+
+def _path(arguments: argparse.Namespace, specification: Any) -> Path:
+    from pollard_pin.path import appendix_b, load_path
+    from thesis_pin.errors import BadInput
+
+    if arguments.path is None:
+        return appendix_b(
+            specification,
+            placement=arguments.placement,
+            duration=arguments.duration,
+            timing=arguments.timing,
+        )
+    for flag in ("duration", "timing", "placement"):
+        if getattr(arguments, flag) is not None:
+            raise BadInput(
+                f"--{flag} belongs to appendix B's curve and --path gives another",
+                remedy="Write it into the path's file",
+            )
+    return load_path(arguments.path)
+
+
+def trajectory(arguments: argparse.Namespace) -> int:
+    from pollard_pin.model import load
+    from pollard_pin.report import trajectory_report
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    report = trajectory_report(
+        robot,
+        _path(arguments, robot.specification),
+        samples=arguments.samples,
+        branch=_branch(arguments),
+        actuators=arguments.actuators,
+    )
+    content = b""
+    if arguments.json or arguments.out:
+        from thesis_pin.report import json_bytes
+
+        content = json_bytes(report.document())
+    if arguments.out:
+        from pollard_pin.plots import report_files
+        from thesis_pin.report import csv_bytes
+
+        files = {"report.json": content, "samples.csv": csv_bytes(report.columns())}
+        write_folder(arguments.out, files | report_files(report))
+    if arguments.json:
+        write_file(arguments.json, content)
+    if arguments.json != "-":
+        from pollard_pin.tables import print_report
+
+        print_report(report)
+    return OK
+
+
+def ik(arguments: argparse.Namespace) -> int:
+    import numpy as np
+
+    from pollard_pin.geometry import USEFUL_BRANCHES
+    from pollard_pin.model import load
+    from pollard_pin.tables import ik_document, print_solutions
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    pose = np.array(arguments.pose)
+    pose[3:] = np.radians(pose[3:])
+    branches = (_branch(arguments),) if arguments.branch else USEFUL_BRANCHES
+    solutions = robot.inverse_kinematics(pose, branches)
+    solutions.require_one(allow_singular=arguments.allow_singular)
+    if arguments.json:
+        from thesis_pin.report import json_bytes
+
+        write_file(arguments.json, json_bytes(ik_document(solutions)))
+    if arguments.json != "-":
+        print_solutions(solutions)
+    return OK
+
+
+def fk(arguments: argparse.Namespace) -> int:
+    import numpy as np
+
+    from pollard_pin.model import load
+    from pollard_pin.tables import fk_document, print_modes
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    modes = robot.forward_kinematics(np.radians(arguments.motors))
+    modes.require()
+    if arguments.json:
+        from thesis_pin.report import json_bytes
+
+        write_file(arguments.json, json_bytes(fk_document(robot, modes)))
+    if arguments.json != "-":
+        print_modes(robot, modes)
+    return OK
+
+
+def workspace(arguments: argparse.Namespace) -> int:
+    import numpy as np
+
+    from pollard_pin.model import load
+    from pollard_pin.workspace import workspace as evaluate
+    from thesis_pin.errors import BadInput
+
+    axes: dict[str, Any] = {}
+    for name in "xyz":
+        ends = getattr(arguments, name)
+        if len(ends) > 2 or (len(ends) == 2 and not ends[0] < ends[1]):
+            raise BadInput(
+                f"--{name} is {' '.join(f'{end:g}' for end in ends)}",
+                allowed="one value, or from and to in ascending order",
+            )
+        axes[name] = np.linspace(ends[0], ends[-1], arguments.points if len(ends) == 2 else 1)
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    with _Bar() as bar:
+        space = evaluate(
+            robot,
+            **axes,
+            orientation=np.radians(arguments.orientation),
+            branch=_branch(arguments),
+            jobs=arguments.jobs,
+            progress=bar,
+        )
+    from thesis_pin.report import csv_bytes, json_bytes
+
+    content = json_bytes(space.document()) if arguments.json or arguments.out else b""
+    if arguments.out:
+        from pollard_pin.plots import workspace_files
+
+        files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
+        write_folder(arguments.out, files | workspace_files(space))
+    if arguments.json:
+        write_file(arguments.json, content)
+    if arguments.json != "-":
+        rows = [
+            (name.replace("_", " "), "–" if value is None else f"{value:.6g}")
+            for name, value in space.summary().items()
+        ]
+        print_table(("workspace", ""), rows)
+        print_text(
+            "Where the determinant changes sign the motors lose the tool; a path must stay on "
+            "one side."
+        )
+    return OK
+
+
+class _Bar:
+    """A progress bar on standard error, silent when that isn't a terminal."""
+
+    def __enter__(self) -> _Bar:
+        from rich.console import Console
+        from rich.progress import Progress
+
+        console = Console(stderr=True)
+        self._bar = Progress(console=console, transient=True, disable=not console.is_terminal)
+        self._task = self._bar.add_task("positions", total=None)
+        self._bar.start()
+        return self
+
+    def __call__(self, done: int, total: int) -> None:
+        self._bar.update(self._task, completed=done, total=total)
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+
+def info(arguments: argparse.Namespace) -> int:
+    from pollard_pin.info import document, print_info
+    from pollard_pin.model import load
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    if arguments.json:
+        from thesis_pin.report import json_bytes
+
+        write_file(arguments.json, json_bytes(document(robot)))
+    if arguments.json != "-":
+        print_info(robot)
+    return OK
+
+
+def urdf(arguments: argparse.Namespace) -> int:
+    from pollard_pin.specification import Specification
+    from pollard_pin.urdf import files
+    from pollard_pin.urdf import urdf as generate
+    from thesis_pin.loading import check_urdf
+
+    specification = Specification.read(arguments.specification)
+    text = generate(specification, arguments.inertia)
+    check_urdf(text, where=specification.name)
+    if arguments.out:
+        contents = {name: text.encode() for name, text in files(specification).items()}
+        write_folder(arguments.out, contents)
+        print(f"wrote {', '.join(contents)} to {arguments.out}", file=sys.stderr)
+    else:
+        write_file("-", text.encode())
+    return OK
+
+
+def check(arguments: argparse.Namespace) -> int:
+    from pollard_pin.tables import check_document, print_check
+    from thesis_pin.closures import load
+
+    document = check_document(load(arguments.urdf, arguments.closures))
+    if arguments.json:
+        from thesis_pin.report import json_bytes
+
+        write_file(arguments.json, json_bytes(document))
+    if arguments.json != "-":
+        print_check(document)
+    return OK
