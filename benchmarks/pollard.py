@@ -9,7 +9,6 @@ import pinocchio as pin
 from scipy.optimize import least_squares
 
 import pollard_pin
-from pollard_pin.dynamics import tree_torques
 from pollard_pin.motion import joint_trajectory
 from pollard_pin.path import appendix_b
 from pollard_pin.specification import ACTUATORS
@@ -87,7 +86,7 @@ def pollard_dynamics(median_time: Clock, count: int = 20_000) -> list[Row]:
     motion = appendix_b(robot.specification).sample(count)
     joints, _ = joint_trajectory(robot, motion)
     state = (joints.q, joints.v, joints.a)
-    rnea = median_time(lambda: tree_torques(robot._pool, *state), count)
+    rnea = median_time(lambda: robot.tree_torques(*state), count)
     fast = median_time(lambda: robot.inverse_dynamics(*state), count)
     some = tuple(x[:500] for x in state)
     general = median_time(lambda: loop_dynamics.inverse_dynamics(robot, *some), 500, repeats=3)

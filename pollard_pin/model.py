@@ -231,6 +231,11 @@ class Pollard(ClosedRobot):
         posture = posture or Posture.of(self.geometry, q)
         return dynamics.inverse_dynamics(self._pool, posture, q, v, a)
 
+    def tree_torques(self, q: Any, v: Any, a: Any) -> np.ndarray:
+        """RNEA of the open tree over a stack, ``(n, 12)`` each [N·m]."""
+        q, v, a = (finite_array(name, x, None, 12) for name, x in (("q", q), ("v", v), ("a", a)))
+        return dynamics.tree_torques(self._pool, q, v, a)
+
     def forward_dynamics(self, q: Any, v: Any, torque: Any) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` under six torques, the loops closed."""
         return loop_dynamics.forward_dynamics(self, q, v, torque)

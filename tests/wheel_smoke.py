@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pollard_pin
 import scout_pin
 
 here = Path(scout_pin.__file__).parent
@@ -16,6 +17,10 @@ assert "site-packages" in scout_pin.URDF_PATH
 assert Path(scout_pin.URDF_PATH).is_file()
 assert not (here.parent / "urdf").exists(), "site-packages got a folder called urdf"
 assert scout_pin.load().model.nv == 18
+for path in (pollard_pin.URDF_PATH, pollard_pin.CLOSURE_PATH):
+    assert "site-packages" in path
+    assert Path(path).is_file()
+assert pollard_pin.load().model.nv == 12
 
 bin_folder = Path(sys.argv[1])
 
@@ -30,4 +35,9 @@ report = json.loads(output("scout-pin", "gait", "--json", "-"))
 assert report["summary"]["can_walk"] is False
 assert output("scout-pin", "urdf") == Path(scout_pin.URDF_PATH).read_text()
 assert "scout" in output("scout-pin", "info")
+motors = json.loads(output("pollard-pin", "trajectory", "--json", "-"))["actuators"]
+assert len(motors) == 6
+assert output("pollard-pin", "urdf") == Path(pollard_pin.URDF_PATH).read_text()
+found = output("pollard-pin", "check", pollard_pin.URDF_PATH, pollard_pin.CLOSURE_PATH)
+assert "6 by rank" in found
 print("the installed wheel works")
