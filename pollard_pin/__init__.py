@@ -23,7 +23,7 @@ _HOMES = {
     "Path": "path",
     "load_path": "path",
     "trajectory_report": "report",
-    "workspace": "workspace",
+    "evaluate_workspace": "workspace",
 }
 
 __all__ = [*_HOMES, "__version__"]

@@ -115,7 +115,7 @@ def workspace(arguments: argparse.Namespace) -> int:
     import numpy as np
 
     from pollard_pin.model import load
-    from pollard_pin.workspace import workspace as evaluate
+    from pollard_pin.workspace import evaluate_workspace
     from thesis_pin.errors import BadInput
 
     axes: dict[str, Any] = {}
@@ -129,7 +129,7 @@ def workspace(arguments: argparse.Namespace) -> int:
         axes[name] = np.linspace(ends[0], ends[-1], arguments.points if len(ends) == 2 else 1)
     robot = load(arguments.specification, inertia=arguments.inertia)
     with _Bar() as bar:
-        space = evaluate(
+        space = evaluate_workspace(
             robot,
             **axes,
             orientation=np.radians(arguments.orientation),

@@ -104,7 +104,7 @@ class Workspace:
         }
 
 
-def workspace(
+def evaluate_workspace(
     robot: Pollard,
     x: Any,
     y: Any,
