@@ -62,7 +62,7 @@ def print_report(report: TrajectoryReport) -> None:
         f"Actuation: condition number {condition['least']:.2f} to {condition['largest']:.2f} "
         f"(largest at t = {condition['time']:.3f} s), determinant of constant sign. "
         f"Reach margin at least {margin['least']:.3f} (t = {margin['time']:.3f} s).",
-        f"With {reading['reading']} inertias the base motors would peak at "
+        f"With {reading['reading']} inertias the base motors of six would peak at "
         f"{', '.join(f'{value:.3f}' for value in reading['peak_torque'][:3])} N·m.",
         "",
         "These numbers rest on assumptions:",
