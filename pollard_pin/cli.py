@@ -73,7 +73,7 @@ def _add_trajectory(verbs: Any) -> None:
         "trajectory",
         help="what the motors, joints and ball joints have to do on a path",
         description="Torques, power, work, loop reactions and singularity margins on a path.",
-        epilog="Example: pollard-pin trajectory --path spray.csv --out report",
+        epilog="Example: pollard-pin trajectory --path examples/spray_arch.toml --out report",
     )
     _add_robot(verb)
     _add_branch(verb)

@@ -25,10 +25,10 @@ from thesis_pin.arrays import finite_array
 from thesis_pin.closures import ClosedRobot
 from thesis_pin.errors import BadInput
 from thesis_pin.loops import (
-    closing_step,
     constraint_drift,
     constraints,
     each,
+    newton_close,
     project_rates,
     residual,
 )
@@ -204,7 +204,7 @@ def simulate(
         a_4 = slope(now + width, pin.integrate(model, q, width * v_3), v_4)
         q = pin.integrate(model, q, width / 6 * (v + 2 * v_2 + 2 * v_3 + v_4))
         v = v + width / 6 * (a + 2 * a_2 + 2 * a_3 + a_4)
-        q = closing_step(robot, q, slice(None), 20)
+        q = newton_close(robot, q, slice(None), 20)
         v = project_rates(robot, dynamics.data, q, v)
         rows.append((q, v, slope(now + width, q, v)))
     return JointTrajectory(time, *(np.array(column) for column in zip(*rows, strict=True)))
@@ -251,8 +251,8 @@ def _solve(
         motions = basis[some, number:]
         actuation = motions[:, :, robot.actuated]
         left, singular, right = np.linalg.svd(actuation, full_matrices=False)
-        if not singular.size:
-            condition[some] = np.inf
+        if not singular.size:  # a structure: nothing moves, motors only prestress it
+            condition[some], unique[some] = np.inf, False
             continue
         strong = singular > TOLERANCES.rank * singular[:, :1]
         with np.errstate(divide="ignore"):

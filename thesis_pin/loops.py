@@ -115,13 +115,13 @@ def close(
     """
     guess = finite_array("guess", guess, robot.model.nq)
     if motors is None:
-        return each(robot, lambda q: closing_step(robot, q, slice(None), iterations), guess)
+        return each(robot, lambda q: newton_close(robot, q, slice(None), iterations), guess)
     motors = finite_array("motors", motors, len(robot.actuators))
 
     def one(q: np.ndarray, positions: np.ndarray) -> np.ndarray:
         q = q.copy()
         q[robot.actuated_q] = positions
-        return closing_step(robot, q, robot.passive, iterations)
+        return newton_close(robot, q, robot.passive, iterations)
 
     return each(robot, one, guess, motors)
 
@@ -212,7 +212,7 @@ def constraint_drift(
     return np.concatenate(parts)
 
 
-def closing_step(robot: ClosedRobot, q: np.ndarray, movable: Any, iterations: int) -> np.ndarray:
+def newton_close(robot: ClosedRobot, q: np.ndarray, movable: Any, iterations: int) -> np.ndarray:
     data, best, size = robot.model.createData(), q, math.inf
     for _ in range(iterations):
         gap, matrix, _ = constraints(robot, data, q)

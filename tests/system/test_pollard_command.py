@@ -173,6 +173,15 @@ def test_workspace_writes_data_and_picture(pollard_pin, tmp_path):
     assert len((tmp_path / "workspace.csv").read_text().splitlines()) == 21**3 + 1
 
 
+def test_the_example_path_is_a_closed_one_and_balances_its_energy(pollard_pin):
+    done = pollard_pin("trajectory", "--path", ROOT / "examples" / "spray_arch.toml", "--json", "-")
+    document = json.loads(done.stdout)
+    np.testing.assert_allclose(document["pose"][0], document["pose"][-1], atol=1e-12)
+    energy = document["summary"]["energy"]
+    assert abs(energy["net_work"]) < 1e-5 * energy["exchanged"]
+    assert document["parameters"]["segments"][0]["path"] == "arc"
+
+
 def test_everything_runs_on_the_second_specification(pollard_pin, tmp_path):
     other = ROOT / "pollard_pin" / "specifications" / "skewed.toml"
     for arguments in (

@@ -204,6 +204,21 @@ def test_redundant_motors_share_the_load_and_say_so(tmp_path):
     assert np.linalg.norm(found.torque) < np.linalg.norm(two.torque)
 
 
+def test_a_structure_needs_no_torque_and_says_that_motors_are_not_determined(tmp_path):
+    """With both elbows fixed the five-bar is a triangle."""
+    text = (DATA / "five_bar.yaml").read_text()
+    text += "joint_name: ['elbow_left', 'elbow_right']\njoint_type: ['FIXED', 'FIXED']\n"
+    (tmp_path / "loops.yaml").write_text(text)
+    robot = load(DATA / "five_bar.urdf", tmp_path / "loops.yaml")
+    assert robot.model.nv == 2
+    q = loops.close(robot, np.array([-1.4, -1.8]))
+    found = loop_dynamics.inverse_dynamics(robot, q, np.zeros(2), np.zeros(2))
+    assert found.freedom == 0
+    assert not found.unique
+    assert np.abs(found.torque).max() == 0.0
+    assert found.residual < 1e-10
+
+
 def test_too_few_motors_leave_a_residual(tmp_path):
     text = (DATA / "five_bar.yaml").read_text().replace("'motor_right', ", "")
     (tmp_path / "loops.yaml").write_text(text)
