@@ -70,7 +70,9 @@ def loop_forces(posture: Posture, tau: np.ndarray) -> tuple[Vector, Vector, np.n
         side = cross(yaw, unit)  # where θ76i moves the tip
         lift = dot(cross(posture.pitch_axes[i], unit), yaw)  # how much θ65i moves it along yaw
         if (np.abs(lift) < TOLERANCES.near_singular).any():
-            raise SingularPose(f"the rod of chain {i + 1} is across: θ65{i + 1} can't hold it")
+            raise SingularPose(
+                f"the rod of chain {i + 1} lies along the axis of θ65{i + 1}, which can't hold it"
+            )
         # The rod feels −f; its own joints see nothing else from the loop.
         f_side = -tau[k + 1] / length
         f_yaw = (-tau[k] / length - f_side * dot(cross(posture.pitch_axes[i], unit), side)) / lift

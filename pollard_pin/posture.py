@@ -55,12 +55,12 @@ class Posture:
 
     SERIAL_NAMES: ClassVar[tuple[str, ...]] = (
         "elbow straight or folded",
-        "forearm across, θ43 free",
+        "forearm along the axis of θ43, which is free",
         "wrist straight",
-        "arm and rod of chain 1 in line with its axis",
-        "rod of chain 1 across, θ651 free",
-        "arm and rod of chain 2 in line with its axis",
-        "rod of chain 2 across, θ652 free",
+        "rod of chain 1 in the upright plane of its arm, θ211 stuck",
+        "rod of chain 1 along the axis of θ651, which is free",
+        "rod of chain 2 in the upright plane of its arm, θ212 stuck",
+        "rod of chain 2 along the axis of θ652, which is free",
     )
     """What vanishes in :attr:`serial_sines`."""
 

@@ -93,7 +93,7 @@ class Solutions:
     def singularity(self) -> np.ndarray:
         """Names of the singular sets each solution lies in, shape ``(...)``, empty if none."""
         sines = self.posture.serial_sines
-        text = np.full(sines.shape[:-1], "", dtype="U120")
+        text = np.full(sines.shape[:-1], "", dtype="U400")
         for k, name in enumerate(Posture.SERIAL_NAMES):
             near = np.abs(sines[..., k]) < TOLERANCES.near_singular
             text = np.char.add(text, np.where(near, f"{name}; ", ""))
