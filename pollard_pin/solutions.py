@@ -92,12 +92,12 @@ class Solutions:
     @property
     def singularity(self) -> np.ndarray:
         """Names of the singular sets each solution lies in, shape ``(...)``, empty if none."""
-        sines = self.posture.serial_sines
-        text = np.full(sines.shape[:-1], "", dtype="U400")
-        for k, name in enumerate(Posture.SERIAL_NAMES):
-            near = np.abs(sines[..., k]) < TOLERANCES.near_singular
-            text = np.char.add(text, np.where(near, f"{name}; ", ""))
-        return np.asarray(np.char.rstrip(text, "; "))
+        near = np.abs(self.posture.serial_sines) < TOLERANCES.near_singular
+        text = np.full(near.shape[:-1], "", dtype=object)
+        for index in map(tuple, np.argwhere(near.any(axis=-1))):
+            names = zip(Posture.SERIAL_NAMES, near[index], strict=True)
+            text[index] = "; ".join(name for name, lost in names if lost)
+        return text
 
     def explain(self, index: tuple[int, ...] | int = ()) -> str:
         """Say in words why a solution doesn't exist, or that it does.
