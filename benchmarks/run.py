@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pinocchio as pin
+import pollard
 
 import scout_pin
 from scout_pin.dynamics import (
@@ -119,7 +120,12 @@ def scout_dynamics(count: int = 20_000) -> list[tuple[str, float, str, float]]:
     ]
 
 
-SUITES = [scout_kinematics, scout_dynamics]
+SUITES = [
+    scout_kinematics,
+    scout_dynamics,
+    lambda: pollard.pollard_kinematics(median_time),
+    lambda: pollard.pollard_dynamics(median_time),
+]
 
 
 def main() -> None:

@@ -44,7 +44,31 @@ def gaits() -> Iterator[str]:
         yield f"| {' | '.join(cells)} |"
 
 
-TABLES = {"gaits": gaits}
+def paths() -> Iterator[str]:
+    """What the report says of Pollard on the thesis's curve."""
+    import pollard_pin
+
+    yield (
+        "| Pollard, appendix B in 20 s | base motors, peak | wrist, peak | ball joints, peak "
+        "| condition |"
+    )
+    yield "| --- | --- | --- | --- | --- |"
+    path = pollard_pin.appendix_b()
+    for inertia in ("physical", "printed"):
+        report = pollard_pin.trajectory_report(pollard_pin.load(inertia=inertia), path)
+        peak = report.actuators.peak_torque
+        condition = report.holding.condition
+        cells = (
+            f"{inertia} inertias",
+            f"{peak[0]:.3f}, {peak[1]:.3f}, {peak[2]:.3f} N·m",
+            f"{peak[3:].max():.4f} N·m",
+            f"{report.loop_force_size.max():.2f} N",
+            f"{condition.min():.1f} to {condition.max():.1f}",
+        )
+        yield f"| {' | '.join(cells)} |"
+
+
+TABLES = {"gaits": gaits, "paths": paths}
 
 
 def renewed(text: str) -> str:

@@ -22,6 +22,7 @@ _HOMES = {
     "ALL_BRANCHES": "geometry",
     "Path": "path",
     "load_path": "path",
+    "appendix_b": "path",
     "trajectory_report": "report",
     "evaluate_workspace": "workspace",
 }

@@ -41,7 +41,7 @@ class TrajectoryReport:
 
     Attributes:
         robot, path, branch: What was asked about.
-        actuators: ``"six"``, or ``"three"`` for the thesis's form.
+        motors: ``"six"``, or ``"three"`` for the thesis's form.
         motion: Sampled path.
         joints: Joint trajectory.
         solutions: Its margins and residuals.
@@ -53,7 +53,7 @@ class TrajectoryReport:
     robot: Pollard
     path: Path
     branch: Branch
-    actuators: Literal["six", "three"]
+    motors: Literal["six", "three"]
     motion: ToolMotion
     joints: JointTrajectory
     solutions: Solutions
@@ -80,7 +80,7 @@ class TrajectoryReport:
         return self.torque * self.speed
 
     @cached_property
-    def summary_of_actuators(self) -> ActuatorSummary:
+    def actuators(self) -> ActuatorSummary:
         """Peaks, RMS, power and work of each motor."""
         return summarise(ACTUATOR_NAMES, self.joints.time, self.torque, self.speed)
 
@@ -99,7 +99,7 @@ class TrajectoryReport:
     @property
     def work_exchanged(self) -> float:
         """Positive minus negative work of all motors [J], what balances are judged by."""
-        a = self.summary_of_actuators
+        a = self.actuators
         return float(a.positive_work.sum() - a.negative_work.sum())
 
     @cached_property
@@ -174,7 +174,7 @@ class TrajectoryReport:
                 "branch": str(self.branch),
                 "samples": len(self.joints.time),
                 "inertia": self.robot.inertia,
-                "actuators": self.actuators,
+                "actuators": self.motors,
                 "condition_length": LENGTH,
                 "thesis_pin": __version__,
             },
@@ -209,7 +209,7 @@ class TrajectoryReport:
 
     def summary(self) -> dict[str, Any]:
         """Peaks, work, balance, margins; without the samples."""
-        a, time = self.summary_of_actuators, self.joints.time
+        a, time = self.actuators, self.joints.time
         force, moment = self.peak_reactions
         reading, other = self.other_reading
         net = float(self.work_done[-1].sum())
@@ -262,7 +262,7 @@ def trajectory_report(
     *,
     samples: int = 2001,
     branch: Branch = DEFAULT_BRANCH,
-    actuators: Literal["six", "three"] = "six",
+    motors: Literal["six", "three"] = "six",
 ) -> TrajectoryReport:
     """Work out a path: joint motion, torques, forces, margins.
 
@@ -271,13 +271,13 @@ def trajectory_report(
         path: The path of the spray tip.
         samples: Number of evenly spaced samples.
         branch: Which inverse-kinematics solution.
-        actuators: ``"six"``, or ``"three"`` for the thesis's (3.154).
+        motors: ``"six"``, or ``"three"`` for the thesis's (3.154).
 
     Raises:
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
     """
-    if actuators not in ("six", "three"):
-        raise UnknownName("number of actuators", actuators, ("six", "three"))
+    if motors not in ("six", "three"):
+        raise UnknownName("number of actuators", motors, ("six", "three"))
     motion = path.sample(samples)
     joints, solutions = joint_trajectory(robot, motion, branch, path)
     posture = solutions.posture
@@ -290,8 +290,8 @@ def trajectory_report(
     require_one_sign(determinant, motion.time, holding.base_determinant)
     dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a, posture)
     three = None
-    if actuators == "three":
+    if motors == "three":
         three = three_torques(rate_jacobian(posture, motion.pose), dynamics.joint_force)
     return TrajectoryReport(
-        robot, path, branch, actuators, motion, joints, solutions, dynamics, holding, three
+        robot, path, branch, motors, motion, joints, solutions, dynamics, holding, three
     )

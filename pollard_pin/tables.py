@@ -21,7 +21,7 @@ from thesis_pin.errors import Unreachable
 
 def print_report(report: TrajectoryReport) -> None:
     """Print the summary of a trajectory report."""
-    a, summary = report.summary_of_actuators, report.summary()
+    a, summary = report.actuators, report.summary()
     three = report.three is not None
     rows = []
     for k, symbol in enumerate(ACTUATOR_SYMBOLS[: 3 if three else 6]):

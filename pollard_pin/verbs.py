@@ -49,7 +49,7 @@ def trajectory(arguments: argparse.Namespace) -> int:
         _path(arguments, robot.specification),
         samples=arguments.samples,
         branch=_branch(arguments),
-        actuators=arguments.actuators,
+        motors=arguments.actuators,
     )
     content = b""
     if arguments.json or arguments.out:

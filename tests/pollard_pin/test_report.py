@@ -19,10 +19,10 @@ def report(printed):
 
 
 def test_default_run_with_printed_inertias_has_the_prototypes_peaks(report):
-    peaks = report.summary_of_actuators.peak_torque
+    peaks = report.actuators.peak_torque
     np.testing.assert_allclose(peaks[:3], [1.75, 1.28, 1.27], atol=0.005)
     assert (peaks[3:] <= 0.014).all()
-    assert report.summary_of_actuators.peak_power[:3].max() <= 1.95
+    assert report.actuators.peak_power[:3].max() <= 1.95
     assert report.loop_force_size.max() == pytest.approx(4.1, abs=0.05)
     assert report.path.duration == 20.0
     assert report.path.parameters["timing"] == "constant-rate"
@@ -45,7 +45,7 @@ def test_condition_margin_and_determinant_are_those_of_the_prototype(report):
 
 def test_three_motors_leave_about_one_percent_unexplained(printed):
     path = appendix_b(printed.specification)
-    three = trajectory_report(printed, path, actuators="three")
+    three = trajectory_report(printed, path, motors="three")
     assert 0.005 < three.summary()["missing_share"] < 0.014
     assert (three.torque[:, 3:] == 0).all()
     six = trajectory_report(printed, path)
@@ -56,7 +56,7 @@ def test_the_other_reading_of_the_inertias_is_reported(report, pollard):
     reading, peaks = report.other_reading
     assert reading == "physical"
     other = trajectory_report(pollard, appendix_b(pollard.specification))
-    np.testing.assert_allclose(peaks, other.summary_of_actuators.peak_torque, rtol=1e-12)
+    np.testing.assert_allclose(peaks, other.actuators.peak_torque, rtol=1e-12)
     assert 1.5 < peaks[0] < 1.6
 
 
@@ -64,7 +64,7 @@ def test_the_other_reading_of_the_inertias_is_reported(report, pollard):
 def test_document_has_the_documented_keys_and_shapes(robot, actuators):
     count = 41
     report = trajectory_report(
-        robot, appendix_b(robot.specification), samples=count, actuators=actuators
+        robot, appendix_b(robot.specification), samples=count, motors=actuators
     )
     document = json.loads(json_bytes(report.document()))
     assert (document["schema"], document["version"]) == (SCHEMA, VERSION)
@@ -163,7 +163,7 @@ def test_few_samples_are_not_mistaken_for_a_break(skewed):
 
 def test_an_unknown_number_of_actuators_is_refused(pollard):
     with pytest.raises(UnknownName, match="six, three"):
-        trajectory_report(pollard, appendix_b(), actuators="four")
+        trajectory_report(pollard, appendix_b(), motors="four")
 
 
 def test_longer_durations_tend_to_the_static_torques(pollard):
