@@ -1,6 +1,6 @@
 """Gaits from files: nodes, polynomials or constants in TOML, samples in CSV.
 
-The formats are described in docs/formats.md.
+The formats are described in docs/scout.md.
 """
 
 from __future__ import annotations

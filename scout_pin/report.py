@@ -148,7 +148,7 @@ class GaitReport:
         return result
 
     def document(self) -> dict[str, Any]:
-        """The report as JSON-ready data; see docs/formats.md."""
+        """The report as JSON-ready data; see docs/scout.md."""
         wrench = self.dynamics.wrench
         return {
             "schema": SCHEMA,
