@@ -9,6 +9,7 @@ is computed (:mod:`thesis_pin.audit`).
 from __future__ import annotations
 
 import difflib
+import itertools
 import re
 from collections.abc import Iterator, Sequence
 from functools import cached_property
@@ -53,6 +54,10 @@ class Equation(Strict):
         attribution: Who made the slip, as far as one can guess.
         why: Reason of the guess.
         note: What a reader should know.
+        left_printed: The left side as printed, where it isn't ``left``.
+        imposes: Members that are conditions to be met ("= 0"), not identities.
+        claim: Name of the check in code that decides, where no identity can.
+        cause: Name of the slip that several equations share.
         illegible: What is missing in the text, if it can't be read.
         not_checkable: Why nothing can be computed, if so.
         defines: Symbol that the last member defines as its first factor, as in
@@ -68,6 +73,10 @@ class Equation(Strict):
     attribution: Literal["thesis", "scan", ""] = ""
     why: str = ""
     note: str = ""
+    left_printed: str = ""
+    imposes: tuple[int, ...] = ()
+    claim: str = ""
+    cause: str = ""
     illegible: str = ""
     not_checkable: str = ""
     defines: str = ""
@@ -113,7 +122,7 @@ class EquationFile(Strict):
             silent = equation.illegible or equation.not_checkable
             if not equation.printed and not silent:
                 yield (*key, "printed"), "missing, and neither illegible nor not_checkable", None
-            if equation.mending and not (equation.attribution and equation.why):
+            if (equation.mending or equation.left_printed) and not (equation.attribution and equation.why):
                 yield key, "a correction needs attribution and why", equation.id
             if equation.corrected and equation.right:
                 yield key, "either misprinted (corrected) or wrong (right), not both", equation.id
@@ -165,13 +174,17 @@ class Catalogue:
 
     def places(self, before: str, after: str) -> list[str]:
         """Where two formulas differ, symbol by symbol, each place in words."""
-        cut = [_symbols_of(self.notation, text) for text in (before, after)]
+        (*cut,) = (_pieces(text)[0] for text in (before, after))
+        unit = _pieces(before)[1]
         found = []
         for kind, a, b, c, d in difflib.SequenceMatcher(None, *cut, autojunk=False).get_opcodes():
             if kind == "equal":
                 continue
-            old, new = " ".join(cut[0][a:b]), " ".join(cut[1][c:d])
-            where = f"symbol {a + 1}"
+            old, new = (
+                _counted(cut[0][a:b]) if unit == "column" else " ".join(cut[0][a:b]),
+                _counted(cut[1][c:d]) if unit == "column" else " ".join(cut[1][c:d]),
+            )
+            where = f"{unit} {a + 1}"
             if kind == "insert":
                 beside = f" after {cut[0][a - 1]}" if a else " at the start"
                 found.append(f"{where}: {new} is missing{beside}")
@@ -212,37 +225,50 @@ def free_indices(*nodes: Node) -> set[str]:
     found: set[str] = set()
     for symbol in nt.symbols(tuple(nodes)):
         for text in (symbol.sub, symbol.sup):
-            found |= set(_LETTERS.sub("", text)) & {"i", "n"}
+            found |= set(_LETTERS.sub("", text)) & {"i", "n", "k"}
     return found
 
 
 def index_values(*nodes: Node, also: str = "") -> Iterator[dict[str, str]]:
-    """All values of the free leg and link indices; m is 2n − 1, the frame of link n."""
+    """All values of free indices: leg i, link n (m is 2n − 1, its frame), interval k."""
     letters = free_indices(*nodes) | set(also)
     for i in ("1", "2") if "i" in letters else ("",):
         for n in "123456" if "n" in letters else ("",):
-            yield {
-                **({"i": i} if i else {}),
-                **({"n": n, "m": str(2 * int(n) - 1)} if n else {}),
-            }
+            for k in "123" if "k" in letters else ("",):
+                yield {
+                    **({"i": i} if i else {}),
+                    **({"n": n, "m": str(2 * int(n) - 1)} if n else {}),
+                    **({"k": k} if k else {}),
+                }
 
 
-def _symbols_of(notation: Notation, formula: str) -> list[str]:
-    """A formula cut into symbols with their scripts, brackets and signs."""
-    pieces: list[str] = []
-    depth_open = False
-    for token in nt.tokens(formula, notation.words):
-        script = token[0] in "_^'" and pieces
-        if script or depth_open:
-            pieces[-1] += token
-        else:
-            pieces.append(token)
-        # \mathbf{e} and \dot{\mathbf{e}} belong to one symbol.
-        last = pieces[-1]
-        depth_open = bool(re.match(r"\\(d?dot|math\w+|boldsymbol)", last)) and (
-            last.count("{") == 0 or last.count("{") > last.count("}")
-        )
-    return pieces
+_SCRIPT = r"(?:\s*[_^]\s*(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\?\w))"
+_PIECE = re.compile(
+    rf"∂[^ ]+/∂[^ ]+|(?:\\d?dot\{{[^{{}}]*\}}|\\[a-zA-Z]+|[A-Za-z]\d?|\d+(?:\.\d+)?)'*{_SCRIPT}*|\\\\|\S"
+)
+_LAYOUT = re.compile(
+    r"\\(?:begin|end)\{\w+\}(?:\{[clr| ]*\})?|\\(?:left|right|[bB]igg?[lr]?|c?l?dots)\b\.?"
+)
+
+
+def _pieces(formula: str) -> tuple[list[str], str]:
+    """A formula cut for comparison: into columns if it is a row, else into symbols.
+
+    Fonts and layout are left out; what a piece is called comes with them.
+    """
+    text = re.sub(r"\\(?:mathbf|boldsymbol)\s*\{((?:[^{}]|\{[^{}]*\})*)\}", r"\1", formula)
+    simple = r"\\frac\{\\partial ([^{} ]*(?:\{[^{}]*\}[^{} ]*)*)\}\{\\partial ([^{} ]*(?:\{[^{}]*\})?)\}"
+    text = _LAYOUT.sub(" ", re.sub(simple, r"∂\1/∂\2", text))
+    cells = re.split(r"&|\\quad", text.replace("\\\\", "&"))
+    if len(cells) > 4:
+        return [" ".join(re.sub(r"[\[\]]", "", cell).split()) for cell in cells], "column"
+    return _PIECE.findall(text), "symbol"
+
+
+def _counted(cells: Sequence[str]) -> str:
+    """Cells in words, runs of equal ones counted: ``0, 0, 0`` → ``3 × 0``."""
+    runs = [(cell, len(list(group))) for cell, group in itertools.groupby(cells)]
+    return ", ".join(f"{count} × {cell}" if count > 1 else cell for cell, count in runs)
 
 
 class EditionEnvironment:

@@ -136,7 +136,7 @@ def evaluate(node: Node, environment: Environment, indices: dict[str, str]) -> V
         case nt.Quotient(above, below):
             return multiply(of(above), power(of(below), -1))
         case nt.Power(base, exponent):
-            return power(of(base), exponent)
+            return power(of(base), int(indices[exponent]) if exponent in indices else exponent)
         case nt.Transpose(inner):
             return transpose(of(inner))
         case nt.Call():
@@ -219,8 +219,10 @@ def transpose(value: Value) -> Value:
     return matrix(np.swapaxes(value.array, -1, -2))
 
 
-def power(value: Value, exponent: int) -> Value:
+def power(value: Value, exponent: int | str) -> Value:
     """Integer power of a scalar, inverse of a matrix."""
+    if isinstance(exponent, str):
+        raise FormulaError(f"the exponent {exponent} has no value")
     if value.rank == 0:
         return scalar(value.array ** float(exponent))
     if value.rank == 2 and exponent == -1:
@@ -307,11 +309,11 @@ def _call(node: nt.Call, environment: Environment, indices: dict[str, str]) -> V
 def _derivative(
     of: Node, by: Node | None, environment: Environment, indices: dict[str, str]
 ) -> Value:
+    if isinstance(of, nt.Call) and of.argument == by and of.function in _ROTATIONS:
+        angle = evaluate(of.argument, environment, indices)
+        return matrix(rotation_derivative(_ROTATIONS[of.function], angle.array))
     if isinstance(of, nt.Transpose):
         return transpose(_derivative(of.of, by, environment, indices))
     if by is None or isinstance(by, Symbol):
         return environment.partial(of, by.bound(indices) if by else None, indices)
-    if isinstance(of, nt.Call) and of.argument == by and of.function in _ROTATIONS:
-        angle = evaluate(by, environment, indices)
-        return matrix(rotation_derivative(_ROTATIONS[of.function], angle.array))
     raise FormulaError("differentiates by something that isn't the argument of the function")

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -114,10 +113,10 @@ class Quotient(Node):
 
 @dataclass(frozen=True)
 class Power(Node):
-    """A scalar to an integer power, or a matrix to the power −1."""
+    """A scalar to an integer power (or an index letter's), a matrix to the power −1."""
 
     base: Node
-    exponent: int
+    exponent: int | str
 
 
 @dataclass(frozen=True)
@@ -353,8 +352,8 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
                 node = replace(node, exponent=int(label))
             elif isinstance(node, Symbol) and self._is_label(node, label):
                 node = replace(node, sup=node.sup + label)
-            elif label.isdigit():
-                node = Power(node, int(label))
+            elif label.isdigit() or label in ("i", "n"):
+                node = Power(node, int(label) if label.isdigit() else label)
             else:
                 raise ValueError(f"a superscript {label!r} that is neither a frame nor a power")
         return Transpose(node) if transposed else node
@@ -386,6 +385,10 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             if not waiting:
                 raise ValueError(f"nothing follows {node.name or 'the derivative'}")
             return self._apply(node, self._next_factor(waiting))
+        if isinstance(node, Symbol) and waiting and isinstance(waiting[0], Transpose):
+            if self._says_only_dependence(waiting[0].of):
+                waiting.pop(0)
+                return Transpose(node)
         if isinstance(node, Symbol) and waiting and isinstance(waiting[0], _Group):
             inside = waiting[0].inside
             if node.name in self.notation.functions:
@@ -411,7 +414,8 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         if mark.kind == "derivative":
             return Derivative(_open(argument), mark.by)
         exponent = mark.exponent
-        if isinstance(argument, Power):  # c θ^2 is the square of the cosine
+        # c θ^2 is the square of the cosine
+        if isinstance(argument, Power) and isinstance(argument.exponent, int):
             exponent, argument = exponent * argument.exponent, argument.base
         call = Call(mark.name, _open(argument))
         return call if exponent == 1 else Power(call, exponent)
@@ -458,8 +462,3 @@ def symbols(node: object) -> set[Symbol]:
     if isinstance(node, Node):
         return symbols(tuple(vars(node).values()))
     return set()
-
-
-def tokens(formula: str, words: Sequence[str] = ()) -> list[str]:
-    """A formula cut at its symbols, for saying where two formulas differ."""
-    return [str(token) for token in _parser(tuple(words)).lex(formula)]

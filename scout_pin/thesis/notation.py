@@ -7,7 +7,7 @@ from thesis_pin.notation import Notation
 
 NOTATION = Notation(
     functions=FUNCTIONS,
-    words=("ZMP", "b1", "b2"),
+    words=("ZMP", "b1", "b2", "ai"),
     # A number above these is a label (the interval T_k, the foot), not a power.
     labelled=frozenset({"varphi", "lambda", "Gamma", "Phi", "omega", "alpha", "e", "i", "j", "k"}),
 )

@@ -72,7 +72,8 @@ class References:
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
         """Value of a symbol; see :class:`thesis_pin.evaluation.Environment`."""
-        key = (symbol.name, symbol.dots, indices.get("i", "") + "/" + indices.get("j", ""))
+        legs = indices.get("i", "") + "/" + indices.get("j", "")
+        key = (symbol.name + "*" * symbol.bold, symbol.dots, legs)
         if key not in self._values:
             value = self._find(symbol, indices)
             if value is None:
@@ -101,6 +102,9 @@ class References:
             return self._momentum(by)
         if isinstance(of, Symbol) and of.name == "q" and by is not None:
             return self._unit(by) if of.dots == by.dots else ZERO
+        if by is not None and by.name == "q":
+            columns = self.partial(of, Symbol("q", "j"), indices)
+            return matrix(np.swapaxes(columns.array, 1, -1)[:, None])
         along, rates = None if by is None else by.name, bool(by and by.dots)
         if self.state.perturbed:
             return self._difference(of, along, rates, indices)
@@ -189,7 +193,34 @@ class References:
             return None
         return vector(np.array([[[0, 0, -GRAVITY]]])) if symbol.bold else scalar(GRAVITY)
 
+    def _of_ai(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        """Coordinates of vertex a of foot i, in the sole's frame or, with 0, in the world."""
+        i = indices.get("i", "")
+        if symbol.dots or i not in ("1", "2") or symbol.sub[:1] not in ("x", "y", "z"):
+            return None
+        local, k = self.state.parameters.values[f"a{i}"], "xyz".index(symbol.sub[0])
+        if symbol.sub[1:] == "0":
+            return scalar(self.state.point(f"7{i}", local)[0][..., k])
+        return None if symbol.sub[1:] else scalar(local[..., k])
+
+    def _of_lambda(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.dots or symbol.sup != "0" or symbol.sub not in ("1", "2", "3"):
+            return None
+        return vector(self.state.multipliers[..., : 12 if symbol.sub == "2" else 6])
+
+    def _of_Gamma(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        """Gradient of λ·Φ: the generalized force that does the constraint's virtual work."""
+        if symbol.dots or symbol.sub not in ("1", "2", "3"):
+            return None
+        phi = self.partial(Symbol("Phi", symbol.sub, "0"), Symbol("q", "j"), indices).array
+        weight = self.lookup(Symbol("lambda", symbol.sub, "0"), indices).array
+        return vector((phi * weight).sum(-1)[:, None, :])
+
     def _of_tau(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.sup == "0" and symbol.sub in BODIES[1:] and not symbol.dots:
+            joint = 6 * (int(symbol.sub[1]) - 1) + int(symbol.sub[0])
+            axis = self.state.frame(symbol.sub).axis(5 + joint)
+            return vector(self.state.tau[..., joint - 1, None] * axis)
         if symbol.dots or symbol.sup:
             return None
         if not symbol.sub:
@@ -356,6 +387,8 @@ class References:
         return where if dots == 0 else (jacobian @ self.state.v[..., None])[..., 0]
 
     def _of_b(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.sub in ("1y", "2y") and not symbol.sup:
+            return ZERO if symbol.dots else self._constant(f"b{symbol.sub[0]}_y")
         if symbol.sub in ("Tx", "Ty", "Tz") and not symbol.dots:
             centre = self._of_b(Symbol("b", "T", "0"), indices)
             return None if centre is None else _component(centre.array, symbol.sub[-1])
@@ -524,6 +557,10 @@ class References:
         return matrix(self.state.angular(symbol.sub))
 
     def _of_I(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        element = re.fullmatch(r"([xyz])([xyz])(B|[1-6][12])", symbol.sub)
+        if element and not symbol.dots:
+            tensor = self.state.parameters.values[f"I{element[3]}"]
+            return scalar(tensor[..., "xyz".index(element[1]), "xyz".index(element[2])])
         if symbol.dots or symbol.sub not in BODIES:
             return None
         if symbol.sup == "0":
@@ -666,6 +703,7 @@ class References:
         return scalar(self.state.virtual[..., coordinate_index(name)])
 
     _of_delta_phi = _of_delta_psi = _of_delta_theta
+    _of_delta_x = _of_delta_y = _of_delta_z = _of_delta_theta
 
     def _of_delta_Q(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
         if symbol.sup != "0" or symbol.sub not in BODIES:

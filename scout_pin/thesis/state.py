@@ -63,7 +63,7 @@ class Parameters:
             found |= {f"{name}{i}": getattr(leg, name) for name in LENGTHS}
             found |= {f"beta_{n}{i}": np.radians(leg.beta_deg[n - 1]) for n in range(1, 7)}
             found |= {"beta_7": np.radians(leg.beta_7_deg), "beta_8": np.radians(leg.beta_8_deg)}
-            found[f"b{i}_y"] = leg.sole[1][1]
+            found |= {f"b{i}_y": leg.sole[1][1], f"a{i}": (*leg.sole[0], 0.0)}
             for n, link in enumerate(leg.links, start=1):
                 found[f"m_{n}{i}"], found[f"G{n}{i}"] = link.mass, link.com
                 found[f"I{n}{i}"] = link.centroidal(convention, reading)
@@ -80,6 +80,7 @@ class Parameters:
             found |= {f"{name}{i}": generator.uniform(0.02, 0.09) for name in LENGTHS}
             found |= {f"beta_{n}{i}": generator.uniform(-3, 3) for n in range(1, 7)}
             found[f"b{i}_y"] = generator.uniform(0.05, 0.1)
+            found[f"a{i}"] = np.array([*generator.uniform(-0.1, 0.1, 2), 0.0])
         for body in BODIES:
             found[f"m_{body}"] = generator.uniform(0.02, 0.2)
             found[f"G{body}"] = generator.uniform(-0.04, 0.04, 3)
