@@ -60,8 +60,8 @@ class Equation(Strict):
         cause: Name of the slip that several equations share.
         illegible: What is missing in the text, if it can't be read.
         not_checkable: Why nothing can be computed, if so.
-        defines: Symbol that the last member defines as its first factor, as in
-            ``ḃ = [i j k …] q̇``, which defines J.
+        defines: Symbol that stands for the first factor of the member before the last, as
+            J in ``ḃ = [i j k …] q̇ = J q̇``.
     """
 
     id: Annotated[str, Field(pattern=r"^[a-z]+:[\w.]+:\S+$")]
@@ -363,12 +363,20 @@ class EditionEnvironment:
         literal = self.edition == "printed" or equation.id in self.printed_only
         if literal:
             try:
-                return self._last(equation, equation.printed, symbol, indices)
+                value = self._last(equation, equation.printed, symbol, indices)
+                self._check_shape(equation, value, indices)
+                return value
             except FormulaError as error:
                 if equation.id in self.printed_only:
                     raise
                 self.substituted[equation.id] = error.what
         return self._last(equation, equation.members("corrected"), symbol, indices)
+
+    def _check_shape(self, equation: Equation, value: Value, indices: dict[str, str]) -> None:
+        node = self.catalogue.parse(equation.defines or equation.left)
+        expected = evaluate(node, self.references, indices)
+        if min(value.rank, expected.rank) >= 0 and value.tail != expected.tail:
+            raise FormulaError(f"is {value.describe()} where {expected.describe()} belongs")
 
     def _last(
         self, equation: Equation, members: tuple[str, ...], symbol: Symbol, indices: dict[str, str]
@@ -379,7 +387,7 @@ class EditionEnvironment:
         if equation.defines and symbol.name == self.catalogue.notation.symbol(
             equation.defines
         ).bound(indices).name:
-            node = self.catalogue.parse(members[0])
+            node = self.catalogue.parse(members[-2])
             if isinstance(node, nt.Product):
                 node = node.factors[0]
         return evaluate(node, self, indices)
