@@ -271,6 +271,10 @@ def _counted(cells: Sequence[str]) -> str:
     return ", ".join(f"{count} × {cell}" if count > 1 else cell for cell, count in runs)
 
 
+Slot = tuple[str, str, int, str]
+"""A symbol's place in a cache: "" or "∂", name, dots, leg."""
+
+
 class EditionEnvironment:
     """Symbols as the thesis defines them, all the way down.
 
@@ -298,9 +302,26 @@ class EditionEnvironment:
         self.printed_only = printed_only
         self.columns = references.columns
         self.substituted: dict[str, str] = {} if substituted is None else substituted
-        self._values: dict[tuple[str, str, int, str], Value] = {}
-        self._busy: set[tuple[str, str, int, str]] = set()
+        self._values: dict[Slot, Value] = {}
+        self._busy: list[Slot] = []
+        self._users: dict[Slot, set[Slot]] = {}
         self._moved: dict[tuple[str | None, bool], EditionEnvironment] = {}
+
+    def following_print(self, identity: str) -> EditionEnvironment:
+        """The same symbols with one equation as printed; what doesn't depend on it is kept."""
+        definitions = self.catalogue.definitions
+        waiting = [slot for slot in self._values if definitions[slot[:3]][0].id == identity]
+        changed: set[Slot] = set()
+        while waiting:
+            slot = waiting.pop()
+            if slot not in changed:
+                changed.add(slot)
+                waiting += self._users.get(slot, ())
+        other = EditionEnvironment(
+            self.catalogue, self.references, self.edition, frozenset({identity})
+        )
+        other._values = {k: v for k, v in self._values.items() if k not in changed}
+        return other
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
         """Value of a symbol from its definition, or the reference if it has none."""
@@ -337,6 +358,8 @@ class EditionEnvironment:
                 self.printed_only,
                 self.substituted,
             )
+            # A derivative by a complex step uses what the symbols above it use.
+            self._moved[key]._users, self._moved[key]._busy = self._users, self._busy
         return imaginary(evaluate(of, self._moved[key], indices))
 
     def _defined(self, kind: str, symbol: Symbol, indices: dict[str, str]) -> Value | None:
@@ -345,18 +368,20 @@ class EditionEnvironment:
             return None
         equation, bound = definition
         key = (kind, symbol.name, symbol.dots, indices.get("i", "") if not bound else "")
+        if self._busy:
+            self._users.setdefault(key, set()).add(self._busy[-1])
         if key in self._values:
             return self._values[key]
         if key in self._busy:  # defined by itself somewhere down the line
             return None
-        self._busy.add(key)
+        self._busy.append(key)
         try:
             inner = {**{k: v for k, v in indices.items() if k in "ij"}, **bound}
             if "j" in inner and kind == "∂":
                 inner.pop("j")
             self._values[key] = self._evaluate(equation, symbol, inner)
         finally:
-            self._busy.discard(key)
+            self._busy.pop()
         return self._values[key]
 
     def _evaluate(self, equation: Equation, symbol: Symbol, indices: dict[str, str]) -> Value:
