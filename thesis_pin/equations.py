@@ -169,7 +169,10 @@ class Catalogue:
     def parse(self, formula: str) -> Node:
         """A single expression, read once."""
         if formula not in self._parsed:
-            (self._parsed[formula],) = self.notation.parse(formula)
+            sides = self.notation.parse(formula)
+            if len(sides) > 1:
+                raise FormulaError("is an equation where an expression belongs")
+            self._parsed[formula] = sides[0]
         return self._parsed[formula]
 
     def places(self, before: str, after: str) -> list[str]:
@@ -199,7 +202,7 @@ class Catalogue:
         """First definition of each symbol: ("" or "∂", name, dots) → equation and indices."""
         found: dict[tuple[str, str, int], Definition] = {}
         for equation in self.equations:
-            if not equation.printed and not equation.mending:
+            if equation.claim or not (equation.printed or equation.mending):
                 continue
             for text in filter(None, (equation.left, equation.defines)):
                 try:

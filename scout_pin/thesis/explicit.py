@@ -33,7 +33,15 @@ from thesis_pin.notation import Symbol
 Interval = Literal[1, 2, 3]
 """T_1: left foot bears the robot; T_2: both; T_3: right foot (4.6)."""
 
-FILES = tuple(sorted(Path(__file__).parent.glob("*.toml")))
+FILES = tuple(
+    Path(__file__).parent / f"{name}.toml"
+    for name in (
+        *("chapter_3", "section_3_1", "section_3_2", "section_3_3"),
+        *("chapter_4", *(f"section_4_{k}" for k in range(1, 8))),
+        *("section_5", "section_6_2", "appendix_b", "appendix_c", "appendix_d"),
+    )
+)
+"""The equations, in the thesis's order: the first definition of a symbol counts."""
 _CHUNK = 48  # states whose ∂N/∂q_j stay small
 _UNBALANCED = 1e-8  # N, N·m: above rounding, below anything physical
 

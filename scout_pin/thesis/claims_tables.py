@@ -1,0 +1,335 @@
+"""Checks of the thesis's tables, splines, program and appendix B.
+
+Each function is called by the equation whose ``claim`` names it, and returns
+residuals; a number printed in the thesis is read from that equation, not
+repeated here. Rounded numbers are compared to within their last digit: only
+what exceeds it counts.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from scout_pin.dynamics import joint_trajectory
+from scout_pin.gait import Gait, load_gait
+from scout_pin.kinematics import leg_inverse_kinematics
+from scout_pin.model import Scout, load
+from scout_pin.specification import LINK_NAMES, Specification
+from thesis_pin.audit import ClaimResult
+from thesis_pin.equations import Catalogue
+from thesis_pin.errors import NonPhysicalInertia
+from thesis_pin.inertia import check_physical
+from thesis_pin.interpolation import quadratic
+
+_HERE = Path(__file__).parent
+_STEP = 52.26  # mm, the length every error of a spline is compared with
+_CURVES = {
+    "y_B": ("torso", 1),
+    "y_1": ("left_foot", 1),
+    "z_1": ("left_foot", 2),
+    "y_2": ("right_foot", 1),
+    "z_2": ("right_foot", 2),
+}
+# A term of a printed polynomial: sign, coefficient (decimal or \frac), power of t.
+_TERM = re.compile(r"([+-]?)\s*(?:\\frac\{(\d+)\}\{(\d+)\}|(\d+(?:\.\d+)?))?(t\^2|t)?")
+
+
+def claims(catalogue: Catalogue) -> dict[str, Callable[[], ClaimResult]]:
+    """The checks by name."""
+    robot, exact, program = load(), load_gait("thesis"), load_gait("thesis-program")
+    found: dict[str, Callable[[], ClaimResult]] = {
+        f"spline_{name}": partial(_spline, catalogue, name, number, exact)
+        for number, name in enumerate(_CURVES, start=2)
+    }
+    return found | {
+        "left_foot_sign": partial(_left_foot_sign, robot),
+        "gait_constants": partial(_gait_constants, robot),
+        "table_5_1": partial(_table, exact),
+        "constant_angles": _constant_angles,
+        "mass_sum": partial(_mass_sum, catalogue, robot.specification),
+        "neutral_pose": partial(_neutral_pose, robot),
+        "soles": partial(_soles, robot.specification),
+        "mirror": partial(_mirror, robot),
+        "inertias_as_tensors": partial(_inertias_as_tensors, robot.specification),
+        "spline_system": _spline_system,
+        "figure_c_1": partial(_figure_c_1, catalogue),
+        "program_beta": partial(_program_beta, robot.specification),
+        "program_y_b": partial(_program_y_b, catalogue),
+        "initial_angles": partial(_printed_angles, robot, program, first_only=True),
+        "printed_angles": partial(_printed_angles, robot, program, first_only=False),
+        "diagonal_fixes_pose": partial(_diagonal, robot),
+    }
+
+
+def _beyond(error: np.ndarray | float, allowed: np.ndarray | float, scale: float) -> float:
+    """What an error exceeds rounding by, relative to a scale."""
+    return float(np.max(np.maximum(np.abs(error) - allowed, 0.0), initial=0.0)) / scale
+
+
+# -- chapter 5 ------------------------------------------------------------------
+
+
+def printed_pieces(formula: str) -> list[tuple[float, float, np.ndarray, np.ndarray]]:
+    """Pieces of a printed spline: from, to, coefficients of t², t, 1, half their last digit."""
+    inside = formula.split(r"\begin{cases}")[1].split(r"\end{cases}")[0]
+    pieces = []
+    for line in inside.split(r"\\"):
+        text, interval = line.split(r"; &")
+        start, end = re.fullmatch(r"\s*(\d+) \\leq t (?:<|\\leq) (\d+)\s*", interval).groups()  # type: ignore[union-attr]
+        pieces.append((float(start), float(end), *_polynomial(text)))
+    return pieces
+
+
+def _polynomial(text: str) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of t², t, 1 and half their last digit."""
+    values, half = np.zeros(3), np.zeros(3)
+    for sign, above, below, decimal, power in _TERM.findall(text):
+        if not (above or decimal or power):
+            continue
+        k = {"t^2": 0, "t": 1, "": 2}[power]
+        value = float(above) / float(below) if above else float(decimal or 1)
+        values[k] = -value if sign == "-" else value
+        half[k] = 0.5 * 10.0 ** -len(decimal.partition(".")[2]) if "." in decimal else 0.0
+    return values, half
+
+
+def _spline(catalogue: Catalogue, name: str, number: int, exact: Gait) -> ClaimResult:
+    """A printed spline is the one of appendix C through the nodes it was built from."""
+    body, axis = _CURVES[name]
+    worst = 0.0
+    for start, end, values, half in printed_pieces(catalogue[f"scout:5:5.{number}"].printed[0]):
+        t = np.linspace(start, end, 50, endpoint=False)
+        powers = np.stack([t**2, t, np.ones_like(t)])
+        truth = exact.curves[body][axis](t) * 1e3
+        # 38.5 and the like are the table's own numbers; they carry no rounding.
+        worst = max(worst, _beyond(values @ powers - truth, half @ powers, _STEP))
+    return ClaimResult(worst, note="the spline through its own nodes, to the digits printed")
+
+
+def _table_rows() -> list[dict[str, str]]:
+    lines = (_HERE / "table_5_1.csv").read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def _table(exact: Gait) -> ClaimResult:
+    """Which values of table 5.1 the splines miss, and that the nodes are met."""
+    missed, at_nodes, worst = [], 0.0, 0.0
+    for row in _table_rows():
+        t = float(row["t"])
+        for name, (body, axis) in _CURVES.items():
+            if row[name] == "-":
+                continue
+            curve = exact.curves[body][axis]
+            # At a node two pieces meet; the table's value is the end of one of them.
+            gap = min(abs(float(curve(at)) * 1e3 - float(row[name])) for at in (t, t - 1e-12))
+            worst = max(worst, gap)
+            if np.isclose(curve.x, t).any() and (name, t) != ("y_B", 25.0):
+                at_nodes = max(at_nodes, gap)
+            if gap > 1e-6:
+                missed.append(f"{name}({t:g}) by {gap:.2f} mm")
+    return ClaimResult(worst / _STEP, _beyond(at_nodes, 1e-9, _STEP), "missed: " + ", ".join(missed))
+
+
+def _left_foot_sign(robot: Scout) -> ClaimResult:
+    """With joints 1, 2 and 6 at zero the left foot stays at x = −x_0."""
+    place = robot.neutral_feet()["left"][0, 3] * 1e3
+    return ClaimResult(abs(place - 44.54) / 44.54, abs(place + 44.54) / 44.54)
+
+
+def _gait_constants(robot: Scout) -> ClaimResult:
+    """At the angles printed for t = 0 the soles are where (5.1) and table 5.1 put them."""
+    angles, half = _angles()
+    feet = robot.forward_kinematics(np.radians(angles[0]))
+    gap = max(
+        np.abs(feet[side][:3, 3] - [sign * 44.54e-3, -38.5e-3, -234.37e-3]).max()
+        for side, sign in (("left", -1), ("right", 1))
+    )
+    return ClaimResult(_beyond(gap, 6 * 0.3 * np.radians(half[0]).max(), 0.2))
+
+
+def _angles() -> tuple[np.ndarray, np.ndarray]:
+    """The printed angles [deg] ``(41, 12)`` and half their last digit."""
+    lines = (_HERE / "printed_angles.csv").read_text(encoding="utf-8").splitlines()
+    rows = [line.split(",")[1:] for line in lines if line[0].isdigit()]
+    half = [[0.5 * 10.0 ** -len(cell.partition(".")[2]) for cell in row] for row in rows]
+    # "0." is Mathematica's machine zero, not a rounded number.
+    exact = [[0.0 if float(cell) == 0 else h for cell, h in zip(row, halves, strict=True)]
+             for row, halves in zip(rows, half, strict=True)]
+    return np.array(rows, dtype=float), np.array(exact)
+
+
+def _constant_angles() -> ClaimResult:
+    angles, _ = _angles()
+    return ClaimResult(float(np.abs(angles[:, [0, 1, 5, 6, 7, 11]]).max()))
+
+
+def _printed_angles(robot: Scout, program: Gait, *, first_only: bool) -> ClaimResult:
+    """The printed angles come out of the program's splines by closed-form kinematics."""
+    angles, half = _angles()
+    t = np.arange(1.0 if first_only else 41.0)
+    found = np.degrees(joint_trajectory(robot, program.sample(t)).q)
+    gap = np.abs(found - angles[: len(t)])
+    # The program's own solver stops short of the root by up to 2e-6 degrees.
+    residual = _beyond(gap, half[: len(t)] + 2e-6, 1.0)
+    return ClaimResult(residual, note=f"{angles[: len(t)].size} angles, largest gap {gap.max():.1e}°")
+
+
+# -- appendix B -----------------------------------------------------------------
+
+
+def _mass_sum(catalogue: Catalogue, specification: Specification) -> ClaimResult:
+    printed = float(re.match(r"[\d.]+", catalogue["scout:B.5:m_T"].printed[0])[0]) * 1e-3  # type: ignore[index]
+    return ClaimResult(abs(specification.mass - printed) / printed)
+
+
+def _neutral_pose(robot: Scout) -> ClaimResult:
+    feet = robot.neutral_feet().values()
+    return ClaimResult(max(float(np.abs(foot[:3, :3] - np.eye(3)).max()) for foot in feet))
+
+
+def _soles(specification: Specification) -> ClaimResult:
+    left, right = (sorted(specification.leg(side).sole) for side in ("left", "right"))
+    gap = np.array(right) - np.array(left) - [18.15e-3, 0.0]
+    return ClaimResult(_beyond(gap, 1e-12, 0.1))
+
+
+def _mirror(robot: Scout) -> ClaimResult:
+    """Right links are the left ones mirrored in the sagittal plane, or turned about z."""
+    specification, worst, turned = robot.specification, 0.0, []
+    flip = {"mirrored": np.diag([-1.0, 1.0, 1.0]), "turned": np.diag([-1.0, -1.0, 1.0])}
+    axes = {side: _neutral_axes(specification, side) for side in ("left", "right")}
+    for n in range(6):
+        gaps = {}
+        for kind, change in flip.items():
+            sides = []
+            for side in ("left", "right"):
+                link, R = specification.leg(side).links[n], axes[side][n]
+                tensor = link.centroidal(specification.inertia_convention, "physical")
+                sides.append((R @ np.array(link.com), R @ tensor @ R.T, link.mass))
+            (com, tensor, mass), (other, other_tensor, other_mass) = sides
+            gaps[kind] = max(
+                float(np.abs(change @ com - other).max()) / 0.05,
+                float(np.abs(change @ tensor @ change - other_tensor).max()) / 1e-4,
+                abs(mass - other_mass) / mass,
+            )
+        best = min(gaps, key=lambda kind: gaps[kind])
+        worst = max(worst, gaps[best])
+        if best == "turned":
+            turned.append(LINK_NAMES[n])
+    note = f"turned by 180° about the vertical instead of mirrored: {', '.join(turned) or 'none'}"
+    return ClaimResult(worst, note=note)
+
+
+def _neutral_axes(specification: Specification, side: str) -> list[np.ndarray]:
+    """Axes of the six link frames in the torso's, servos neutral."""
+    from thesis_pin.rotations import rotation
+
+    turned, frames = np.eye(3), []
+    for axis, angle in zip("zyzzzx", specification.leg(side).beta_deg, strict=True):
+        turned = turned @ rotation(axis, np.radians(angle))
+        frames.append(turned)
+    return frames
+
+
+def _inertias_as_tensors(specification: Specification) -> ClaimResult:
+    """How many of the 13 printed matrices no body can have, read either way."""
+    bodies = {"torso": specification.torso}
+    for side in ("left", "right"):
+        bodies |= {
+            f"{side} {name}": link
+            for name, link in zip(LINK_NAMES, specification.leg(side).links, strict=True)
+        }
+    impossible: dict[str, list[str]] = {"tensor_about_joint": [], "products_about_joint": []}
+    for convention, names in impossible.items():
+        for name, link in bodies.items():
+            tensor = link.centroidal(convention, "physical")  # type: ignore[arg-type]
+            try:
+                check_physical(name, link.mass, np.array(link.com), tensor)
+            except NonPhysicalInertia:
+                names.append(name)
+    tensors, products = impossible.values()
+    note = f"impossible as tensors: {', '.join(tensors)}"
+    return ClaimResult(len(tensors) / len(bodies), len(products) / len(bodies), note)
+
+
+# -- appendices C and D -----------------------------------------------------------
+
+
+def solve_spline_system(t: np.ndarray, value: np.ndarray) -> np.ndarray:
+    """(C.3), (C.4), (C.5) as one linear system: coefficients ``(m, 3)`` of t², t, 1."""
+    m = len(t) - 1
+    system, right = np.zeros((3 * m, 3 * m)), np.zeros(3 * m)
+    for i in range(m):  # (C.3)
+        for k in (0, 1):
+            system[2 * i + k, 3 * i : 3 * i + 3] = t[i + k] ** 2, t[i + k], 1.0
+            right[2 * i + k] = value[i + k]
+    for i in range(1, m):  # (C.4)
+        system[2 * m + i - 1, 3 * i - 3 : 3 * i - 1] = 2 * t[i], 1.0
+        system[2 * m + i - 1, 3 * i : 3 * i + 2] = -2 * t[i], -1.0
+    system[-1, 0] = 1.0  # (C.5)
+    return np.linalg.solve(system, right).reshape(m, 3)
+
+
+def _nodes(name: str, times: tuple[float, ...]) -> np.ndarray:
+    table = {float(row["t"]): row[name] for row in _table_rows()}
+    return np.array([float(table[t]) for t in times])
+
+
+def _spline_system() -> ClaimResult:
+    """The printed system determines a spline: it interpolates and is C¹."""
+    t = np.array([0.0, 15.0, 20.0, 24.0])
+    value = _nodes("y_B", tuple(t))
+    found, curve = solve_spline_system(t, value), quadratic(t.tolist(), value.tolist())
+    inside = np.linspace(0, 24, 97)[:-1]
+    piece = np.searchsorted(t, inside, side="right") - 1
+    powers = np.stack([inside**2, inside, np.ones_like(inside)], axis=-1)
+    return ClaimResult(float(np.abs((found[piece] * powers).sum(-1) - curve(inside)).max()) / _STEP)
+
+
+def _figure_c_1(catalogue: Catalogue) -> ClaimResult:
+    text = catalogue["scout:C.2:figure_C.1"].printed[0]
+    cells = re.findall(r"-?\d+(?:\.\d+)?", text)
+    printed = np.array(cells, dtype=float).reshape(3, 3)
+    half = np.array([0.5 * 10.0 ** -len(cell.partition(".")[2]) for cell in cells]).reshape(3, 3)
+    times = (0.0, 15.0, 20.0, 24.0)
+    found = solve_spline_system(np.array(times), _nodes("y_B", times))
+    return ClaimResult(_beyond(found - printed, half, 1.0))
+
+
+def _program_beta(specification: Specification) -> ClaimResult:
+    printed = {"left": (90, 330, 60, 45), "right": (90, 30, 300, 315)}
+    gap = [np.subtract(specification.leg(s).beta_deg[1:5], p) for s, p in printed.items()]
+    return ClaimResult(float(np.abs(gap).max()) / 360)
+
+
+def _program_y_b(catalogue: Catalogue) -> ClaimResult:
+    """The program's third piece of y_B against the one (5.2) prints."""
+    row = catalogue["scout:D:y_B"]
+    _, _, text, text_half = printed_pieces(catalogue["scout:5:5.2"].printed[0])[2]
+    (own, half), (right, _) = (_polynomial(formula) for formula in (row.printed[0], row.right[1]))
+    t = np.linspace(20, 25, 200, endpoint=False)
+    apart = np.abs((own - text) @ np.stack([t**2, t, np.ones_like(t)])).max()
+    residual = _beyond((own - text) / text, (half + text_half) / np.abs(text), 1.0)
+    note = f"other coefficients, though the curves stay within {apart:.3f} mm of each other"
+    return ClaimResult(residual, float(np.abs(right - text).max()), note)
+
+
+def _diagonal(robot: Scout) -> ClaimResult:
+    """A rotation and its transpose have one diagonal; a foot can often reach both."""
+    generator = np.random.default_rng(4)
+    angles = generator.uniform(-0.8, 0.8, (200, 6))
+    poses = robot.leg_forward_kinematics("left", angles)
+    turned = poses.copy()
+    turned[:, :3, :3] = np.swapaxes(poses[:, :3, :3], -1, -2)
+    reached = leg_inverse_kinematics(robot.legs["left"], turned).reachable.any(axis=-1)
+    apart = np.abs(poses - turned).max(axis=(-1, -2))
+    solutions = leg_inverse_kinematics(robot.legs["left"], poses)
+    best = np.where(solutions.reachable, solutions.rotation_residual, np.inf).min(axis=-1)
+    note = f"in {int(reached.sum())} of 200 random poses the transposed rotation is reachable too"
+    return ClaimResult(float(apart[reached].max(initial=0.0)), float(best.max()), note)
