@@ -310,6 +310,11 @@ class EditionEnvironment:
         self._users: dict[Slot, set[Slot]] = {}
         self._moved: dict[tuple[str | None, bool], EditionEnvironment] = {}
 
+    def uses(self, identity: str) -> bool:
+        """Whether anything evaluated so far rests on an equation."""
+        definitions = self.catalogue.definitions
+        return any(definitions[slot[:3]][0].id == identity for slot in self._users)
+
     def following_print(self, identity: str) -> EditionEnvironment:
         """The same symbols with one equation as printed; what doesn't depend on it is kept."""
         definitions = self.catalogue.definitions
@@ -391,6 +396,8 @@ class EditionEnvironment:
         literal = self.edition == "printed" or equation.id in self.printed_only
         if literal:
             try:
+                if equation.left_printed:
+                    raise FormulaError(f"nothing defines {equation.left}")
                 value = self._last(equation, equation.printed, symbol, indices)
                 self._check_shape(equation, value, indices)
                 return value

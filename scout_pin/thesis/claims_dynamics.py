@@ -114,7 +114,12 @@ def _stance(interval: Interval) -> ClaimResult:
         ranks.append(int(np.linalg.matrix_rank(rows)))
     right_rank = min(int(np.linalg.matrix_rank(rows)) for rows in corrected)
     note = f"rank {max(ranks)} as printed, {right_rank} corrected, {truth.shape[-2]} rows"
-    return ClaimResult(outside, float(np.abs(corrected - truth).max()), note)
+    # What no λ can carry of a resting robot's weight, joint torques being free.
+    weight = ExplicitModel().C(q[0])[:6]
+    carried = printed[0][:, :6].T
+    left = weight - carried @ np.linalg.lstsq(carried, weight, rcond=1e-11)[0]
+    effect: dict[str, float | str] = {"unbalanced force [N]": float(np.linalg.norm(left[:3]))}
+    return ClaimResult(outside, float(np.abs(corrected - truth).max()), note, effect)
 
 
 def _sole_jacobians(robot: Scout, q: np.ndarray, interval: Interval) -> np.ndarray:

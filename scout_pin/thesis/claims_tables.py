@@ -133,13 +133,15 @@ def _table(exact: Gait) -> ClaimResult:
                 at_nodes = max(at_nodes, gap)
             if gap > 1e-6:
                 missed.append(f"{name}({t:g}) by {gap:.2f} mm")
-    return ClaimResult(worst / _STEP, _beyond(at_nodes, 1e-9, _STEP), "missed: " + ", ".join(missed))
+    return ClaimResult(worst / _STEP, _beyond(at_nodes, 1e-9, _STEP), "missed: " + ", ".join(missed),
+                       {"foot's path [m]": worst * 1e-3})
 
 
 def _left_foot_sign(robot: Scout) -> ClaimResult:
     """With joints 1, 2 and 6 at zero the left foot stays at x = −x_0."""
     place = robot.neutral_feet()["left"][0, 3] * 1e3
-    return ClaimResult(abs(place - 44.54) / 44.54, abs(place + 44.54) / 44.54)
+    effect = {"left foot's place [m]": abs(place - 44.54) * 1e-3}
+    return ClaimResult(abs(place - 44.54) / 44.54, abs(place + 44.54) / 44.54, effect=effect)
 
 
 def _gait_constants(robot: Scout) -> ClaimResult:
@@ -317,7 +319,7 @@ def _program_y_b(catalogue: Catalogue) -> ClaimResult:
     apart = np.abs((own - text) @ np.stack([t**2, t, np.ones_like(t)])).max()
     residual = _beyond((own - text) / text, (half + text_half) / np.abs(text), 1.0)
     note = f"other coefficients, though the curves stay within {apart:.3f} mm of each other"
-    return ClaimResult(residual, float(np.abs(right - text).max()), note)
+    return ClaimResult(residual, float(np.abs(right - text).max()), note, {"torso's path [m]": float(apart) * 1e-3})
 
 
 def _diagonal(robot: Scout) -> ClaimResult:
@@ -332,4 +334,5 @@ def _diagonal(robot: Scout) -> ClaimResult:
     solutions = leg_inverse_kinematics(robot.legs["left"], poses)
     best = np.where(solutions.reachable, solutions.rotation_residual, np.inf).min(axis=-1)
     note = f"in {int(reached.sum())} of 200 random poses the transposed rotation is reachable too"
-    return ClaimResult(float(apart[reached].max(initial=0.0)), float(best.max()), note)
+    wrong = float(apart[reached].max(initial=0.0))
+    return ClaimResult(wrong, float(best.max()), note, {"sole's rotation [-]": wrong})

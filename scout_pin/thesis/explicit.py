@@ -224,7 +224,7 @@ class ExplicitModel:
             entry = equation.left.removeprefix("A_{").removesuffix("}")
             if not equation.left.startswith("A_{"):
                 continue
-            row, column = _split_entry(entry)
+            row, column = split_entry(entry)
             node = catalogue().parse(equation.members(self.edition)[0])
             value = evaluate(node, environment, {})
             if value.rank == 0:
@@ -294,7 +294,7 @@ def _solve_one(force: np.ndarray, actuation: np.ndarray, jacobian: np.ndarray) -
     return np.concatenate([solution, [np.linalg.norm(left[:3]), np.linalg.norm(left[3:])]])
 
 
-def _split_entry(entry: str) -> tuple[int, int]:
+def split_entry(entry: str) -> tuple[int, int]:
     """Row and column, from 0, of an entry called "410" (4, 10) or "1310" (13, 10)."""
     for width in (1, 2):
         row, column = entry[:width], entry[width:]
