@@ -119,7 +119,10 @@ class Effects:
         left, q, *_ = self._gait
         feet = [References(self._references.state).stance_jacobian(k)[4:, 0] for k in (1, 3)]
         jacobian = np.where(left[:, None, None], *feet)
-        base, joints = np.swapaxes(jacobian[..., :6], -1, -2), np.swapaxes(jacobian[..., 6:], -1, -2)
+        base, joints = (
+            np.swapaxes(jacobian[..., :6], -1, -2),
+            np.swapaxes(jacobian[..., 6:], -1, -2),
+        )
         return np.concatenate(
             [-joints @ np.linalg.inv(base), np.broadcast_to(np.eye(12), (len(q), 12, 12))], axis=-1
         )

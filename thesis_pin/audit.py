@@ -212,6 +212,7 @@ def judge(
             residual_corrected=result.corrected,
             reason=result.note,
             effect=result.effect,
+            places=tuple(_places(catalogue, equation)),
         )
     printed = residual(catalogue, equation, equation.printed, environment, row.left)
     mended = None

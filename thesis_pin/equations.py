@@ -122,7 +122,9 @@ class EquationFile(Strict):
             silent = equation.illegible or equation.not_checkable
             if not equation.printed and not silent:
                 yield (*key, "printed"), "missing, and neither illegible nor not_checkable", None
-            if (equation.mending or equation.left_printed) and not (equation.attribution and equation.why):
+            if (equation.mending or equation.left_printed) and not (
+                equation.attribution and equation.why
+            ):
                 yield key, "a correction needs attribution and why", equation.id
             if equation.corrected and equation.right:
                 yield key, "either misprinted (corrected) or wrong (right), not both", equation.id
@@ -164,7 +166,10 @@ class Catalogue:
 
     def with_equation(self, changed: Equation) -> Catalogue:
         """The same catalogue with one equation replaced by another of its id."""
-        return Catalogue([changed if e.id == changed.id else e for e in self.equations], self.notation)
+        listed = [changed if e.id == changed.id else e for e in self.equations]
+        other = Catalogue(listed, self.notation)
+        other._parsed = self._parsed  # a formula reads the same everywhere
+        return other
 
     def parse(self, formula: str) -> Node:
         """A single expression, read once."""
@@ -260,7 +265,9 @@ def _pieces(formula: str) -> tuple[list[str], str]:
     Fonts and layout are left out; what a piece is called comes with them.
     """
     text = re.sub(r"\\(?:mathbf|boldsymbol)\s*\{((?:[^{}]|\{[^{}]*\})*)\}", r"\1", formula)
-    simple = r"\\frac\{\\partial ([^{} ]*(?:\{[^{}]*\}[^{} ]*)*)\}\{\\partial ([^{} ]*(?:\{[^{}]*\})?)\}"
+    simple = (
+        r"\\frac\{\\partial ([^{} ]*(?:\{[^{}]*\}[^{} ]*)*)\}\{\\partial ([^{} ]*(?:\{[^{}]*\})?)\}"
+    )
     text = _LAYOUT.sub(" ", re.sub(simple, r"∂\1/∂\2", text))
     cells = re.split(r"&|\\quad", text.replace("\\\\", "&"))
     if len(cells) > 4:
@@ -419,9 +426,10 @@ class EditionEnvironment:
         if not members:
             raise FormulaError("nothing is printed")
         node = self.catalogue.parse(members[-1])
-        if equation.defines and symbol.name == self.catalogue.notation.symbol(
+        if (
             equation.defines
-        ).bound(indices).name:
+            and symbol.name == self.catalogue.notation.symbol(equation.defines).bound(indices).name
+        ):
             node = self.catalogue.parse(members[-2])
             if isinstance(node, nt.Product):
                 node = node.factors[0]

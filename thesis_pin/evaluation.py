@@ -202,7 +202,9 @@ def cross(first: Value, second: Value) -> Value:
     if first.rank == -1 or second.rank == -1:
         return ZERO
     if first.rank != 1 or second.rank != 1 or first.tail != (3,) or second.tail != (3,):
-        raise FormulaError(f"takes the vector product of {first.describe()} and {second.describe()}")
+        raise FormulaError(
+            f"takes the vector product of {first.describe()} and {second.describe()}"
+        )
     a, b = first.array, second.array
     parts = [a[..., k - 2] * b[..., k - 1] - a[..., k - 1] * b[..., k - 2] for k in range(3)]
     return vector(np.stack(parts, axis=-1))

@@ -62,6 +62,10 @@ class Symbol(Node):
     def bound(self, indices: dict[str, str]) -> Symbol:
         """The symbol with index letters replaced, for instance i by 1."""
 
+        scripts = self.sub + self.sup
+        if not any(letter in scripts for letter in indices):
+            return self
+
         def put(text: str) -> str:
             # A Greek name inside a subscript ("thetaB") isn't a run of indices.
             parts = re.split(r"(theta|phi|psi)", text)
@@ -290,7 +294,7 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return self.accent([parts[0], self.name([parts[1]])])
 
     def function(self, parts: list[Token]) -> Node:
-        name = re.sub(r"\\text|[\\{}\s]", "", str(parts[0])).lower()
+        name = re.sub(r"\\(text|operatorname|mathrm)|[\\{}\s]", "", str(parts[0])).lower()
         return _Mark("function", name)
 
     def group(self, parts: list[Node]) -> Node:
@@ -359,8 +363,11 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return Transpose(node) if transposed else node
 
     def _is_label(self, node: Symbol, label: str) -> bool:
-        return node.bold or label == "0" or not label.isdigit() or (
-            node.base in self.notation.labelled
+        return (
+            node.bold
+            or label == "0"
+            or not label.isdigit()
+            or (node.base in self.notation.labelled)
         )
 
     def product(self, parts: list[Node | None]) -> Node:

@@ -133,8 +133,12 @@ def _table(exact: Gait) -> ClaimResult:
                 at_nodes = max(at_nodes, gap)
             if gap > 1e-6:
                 missed.append(f"{name}({t:g}) by {gap:.2f} mm")
-    return ClaimResult(worst / _STEP, _beyond(at_nodes, 1e-9, _STEP), "missed: " + ", ".join(missed),
-                       {"foot's path [m]": worst * 1e-3})
+    return ClaimResult(
+        worst / _STEP,
+        _beyond(at_nodes, 1e-9, _STEP),
+        "missed: " + ", ".join(missed),
+        {"foot's path [m]": worst * 1e-3},
+    )
 
 
 def _left_foot_sign(robot: Scout) -> ClaimResult:
@@ -161,8 +165,10 @@ def _angles() -> tuple[np.ndarray, np.ndarray]:
     rows = [line.split(",")[1:] for line in lines if line[0].isdigit()]
     half = [[0.5 * 10.0 ** -len(cell.partition(".")[2]) for cell in row] for row in rows]
     # "0." is Mathematica's machine zero, not a rounded number.
-    exact = [[0.0 if float(cell) == 0 else h for cell, h in zip(row, halves, strict=True)]
-             for row, halves in zip(rows, half, strict=True)]
+    exact = [
+        [0.0 if float(cell) == 0 else h for cell, h in zip(row, halves, strict=True)]
+        for row, halves in zip(rows, half, strict=True)
+    ]
     return np.array(rows, dtype=float), np.array(exact)
 
 
@@ -179,7 +185,9 @@ def _printed_angles(robot: Scout, program: Gait, *, first_only: bool) -> ClaimRe
     gap = np.abs(found - angles[: len(t)])
     # The program's own solver stops short of the root by up to 2e-6 degrees.
     residual = _beyond(gap, half[: len(t)] + 2e-6, 1.0)
-    return ClaimResult(residual, note=f"{angles[: len(t)].size} angles, largest gap {gap.max():.1e}°")
+    return ClaimResult(
+        residual, note=f"{angles[: len(t)].size} angles, largest gap {gap.max():.1e}°"
+    )
 
 
 # -- appendix B -----------------------------------------------------------------
@@ -319,7 +327,9 @@ def _program_y_b(catalogue: Catalogue) -> ClaimResult:
     apart = np.abs((own - text) @ np.stack([t**2, t, np.ones_like(t)])).max()
     residual = _beyond((own - text) / text, (half + text_half) / np.abs(text), 1.0)
     note = f"other coefficients, though the curves stay within {apart:.3f} mm of each other"
-    return ClaimResult(residual, float(np.abs(right - text).max()), note, {"torso's path [m]": float(apart) * 1e-3})
+    return ClaimResult(
+        residual, float(np.abs(right - text).max()), note, {"torso's path [m]": float(apart) * 1e-3}
+    )
 
 
 def _diagonal(robot: Scout) -> ClaimResult:

@@ -100,24 +100,34 @@ class ExplicitModel:
 
     def D(self, q: Any) -> np.ndarray:
         """Mass matrix, shape ``(..., 18, 18)``. Source: 4.7, (4.8), 4.2."""
-        return self._term("bb:D", q)
+        return self._batch(lambda references: self._terms(references, "D")[0], q)
 
     def V(self, q: Any, v: Any) -> np.ndarray:
         """V(q, q̇) = Ṅ − ½ [q̇ᵀ ∂N/∂q_j]_j, shape ``(..., 18, 18)``.
 
         Only V q̇ compares with a Coriolis term. Source: 4.7, (4.8), (4.10).
         """
-        return self._term("bb:V", q, v)
+        return self._batch(lambda references: self._terms(references, "V")[0], q, v)
 
     def C(self, q: Any) -> np.ndarray:
         """Gravity term [N], [N·m], shape ``(..., 18)``. Source: 4.7, (4.10)."""
-        return self._term("bb:C", q)
+        return self._batch(lambda references: self._terms(references, "C")[0], q)
+
+    def terms(self, q: Any, v: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """D, V and C at once: what they share is worked out once."""
+
+        def stacked(references: References) -> np.ndarray:
+            mass, velocity, gravity = self._terms(references, "DVC")
+            return np.concatenate([mass, velocity, gravity[..., None]], axis=-1)
+
+        found = self._batch(stacked, q, v)
+        return found[..., :18], found[..., 18:36], found[..., 36]
 
     def generalized_force(self, q: Any, v: Any, a: Any) -> np.ndarray:
         """D q̈ + V q̇ + C, the left side of (4.23) [N], [N·m], shape ``(..., 18)``."""
         q, v, a = (finite_array(name, x, 18) for name, x in zip("qva", (q, v, a), strict=True))
-        moving = (self.D(q) @ a[..., None] + self.V(q, v) @ v[..., None])[..., 0]
-        return moving + self.C(q)
+        mass, velocity, gravity = self.terms(q, v)
+        return (mass @ a[..., None] + velocity @ v[..., None])[..., 0] + gravity
 
     # -- right side ------------------------------------------------------------
 
@@ -208,14 +218,15 @@ class ExplicitModel:
             catalogue(), references, self.edition, substituted=self.substituted
         )
 
-    def _term(self, base: str, q: Any, v: Any = None) -> np.ndarray:
-        def value(references: References) -> np.ndarray:
-            found = self.environment(references).lookup(Symbol(base, "j"), {})
-            array = found.array[..., 0, :] if found.rank == 2 else found.array
-            tail = (18, 18) if found.rank == 2 else (18,)
-            return np.broadcast_to(array, (len(references.state.q), *tail))
-
-        return self._batch(value, q, v)
+    def _terms(self, references: References, wanted: str) -> list[np.ndarray]:
+        """Some of D, V and C, from rows 𝔻_j, 𝕍_j, ℂ_j of 4.7."""
+        environment, found = self.environment(references), []
+        for letter in wanted:
+            value = environment.lookup(Symbol(f"bb:{letter}", "j"), {})
+            array = value.array[..., 0, :] if value.rank == 2 else value.array
+            tail = (18, 18) if value.rank == 2 else (18,)
+            found.append(np.broadcast_to(array, (len(references.state.q), *tail)))
+        return found
 
     def _actuation(self, references: References) -> np.ndarray:
         result = np.zeros((len(references.state.q), 18, 12))

@@ -237,7 +237,9 @@ class References:
             k = "xyz".index(symbol.base)
             if symbol.dots == 0:
                 return scalar(where[..., k])
-            return scalar((jacobian[..., k, :] * self.state.v).sum(-1)) if symbol.dots == 1 else None
+            return (
+                scalar((jacobian[..., k, :] * self.state.v).sum(-1)) if symbol.dots == 1 else None
+            )
         constant = None if symbol.dots else self._constant(symbol.name)
         return self._coordinate(symbol.name, symbol.dots) or constant
 
@@ -681,9 +683,9 @@ class References:
         """Right-hand sides of (3.16) and (3.24): what the six joints have to supply."""
         state = self.state
         joints = slice(6 * i, 6 * i + 6)
-        jacobian = np.concatenate(
-            [state.point(f"7{i}")[1], state.angular(f"7{i}")], axis=-2
-        )[..., joints]
+        jacobian = np.concatenate([state.point(f"7{i}")[1], state.angular(f"7{i}")], axis=-2)[
+            ..., joints
+        ]
         if rates:
             return (jacobian @ state.v[..., joints, None])[..., 0]
         later = self.moved(None, False).state
@@ -824,5 +826,7 @@ def _arctan2(y: np.ndarray, x: np.ndarray) -> np.ndarray:
     """atan2 that carries a complex step."""
     if not (np.iscomplexobj(y) or np.iscomplexobj(x)):
         return np.arctan2(y, x)
-    slope = (np.real(x) * np.imag(y) - np.real(y) * np.imag(x)) / (np.real(x) ** 2 + np.real(y) ** 2)
+    slope = (np.real(x) * np.imag(y) - np.real(y) * np.imag(x)) / (
+        np.real(x) ** 2 + np.real(y) ** 2
+    )
     return np.arctan2(np.real(y), np.real(x)) + 1j * slope

@@ -67,7 +67,9 @@ class Parameters:
             for n, link in enumerate(leg.links, start=1):
                 found[f"m_{n}{i}"], found[f"G{n}{i}"] = link.mass, link.com
                 found[f"I{n}{i}"] = link.centroidal(convention, reading)
-        return cls({key: np.asarray(value, dtype=float)[None, None] for key, value in found.items()})
+        return cls(
+            {key: np.asarray(value, dtype=float)[None, None] for key, value in found.items()}
+        )
 
     @classmethod
     def random(cls, generator: np.random.Generator) -> Parameters:
@@ -86,7 +88,9 @@ class Parameters:
             found[f"G{body}"] = generator.uniform(-0.04, 0.04, 3)
             root = generator.uniform(-1e-2, 1e-2, (3, 3))
             found[f"I{body}"] = root @ root.T + 1e-5 * np.eye(3)
-        return cls({key: np.asarray(value, dtype=float)[None, None] for key, value in found.items()})
+        return cls(
+            {key: np.asarray(value, dtype=float)[None, None] for key, value in found.items()}
+        )
 
     @classmethod
     def repeat(cls, robots: Sequence[tuple[Parameters, int]]) -> Parameters:
