@@ -11,21 +11,23 @@ import functools
 import math
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from scout_pin.model import load
 from scout_pin.specification import Specification
-from scout_pin.thesis import claims_dynamics, claims_tables
+from scout_pin.thesis import claims_dynamics, claims_robot, claims_tables
 from scout_pin.thesis.explicit import catalogue, resting
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
-from thesis_pin.audit import Claims, Report, Row, judge
-from thesis_pin.equations import Catalogue, EditionEnvironment, Equation
+from thesis_pin.audit import Claims, Report, judge
+from thesis_pin.editions import EditionEnvironment
+from thesis_pin.equations import Catalogue, Equation
 from thesis_pin.errors import BadInput
 from thesis_pin.evaluation import evaluate
-from thesis_pin.notation import FormulaError, Symbol
+from thesis_pin.formula import FormulaError, Symbol
 
 THESIS = "Scout thesis"
 NUMBERS = (
@@ -207,8 +209,11 @@ def audit(
     equations = equations or catalogue()
     chosen = equations.equations if only is None else [equations[name] for name in only]
     environment, effects = References(states()), Effects(equations)
-    claims: Claims = claims_tables.claims(equations) | claims_dynamics.claims(law_states)
-    claims = _once(claims)
+    claims = _once(
+        claims_tables.claims(equations)
+        | claims_robot.claims(equations)
+        | claims_dynamics.claims(law_states)
+    )
     rows = []
     for equation in progress(chosen, len(chosen)) if progress else chosen:
         row = judge(equations, equation, environment, claims, THESIS)
@@ -219,7 +224,7 @@ def audit(
             }
             if not effect and row.residual_printed == math.inf:
                 effect = {"this line": "can't be computed"}
-            row = Row(**{**vars(row), "effect": effect})
+            row = replace(row, effect=effect)
         rows.append(row)
     described = (
         f"States: {len(environment.state.q)}, seeded, of four robots (the thesis's under both "
@@ -240,13 +245,14 @@ def _once(claims: Claims) -> Claims:
 def run(arguments: argparse.Namespace) -> int:
     """Run the verb; returns the exit code."""
     from thesis_pin import audit_report as faces
+    from thesis_pin.audit_page import page
     from thesis_pin.command_line import OK, print_table, print_text, write_file
     from thesis_pin.report import json_bytes
 
     only = [_known(arguments.equation)] if arguments.equation else None
     report = audit(only=only, progress=_progress)
     if arguments.html:
-        write_file(arguments.html, faces.page(report).encode())
+        write_file(arguments.html, page(report).encode())
     if arguments.markdown:
         write_file(arguments.markdown, faces.markdown(report, COMMAND).encode())
     if arguments.json:
@@ -260,7 +266,12 @@ def run(arguments: argparse.Namespace) -> int:
     print_text(*lines[:1])
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
     print_table(columns, faces.failure_rows(report, every=arguments.every))
-    print_text(*lines[1:], "Without a verdict:")
+    print_text(
+        "Effect: the largest number of a row or group; blocked: the line can't be computed, or",
+        "following it leaves nothing to compute.",
+        *lines[1:],
+        "Without a verdict:",
+    )
     for section in report.sections:
         for reason in dict.fromkeys(reason for _, reason in section.gaps):
             count = sum(one == reason for _, one in section.gaps)

@@ -10,14 +10,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Literal
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
 
 import numpy as np
 
 from thesis_pin.equations import Catalogue, Equation, index_values
-from thesis_pin.evaluation import Environment, Value, evaluate
-from thesis_pin.notation import FormulaError
+from thesis_pin.evaluation import Environment, evaluate
+from thesis_pin.formula import FormulaError
+from thesis_pin.values import Value
 
 Verdict = Literal["holds", "misprint", "wrong", "illegible", "not checkable", "unexplained"]
 VERDICTS: tuple[Verdict, ...] = (
@@ -231,8 +232,8 @@ def judge(
     )
 
 
-def _with(row: Row, **changes: object) -> Row:
-    return Row(**{**vars(row), **changes})  # type: ignore[arg-type]
+def _with(row: Row, **changes: Any) -> Row:
+    return replace(row, **changes)
 
 
 def _places(catalogue: Catalogue, equation: Equation) -> Iterator[str]:

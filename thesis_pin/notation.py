@@ -12,163 +12,29 @@ import functools
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from lark import Lark, Token, Transformer, UnexpectedInput
 from lark.exceptions import VisitError
 
-from thesis_pin.errors import BadInput
-
-
-class FormulaError(BadInput):
-    """A formula can't be read or evaluated."""
-
-
-class Node:
-    """Base of all parts of a formula."""
-
-
-@dataclass(frozen=True)
-class Number(Node):
-    """A number; 0 stands for a zero of any shape."""
-
-    value: float
-
-
-@dataclass(frozen=True)
-class Symbol(Node):
-    """A letter with its marks: ``\\dot{\\mathbf{e}}_{9i}^0`` has one dot, "9i" and "0".
-
-    Attributes:
-        base: Letter, Greek ones by name ("theta"), fonts other than bold in front ("bb:D").
-        sub, sup: Flattened sub- and superscript; frames and labels only, no powers.
-        dots: Number of dots.
-        primes: Number of primes.
-        bold: Whether it is printed bold.
-    """
-
-    base: str
-    sub: str = ""
-    sup: str = ""
-    dots: int = 0
-    primes: int = 0
-    bold: bool = False
-
-    @property
-    def name(self) -> str:
-        """Key for look-ups: the symbol in plain characters, without its dots."""
-        text = self.base + "'" * self.primes
-        return text + (f"_{self.sub}" if self.sub else "") + (f"^{self.sup}" if self.sup else "")
-
-    def bound(self, indices: dict[str, str]) -> Symbol:
-        """The symbol with index letters replaced, for instance i by 1."""
-
-        scripts = self.sub + self.sup
-        if not any(letter in scripts for letter in indices):
-            return self
-
-        def put(text: str) -> str:
-            # A Greek name inside a subscript ("thetaB") isn't a run of indices.
-            parts = re.split(r"(theta|phi|psi)", text)
-            return "".join(
-                part if k % 2 else "".join(indices.get(letter, letter) for letter in part)
-                for k, part in enumerate(parts)
-            )
-
-        return replace(self, sub=put(self.sub), sup=put(self.sup))
-
-
-@dataclass(frozen=True)
-class Sum(Node):
-    """Terms with their signs."""
-
-    terms: tuple[tuple[str, Node], ...]
-
-
-@dataclass(frozen=True)
-class Product(Node):
-    """Factors multiplied from the left."""
-
-    factors: tuple[Node, ...]
-
-
-@dataclass(frozen=True)
-class Cross(Node):
-    """Vector product."""
-
-    left: Node
-    right: Node
-
-
-@dataclass(frozen=True)
-class Dot(Node):
-    """Scalar product of vectors, or a product with a scalar."""
-
-    left: Node
-    right: Node
-
-
-@dataclass(frozen=True)
-class Quotient(Node):
-    """Numerator over denominator."""
-
-    above: Node
-    below: Node
-
-
-@dataclass(frozen=True)
-class Power(Node):
-    """A scalar to an integer power (or an index letter's), a matrix to the power −1."""
-
-    base: Node
-    exponent: int | str
-
-
-@dataclass(frozen=True)
-class Transpose(Node):
-    """Transpose of a vector or matrix."""
-
-    of: Node
-
-
-@dataclass(frozen=True)
-class Call(Node):
-    """A function of the notation: "cos", "R_x", "T_z4" …, with dots if it has any."""
-
-    function: str
-    argument: Node
-    dots: int = 0
-
-
-@dataclass(frozen=True)
-class Derivative(Node):
-    """Partial derivative by a symbol; by None: d/dt."""
-
-    of: Node
-    by: Symbol | Node | None
-
-
-@dataclass(frozen=True)
-class Series(Node):
-    """Sum over an index."""
-
-    index: str
-    first: int
-    last: int
-    body: Node
-
-
-@dataclass(frozen=True)
-class Matrix(Node):
-    """Rows of blocks."""
-
-    rows: tuple[tuple[Node, ...], ...]
-
-
-@dataclass(frozen=True)
-class Norm(Node):
-    """Euclidean length."""
-
-    of: Node
+from thesis_pin.formula import (
+    Call,
+    Cross,
+    Derivative,
+    Dot,
+    FormulaError,
+    Matrix,
+    Node,
+    Norm,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Series,
+    Sum,
+    Symbol,
+    Transpose,
+)
 
 
 @dataclass(frozen=True)
@@ -219,7 +85,8 @@ class Notation:
         try:
             return _builder(self).transform(_parser(self.words).parse(formula))
         except UnexpectedInput as error:
-            place = formula[max(0, error.pos_in_stream - 25) : error.pos_in_stream + 25]
+            at = error.pos_in_stream or 0
+            place = formula[max(0, at - 25) : at + 25]
             raise FormulaError(
                 f"the formula can't be read near {place!r}", allowed="the notation of notation.lark"
             ) from None
@@ -273,7 +140,7 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
     def number(self, parts: list[Token]) -> Node:
         return Number(float(parts[0]))
 
-    def font(self, parts: list[Node | Token]) -> Node:
+    def font(self, parts: list[Any]) -> Node:
         font, inside = str(parts[0]), parts[1]
         node = (
             Symbol(str(inside).removeprefix("\\")) if isinstance(inside, Token) else _open(inside)
@@ -284,7 +151,7 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             return replace(node, bold=True)
         return node
 
-    def accent(self, parts: list[Node | Token]) -> Node:
+    def accent(self, parts: list[Any]) -> Node:
         dots, node = (2 if "dd" in str(parts[0]) else 1), _open(parts[1])
         if isinstance(node, Symbol):
             return replace(node, dots=node.dots + dots)
@@ -300,17 +167,17 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
     def group(self, parts: list[Node]) -> Node:
         return _Group(_open(parts[0]))
 
-    def row(self, parts: list[Node | Token]) -> Node:
+    def row(self, parts: list[Any]) -> Node:
         cells = tuple(_open(part) for part in parts if not isinstance(part, Token))
         return Matrix((cells,))
 
-    def matrix_row(self, parts: list[Node | Token]) -> tuple[Node, ...]:
+    def matrix_row(self, parts: list[Any]) -> tuple[Node, ...]:
         return tuple(_open(part) for part in parts if not isinstance(part, Token))
 
-    def matrix(self, parts: list[tuple[Node, ...] | Token]) -> Node:
+    def matrix(self, parts: list[Any]) -> Node:
         return Matrix(tuple(part for part in parts if isinstance(part, tuple)))
 
-    def norm(self, parts: list[Node | Token]) -> Node:
+    def norm(self, parts: list[Any]) -> Node:
         return Norm(_open(parts[1]))
 
     def root(self, parts: list[Node]) -> Node:
@@ -319,17 +186,17 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
     def total(self, parts: list[Token]) -> Node:
         return _Mark("derivative")
 
-    def partial_operator(self, parts: list[Node | Token]) -> Node:
+    def partial_operator(self, parts: list[Any]) -> Node:
         return _Mark("derivative", by=_open(parts[-1]))
 
-    def partial(self, parts: list[Node | Token]) -> Node:
+    def partial(self, parts: list[Any]) -> Node:
         above, below = (part for part in parts if not isinstance(part, Token))
         return Derivative(_open(above), _open(below))
 
-    def quotient(self, parts: list[Node | Token]) -> Node:
+    def quotient(self, parts: list[Any]) -> Node:
         return Quotient(_open(parts[1]), _open(parts[2]))
 
-    def scripted(self, parts: list[Node | Token]) -> Node:
+    def scripted(self, parts: list[Any]) -> Node:
         node, scripts = parts[0], [str(part) for part in parts[1:]]
         for script in scripts:
             node = self._with_script(node, script)
@@ -392,10 +259,14 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             if not waiting:
                 raise ValueError(f"nothing follows {node.name or 'the derivative'}")
             return self._apply(node, self._next_factor(waiting))
-        if isinstance(node, Symbol) and waiting and isinstance(waiting[0], Transpose):
-            if self._says_only_dependence(waiting[0].of):
-                waiting.pop(0)
-                return Transpose(node)
+        following = waiting[0] if waiting else None
+        if (
+            isinstance(node, Symbol)
+            and isinstance(following, Transpose)
+            and self._says_only_dependence(following.of)
+        ):
+            waiting.pop(0)
+            return Transpose(node)
         if isinstance(node, Symbol) and waiting and isinstance(waiting[0], _Group):
             inside = waiting[0].inside
             if node.name in self.notation.functions:
@@ -427,23 +298,23 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         call = Call(mark.name, _open(argument))
         return call if exponent == 1 else Power(call, exponent)
 
-    def series(self, parts: list[Node | Token]) -> Node:
+    def series(self, parts: list[Any]) -> Node:
         match = re.match(r"\\sum_\{(\w)=(\d+)\}\^\{?(\d+)\}?", str(parts[0]))
         assert match
         return Series(match[1], int(match[2]), int(match[3]), _open(parts[1]))
 
-    def cross(self, parts: list[Node | Token]) -> Node:
+    def cross(self, parts: list[Any]) -> Node:
         return Cross(_open(parts[0]), _open(parts[2]))
 
-    def dot(self, parts: list[Node | Token]) -> Node:
+    def dot(self, parts: list[Any]) -> Node:
         return Dot(_open(parts[0]), _open(parts[2]))
 
-    def first_term(self, parts: list[Node | Token]) -> Node:
+    def first_term(self, parts: list[Any]) -> Node:
         if len(parts) == 1:
             return parts[0]
         return Sum(((str(parts[0]), _open(parts[1])),))
 
-    def sum(self, parts: list[Node | Token]) -> Node:
+    def sum(self, parts: list[Any]) -> Node:
         first = parts[0]
         if len(parts) == 1:
             return first
@@ -458,14 +329,3 @@ def _open(node: Node) -> Node:
     while isinstance(node, _Group):
         node = node.inside
     return node
-
-
-def symbols(node: object) -> set[Symbol]:
-    """All symbols in a formula."""
-    if isinstance(node, Symbol):
-        return {node}
-    if isinstance(node, tuple | list):
-        return set().union(*(symbols(part) for part in node)) if node else set()
-    if isinstance(node, Node):
-        return symbols(tuple(vars(node).values()))
-    return set()

@@ -20,8 +20,8 @@ from scout_pin.thesis.state import Parameters
 from thesis_pin.audit import ClaimResult
 from thesis_pin.errors import NoSolution
 from thesis_pin.evaluation import evaluate
+from thesis_pin.formula import Symbol
 from thesis_pin.inertia import Reading
-from thesis_pin.notation import Symbol
 
 SEED = 20100
 
@@ -58,6 +58,8 @@ def gait_in_thesis_coordinates(
     motion = load_gait("thesis").sample(t)
     joints = joint_trajectory(robot, motion)
     q, v, a = robot.to_thesis(*free_flyer_state(motion.torso, joints))
+    assert v is not None
+    assert a is not None
     return motion, q, v, a
 
 

@@ -1,4 +1,4 @@
-"""Checks of the thesis's tables, splines, program and appendix B.
+"""Checks of the thesis's tables, splines and program.
 
 Each function is called by the equation whose ``claim`` names it, and returns
 residuals; a number printed in the thesis is read from that equation, not
@@ -20,11 +20,9 @@ from scout_pin.dynamics import joint_trajectory
 from scout_pin.gait import Gait, load_gait
 from scout_pin.kinematics import leg_inverse_kinematics
 from scout_pin.model import Scout, load
-from scout_pin.specification import LINK_NAMES, Specification
+from scout_pin.specification import Specification
 from thesis_pin.audit import ClaimResult
 from thesis_pin.equations import Catalogue
-from thesis_pin.errors import NonPhysicalInertia
-from thesis_pin.inertia import check_physical
 from thesis_pin.interpolation import quadratic
 
 _HERE = Path(__file__).parent
@@ -52,11 +50,6 @@ def claims(catalogue: Catalogue) -> dict[str, Callable[[], ClaimResult]]:
         "gait_constants": partial(_gait_constants, robot),
         "table_5_1": partial(_table, exact),
         "constant_angles": _constant_angles,
-        "mass_sum": partial(_mass_sum, catalogue, robot.specification),
-        "neutral_pose": partial(_neutral_pose, robot),
-        "soles": partial(_soles, robot.specification),
-        "mirror": partial(_mirror, robot),
-        "inertias_as_tensors": partial(_inertias_as_tensors, robot.specification),
         "spline_system": _spline_system,
         "figure_c_1": partial(_figure_c_1, catalogue),
         "program_beta": partial(_program_beta, robot.specification),
@@ -67,7 +60,7 @@ def claims(catalogue: Catalogue) -> dict[str, Callable[[], ClaimResult]]:
     }
 
 
-def _beyond(error: np.ndarray | float, allowed: np.ndarray | float, scale: float) -> float:
+def beyond(error: np.ndarray | float, allowed: np.ndarray | float, scale: float) -> float:
     """What an error exceeds rounding by, relative to a scale."""
     return float(np.max(np.maximum(np.abs(error) - allowed, 0.0), initial=0.0)) / scale
 
@@ -108,7 +101,7 @@ def _spline(catalogue: Catalogue, name: str, number: int, exact: Gait) -> ClaimR
         powers = np.stack([t**2, t, np.ones_like(t)])
         truth = exact.curves[body][axis](t) * 1e3
         # 38.5 and the like are the table's own numbers; they carry no rounding.
-        worst = max(worst, _beyond(values @ powers - truth, half @ powers, _STEP))
+        worst = max(worst, beyond(values @ powers - truth, half @ powers, _STEP))
     return ClaimResult(worst, note="the spline through its own nodes, to the digits printed")
 
 
@@ -135,7 +128,7 @@ def _table(exact: Gait) -> ClaimResult:
                 missed.append(f"{name}({t:g}) by {gap:.2f} mm")
     return ClaimResult(
         worst / _STEP,
-        _beyond(at_nodes, 1e-9, _STEP),
+        beyond(at_nodes, 1e-9, _STEP),
         "missed: " + ", ".join(missed),
         {"foot's path [m]": worst * 1e-3},
     )
@@ -156,7 +149,7 @@ def _gait_constants(robot: Scout) -> ClaimResult:
         np.abs(feet[side][:3, 3] - [sign * 44.54e-3, -38.5e-3, -234.37e-3]).max()
         for side, sign in (("left", -1), ("right", 1))
     )
-    return ClaimResult(_beyond(gap, 6 * 0.3 * np.radians(half[0]).max(), 0.2))
+    return ClaimResult(beyond(gap, 6 * 0.3 * np.radians(half[0]).max(), 0.2))
 
 
 def _angles() -> tuple[np.ndarray, np.ndarray]:
@@ -184,88 +177,10 @@ def _printed_angles(robot: Scout, program: Gait, *, first_only: bool) -> ClaimRe
     found = np.degrees(joint_trajectory(robot, program.sample(t)).q)
     gap = np.abs(found - angles[: len(t)])
     # The program's own solver stops short of the root by up to 2e-6 degrees.
-    residual = _beyond(gap, half[: len(t)] + 2e-6, 1.0)
+    residual = beyond(gap, half[: len(t)] + 2e-6, 1.0)
     return ClaimResult(
         residual, note=f"{angles[: len(t)].size} angles, largest gap {gap.max():.1e}°"
     )
-
-
-# -- appendix B -----------------------------------------------------------------
-
-
-def _mass_sum(catalogue: Catalogue, specification: Specification) -> ClaimResult:
-    printed = float(re.match(r"[\d.]+", catalogue["scout:B.5:m_T"].printed[0])[0]) * 1e-3  # type: ignore[index]
-    return ClaimResult(abs(specification.mass - printed) / printed)
-
-
-def _neutral_pose(robot: Scout) -> ClaimResult:
-    feet = robot.neutral_feet().values()
-    return ClaimResult(max(float(np.abs(foot[:3, :3] - np.eye(3)).max()) for foot in feet))
-
-
-def _soles(specification: Specification) -> ClaimResult:
-    left, right = (sorted(specification.leg(side).sole) for side in ("left", "right"))
-    gap = np.array(right) - np.array(left) - [18.15e-3, 0.0]
-    return ClaimResult(_beyond(gap, 1e-12, 0.1))
-
-
-def _mirror(robot: Scout) -> ClaimResult:
-    """Right links are the left ones mirrored in the sagittal plane, or turned about z."""
-    specification, worst, turned = robot.specification, 0.0, []
-    flip = {"mirrored": np.diag([-1.0, 1.0, 1.0]), "turned": np.diag([-1.0, -1.0, 1.0])}
-    axes = {side: _neutral_axes(specification, side) for side in ("left", "right")}
-    for n in range(6):
-        gaps = {}
-        for kind, change in flip.items():
-            sides = []
-            for side in ("left", "right"):
-                link, R = specification.leg(side).links[n], axes[side][n]
-                tensor = link.centroidal(specification.inertia_convention, "physical")
-                sides.append((R @ np.array(link.com), R @ tensor @ R.T, link.mass))
-            (com, tensor, mass), (other, other_tensor, other_mass) = sides
-            gaps[kind] = max(
-                float(np.abs(change @ com - other).max()) / 0.05,
-                float(np.abs(change @ tensor @ change - other_tensor).max()) / 1e-4,
-                abs(mass - other_mass) / mass,
-            )
-        best = min(gaps, key=lambda kind: gaps[kind])
-        worst = max(worst, gaps[best])
-        if best == "turned":
-            turned.append(LINK_NAMES[n])
-    note = f"turned by 180° about the vertical instead of mirrored: {', '.join(turned) or 'none'}"
-    return ClaimResult(worst, note=note)
-
-
-def _neutral_axes(specification: Specification, side: str) -> list[np.ndarray]:
-    """Axes of the six link frames in the torso's, servos neutral."""
-    from thesis_pin.rotations import rotation
-
-    turned, frames = np.eye(3), []
-    for axis, angle in zip("zyzzzx", specification.leg(side).beta_deg, strict=True):
-        turned = turned @ rotation(axis, np.radians(angle))
-        frames.append(turned)
-    return frames
-
-
-def _inertias_as_tensors(specification: Specification) -> ClaimResult:
-    """How many of the 13 printed matrices no body can have, read either way."""
-    bodies = {"torso": specification.torso}
-    for side in ("left", "right"):
-        bodies |= {
-            f"{side} {name}": link
-            for name, link in zip(LINK_NAMES, specification.leg(side).links, strict=True)
-        }
-    impossible: dict[str, list[str]] = {"tensor_about_joint": [], "products_about_joint": []}
-    for convention, names in impossible.items():
-        for name, link in bodies.items():
-            tensor = link.centroidal(convention, "physical")  # type: ignore[arg-type]
-            try:
-                check_physical(name, link.mass, np.array(link.com), tensor)
-            except NonPhysicalInertia:
-                names.append(name)
-    tensors, products = impossible.values()
-    note = f"impossible as tensors: {', '.join(tensors)}"
-    return ClaimResult(len(tensors) / len(bodies), len(products) / len(bodies), note)
 
 
 # -- appendices C and D -----------------------------------------------------------
@@ -309,7 +224,7 @@ def _figure_c_1(catalogue: Catalogue) -> ClaimResult:
     half = np.array([0.5 * 10.0 ** -len(cell.partition(".")[2]) for cell in cells]).reshape(3, 3)
     times = (0.0, 15.0, 20.0, 24.0)
     found = solve_spline_system(np.array(times), _nodes("y_B", times))
-    return ClaimResult(_beyond(found - printed, half, 1.0))
+    return ClaimResult(beyond(found - printed, half, 1.0))
 
 
 def _program_beta(specification: Specification) -> ClaimResult:
@@ -325,7 +240,7 @@ def _program_y_b(catalogue: Catalogue) -> ClaimResult:
     (own, half), (right, _) = (_polynomial(formula) for formula in (row.printed[0], row.right[1]))
     t = np.linspace(20, 25, 200, endpoint=False)
     apart = np.abs((own - text) @ np.stack([t**2, t, np.ones_like(t)])).max()
-    residual = _beyond((own - text) / text, (half + text_half) / np.abs(text), 1.0)
+    residual = beyond((own - text) / text, (half + text_half) / np.abs(text), 1.0)
     note = f"other coefficients, though the curves stay within {apart:.3f} mm of each other"
     return ClaimResult(
         residual, float(np.abs(right - text).max()), note, {"torso's path [m]": float(apart) * 1e-3}

@@ -24,11 +24,12 @@ from scout_pin.thesis.notation import NOTATION
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from thesis_pin.arrays import finite_array
-from thesis_pin.equations import Catalogue, Edition, EditionEnvironment
+from thesis_pin.editions import EditionEnvironment
+from thesis_pin.equations import Catalogue, Edition
 from thesis_pin.errors import NoSolution, UnknownName, WrongShape
 from thesis_pin.evaluation import evaluate
+from thesis_pin.formula import Symbol
 from thesis_pin.inertia import Reading
-from thesis_pin.notation import Symbol
 
 Interval = Literal[1, 2, 3]
 """T_1: left foot bears the robot; T_2: both; T_3: right foot (4.6)."""

@@ -15,10 +15,10 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.specification import SIDES, Specification
-from thesis_pin.evaluation import STEP
+from thesis_pin.formula import FormulaError
 from thesis_pin.inertia import Reading
-from thesis_pin.notation import FormulaError
 from thesis_pin.rotations import rotation, rotation_derivative
+from thesis_pin.values import STEP
 
 COORDINATES = (
     *("x_B", "y_B", "z_B", "theta_B", "phi_B", "psi_B"),

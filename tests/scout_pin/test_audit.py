@@ -8,7 +8,7 @@ import pytest
 
 from scout_pin.audit import CAUSES, COMMAND, NUMBERS, audit, states
 from scout_pin.thesis import catalogue
-from thesis_pin import audit_report
+from thesis_pin import audit_page, audit_report
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "audit" / "scout.md"
 
@@ -170,7 +170,7 @@ def test_the_document_is_current(report):
 
 
 def test_the_page_renders_every_formula_and_stays_small(report):
-    page = audit_report.page(report)
+    page = audit_page.page(report)
     assert page.count("<article") == len(report.rows)
     assert len(page.encode()) < 3_000_000
     assert "http://" not in page

@@ -5,10 +5,11 @@ import pinocchio as pin
 import pytest
 
 from scout_pin.specification import Specification
-from scout_pin.thesis.references import References, e_column
+from scout_pin.thesis.references import References
 from scout_pin.thesis.state import BODIES, COORDINATES, Parameters, State, coordinate_index
+from scout_pin.thesis.symbols.vectors import e_column
 from thesis_pin.evaluation import evaluate
-from thesis_pin.notation import FormulaError, Symbol
+from thesis_pin.formula import FormulaError, Symbol
 
 COUNT = 6
 

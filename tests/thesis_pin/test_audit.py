@@ -5,11 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from thesis_pin import audit, audit_report
+from thesis_pin import audit, audit_page, audit_report
 from thesis_pin.audit import ClaimResult, Report, judge, verdict
 from thesis_pin.equations import Catalogue, Equation
-from thesis_pin.evaluation import scalar, vector
-from thesis_pin.notation import FormulaError, Notation
+from thesis_pin.formula import FormulaError
+from thesis_pin.notation import Notation
+from thesis_pin.values import scalar, vector
 
 
 class World:
@@ -150,7 +151,7 @@ def test_the_document_is_plain_json_and_the_page_stands_alone(report):
     document = orjson.loads(orjson.dumps(audit_report.document(report)))
     assert [r["verdict"] for r in document["rows"]] == ["holds", "misprint", "illegible"]
     assert document["rows"][1]["corrected"] == {"1": "a b"}
-    page = audit_report.page(report)
+    page = audit_page.page(report)
     assert "<math" in page
     assert "http" not in page.replace("http-equiv", "")
     assert "Outside the audit" in audit_report.markdown(report, "make it")

@@ -4,7 +4,8 @@ import pytest
 
 from thesis_pin.equations import Catalogue, Equation, EquationFile
 from thesis_pin.errors import SpecificationError
-from thesis_pin.notation import FormulaError, Notation
+from thesis_pin.formula import FormulaError
+from thesis_pin.notation import Notation
 from thesis_pin.specification import parse_toml
 
 NOTATION = Notation()

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from thesis_pin import evaluation as ev
-from thesis_pin.notation import FormulaError
+from thesis_pin import values as ev
+from thesis_pin.formula import FormulaError
 from thesis_pin.rotations import rotation, rotation_derivative
 
 

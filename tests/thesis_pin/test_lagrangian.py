@@ -3,7 +3,7 @@
 import numpy as np
 
 from thesis_pin import lagrangian
-from thesis_pin.evaluation import STEP
+from thesis_pin.values import STEP
 
 
 def pendulum(q, length=0.7, mass=1.3, inertia=0.02):

@@ -4,19 +4,20 @@ import numpy as np
 import pytest
 
 from thesis_pin.errors import BadInput
-from thesis_pin.evaluation import FUNCTIONS, ZERO, Value, evaluate, matrix, scalar, vector
-from thesis_pin.notation import (
+from thesis_pin.evaluation import FUNCTIONS, evaluate
+from thesis_pin.formula import (
     Call,
     Cross,
     Derivative,
     FormulaError,
-    Notation,
     Power,
     Product,
     Symbol,
     Transpose,
     symbols,
 )
+from thesis_pin.notation import Notation
+from thesis_pin.values import ZERO, Value, matrix, scalar, vector
 
 NOTATION = Notation(functions=FUNCTIONS, words=("ZMP", "b1"), labelled=frozenset({"varphi"}))
 
