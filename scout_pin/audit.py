@@ -52,6 +52,7 @@ BEYOND = (
     ("chapters 1 and 2, appendix A", "no equations of the robot: its field, its making, a census"),
     ("figures 3.1 to 5.3", "drawings; figure 5.2 and C.1 are checked through their numbers"),
     ("B.1, B.2", "a parts list and lengths: data, checked where they are used"),
+    ("formulas inside sentences", "they repeat displayed ones"),
     ("appendix D's drawing commands", "they show the robot and compute nothing about it"),
 )
 COMMAND = "scout-pin audit --markdown docs/audit/scout.md"
@@ -267,7 +268,7 @@ def run(arguments: argparse.Namespace) -> int:
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
     print_table(columns, faces.failure_rows(report, every=arguments.every))
     print_text(
-        "Effect: the largest number of a row or group; blocked: the line can't be computed, or",
+        "Effect: the largest number of a row or group; blocked: the line can't be computed, or "
         "following it leaves nothing to compute.",
         *lines[1:],
         "Without a verdict:",

@@ -123,7 +123,7 @@ def failure_rows(report: Report, *, every: bool = False) -> list[tuple[str, ...]
         verdicts = "/".join(dict.fromkeys(row.verdict for row in rows))
         who = "/".join(dict.fromkeys(row.attribution for row in rows))
         effect = _worst_effect(worst)
-        found.append((_short(title, 39), str(len(rows)), verdicts, who, effect))
+        found.append((_short(title, 37), str(len(rows)), verdicts, who, effect))
     return found
 
 

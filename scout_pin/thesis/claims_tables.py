@@ -54,6 +54,7 @@ def claims(catalogue: Catalogue) -> dict[str, Callable[[], ClaimResult]]:
         "figure_c_1": partial(_figure_c_1, catalogue),
         "program_beta": partial(_program_beta, robot.specification),
         "program_y_b": partial(_program_y_b, catalogue),
+        "program_splines": partial(_program_splines, catalogue, program),
         "initial_angles": partial(_printed_angles, robot, program, first_only=True),
         "printed_angles": partial(_printed_angles, robot, program, first_only=False),
         "diagonal_fixes_pose": partial(_diagonal, robot),
@@ -245,6 +246,21 @@ def _program_y_b(catalogue: Catalogue) -> ClaimResult:
     return ClaimResult(
         residual, float(np.abs(right - text).max()), note, {"torso's path [m]": float(apart) * 1e-3}
     )
+
+
+def _program_splines(catalogue: Catalogue, program: Gait) -> ClaimResult:
+    """Every piece of the program's splines but the third of y_B, as printed in the text."""
+    worst, count = 0.0, 0
+    for number, (name, (body, axis)) in enumerate(_CURVES.items(), start=2):
+        pieces = printed_pieces(catalogue[f"scout:5:5.{number}"].printed[0])
+        for k, (start, end, values, _) in enumerate(pieces):
+            if (name, k) == ("y_B", 2):
+                continue
+            t = np.linspace(start, end, 40, endpoint=False)
+            own = program.curves[body][axis](t) * 1e3
+            apart = np.abs(values @ np.stack([t**2, t, np.ones_like(t)]) - own).max()
+            worst, count = max(worst, float(apart)), count + 1
+    return ClaimResult(worst / _STEP, note=f"{count} pieces")
 
 
 def _diagonal(robot: Scout) -> ClaimResult:
