@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from dataclasses import dataclass, replace
 
@@ -50,20 +51,22 @@ class Symbol(Node):
 
     def bound(self, indices: dict[str, str]) -> Symbol:
         """The symbol with index letters replaced, for instance i by 1."""
+        return _bound(self, tuple(indices.items())) if indices else self
 
-        scripts = self.sub + self.sup
-        if not any(letter in scripts for letter in indices):
-            return self
 
-        def put(text: str) -> str:
-            # A Greek name inside a subscript ("thetaB") isn't a run of indices.
-            parts = re.split(r"(theta|phi|psi)", text)
-            return "".join(
-                part if k % 2 else "".join(indices.get(letter, letter) for letter in part)
-                for k, part in enumerate(parts)
-            )
+@functools.lru_cache(maxsize=65536)
+def _bound(symbol: Symbol, pairs: tuple[tuple[str, str], ...]) -> Symbol:
+    indices = dict(pairs)
 
-        return replace(self, sub=put(self.sub), sup=put(self.sup))
+    def put(text: str) -> str:
+        # A Greek name inside a subscript ("thetaB") isn't a run of indices.
+        parts = re.split(r"(theta|phi|psi)", text)
+        return "".join(
+            part if k % 2 else "".join(indices.get(letter, letter) for letter in part)
+            for k, part in enumerate(parts)
+        )
+
+    return replace(symbol, sub=put(symbol.sub), sup=put(symbol.sup))
 
 
 @dataclass(frozen=True)

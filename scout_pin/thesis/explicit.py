@@ -43,7 +43,7 @@ FILES = tuple(
     )
 )
 """The equations, in the thesis's order: the first definition of a symbol counts."""
-_CHUNK = 48  # states whose ∂N/∂q_j stay small
+_CHUNK = 64  # states whose ∂N/∂q_j stay below a few hundred MB
 _UNBALANCED = 1e-8  # N, N·m: above rounding, below anything physical
 
 

@@ -17,7 +17,6 @@ import numpy as np
 from scout_pin.specification import SIDES, Specification
 from thesis_pin.formula import FormulaError
 from thesis_pin.inertia import Reading
-from thesis_pin.rotations import rotation, rotation_derivative
 from thesis_pin.values import STEP
 
 COORDINATES = (
@@ -26,6 +25,7 @@ COORDINATES = (
 )
 """Names of q_1 … q_18 (4.2)."""
 
+_PLANES = {"Rx": (1, 2), "Ry": (2, 0), "Rz": (0, 1)}
 LENGTHS = ("x_0", "z_1", "x_2", "x_3", "x_4", "x_5", "y_6")
 BODIES = ("B", *(f"{n}{i}" for i in (1, 2) for n in range(1, 7)))
 """Torso, then links 1 to 6 of the left and of the right leg."""
@@ -105,12 +105,6 @@ class Parameters:
             }
         )
 
-    def rows(self, which: slice) -> Parameters:
-        """The constants of some of the states."""
-        return Parameters(
-            {name: (a if a.shape[0] == 1 else a[which]) for name, a in self.values.items()}
-        )
-
 
 @dataclass(frozen=True)
 class Frame:
@@ -124,12 +118,18 @@ class Frame:
     placement: np.ndarray
     derivatives: dict[int, np.ndarray]
 
-    def then(self, factor: np.ndarray, rate: np.ndarray | None, coordinate: int | None) -> Frame:
-        """Multiply by a factor that may depend on one coordinate."""
-        after = {k: d @ factor for k, d in self.derivatives.items()}
+    def then(self, move: str, value: np.ndarray, coordinate: int | None = None) -> Frame:
+        """Multiply by an elementary transform that may depend on one coordinate.
+
+        Args:
+            move: "x", "y", "z" to translate, "Rx", "Ry", "Rz" to rotate.
+            value: Distance [m] or angle [rad], shape ``(N, J)``.
+            coordinate: Index of the coordinate ``value`` moves with, if any.
+        """
+        after = {k: times_elementary(d, move, value) for k, d in self.derivatives.items()}
         if coordinate is not None:
-            after[coordinate] = self.placement @ rate
-        return Frame(self.placement @ factor, after)
+            after[coordinate] = times_elementary(self.placement, move, value, derivative=True)
+        return Frame(times_elementary(self.placement, move, value), after)
 
     @property
     def rotation(self) -> np.ndarray:
@@ -209,7 +209,7 @@ class State:
         frame = Frame(np.broadcast_to(np.eye(4), (1, 1, 4, 4)), {})
         frames = []
         for k, move in enumerate(("x", "y", "z", "Rx", "Ry", "Rz")):
-            frame = frame.then(*_elementary(move, self.q[..., k]), k)
+            frame = frame.then(move, self.q[..., k], k)
             frames.append(frame)
         return frames
 
@@ -224,14 +224,12 @@ class State:
         for move, what in _LEG:
             if isinstance(what, int):
                 k = 5 + 6 * (i - 1) + what
-                frame = frame.then(
-                    *_elementary(move, self.q[..., k] + constants[f"beta_{what}{i}"]), k
-                )
+                frame = frame.then(move, self.q[..., k] + constants[f"beta_{what}{i}"], k)
                 frames.append(frame)
                 continue
             sign = -1 if what == "z_1" or (what == "x_0" and i == 1) else 1
             value = constants[what if what.startswith("beta") else f"{what}{i}"]
-            frame = frame.then(_elementary(move, sign * value)[0], None, None)
+            frame = frame.then(move, sign * value)
         frames.append(frame)
         return frames
 
@@ -269,18 +267,36 @@ class State:
         return turned @ self.parameters.values[f"I{body}"] @ np.swapaxes(turned, -1, -2)
 
 
-def _elementary(move: str, value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """An elementary transform and its derivative, shape ``(*value.shape, 4, 4)``."""
-    factor = np.zeros((*value.shape, 4, 4), dtype=np.result_type(value, float))
-    rate = np.zeros_like(factor)
-    if move[0] == "R":
-        factor[..., :3, :3], factor[..., 3, 3] = rotation(move[1], value), 1.0
-        rate[..., :3, :3] = rotation_derivative(move[1], value)
-    else:
-        factor[...] = np.eye(4)
-        factor[..., "xyz".index(move), 3] = value
-        rate[..., "xyz".index(move), 3] = 1.0
-    return factor, rate
+def times_elementary(
+    matrix: np.ndarray, move: str, value: np.ndarray, *, derivative: bool = False
+) -> np.ndarray:
+    """``matrix @ T`` for an elementary transform T, or for its derivative.
+
+    A translation changes the last column and a rotation mixes two, so no product
+    of 4×4 matrices is formed.
+
+    Args:
+        matrix: Shape ``(N, J, 4, 4)``.
+        move: "x", "y", "z", "Rx", "Ry" or "Rz".
+        value: Distance or angle, shape ``(N, J)``.
+        derivative: Take ∂T/∂value instead of T.
+    """
+    shape = np.broadcast_shapes(matrix.shape[:-2], value.shape)
+    result = np.zeros((*shape, 4, 4), dtype=np.result_type(matrix, value))
+    if not derivative:
+        result[...] = matrix
+    if move[0] != "R":
+        along = matrix[..., "xyz".index(move)]
+        result[..., 3] += along if derivative else along * value[..., None]
+        return result
+    first, second = _PLANES[move]
+    one, other = matrix[..., first], matrix[..., second]
+    cosine, sine = np.cos(value)[..., None], np.sin(value)[..., None]
+    if derivative:
+        cosine, sine = -sine, cosine
+    result[..., first] = one * cosine + other * sine
+    result[..., second] = other * cosine - one * sine
+    return result
 
 
 def coordinate_index(name: str) -> int:
