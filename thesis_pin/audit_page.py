@@ -20,7 +20,8 @@ article{border-left:5px solid #8a94a3;margin:1rem 0;padding:.2rem .9rem;overflow
 .unexplained{border-color:#6b21a8}code{background:#eef1f5;padding:0 .25rem}
 article h2{font-size:1rem;margin:.2rem 0}
 dl{display:grid;grid-template-columns:9rem 1fr;gap:.15rem .6rem}
-dt{color:#5b6675}dd{margin:0;overflow-x:auto}table{border-collapse:collapse}
+dt{color:#5b6675}dd{margin:0;padding:.15rem 0;overflow:auto hidden}
+math{math-style:normal}table{border-collapse:collapse}
 td,th{padding:.15rem .7rem;text-align:left;border-bottom:1px solid #e1e5ea}
 """
 _SCRIPT = """

@@ -88,7 +88,7 @@ class Notation:
             at = error.pos_in_stream or 0
             place = formula[max(0, at - 25) : at + 25]
             raise FormulaError(
-                f"the formula can't be read near {place!r}", allowed="the notation of notation.lark"
+                f"the formula can't be read near '{place}'", allowed="the notation of notation.lark"
             ) from None
         except VisitError as error:
             raise FormulaError(f"the formula can't be read: {error.orig_exc}") from None

@@ -71,6 +71,8 @@ class ExplicitModel:
     """The terms of (4.23) for one state or a batch.
 
     q, v, a have shape ``(..., 18)``: coordinates (4.2) [m], [rad] and their rates.
+    It walks through a thousand formulas at every call: made for comparison, not for
+    control. Pinocchio gives the same numbers faster.
 
     Args:
         specification: The biped; None for the thesis's.
@@ -141,7 +143,7 @@ class ExplicitModel:
 
         As printed they fix directions of foot vectors. Corrected, six rows a stance
         foot: displacement of p_i [m] and rotation vector [rad], world axes, from
-        ``placements``.
+        ``placements``. Near them its derivative is :meth:`dPhi_dq`.
 
         Args:
             q: Coordinates.

@@ -175,3 +175,34 @@ def test_the_page_renders_every_formula_and_stays_small(report):
     assert len(page.encode()) < 3_000_000
     assert "http://" not in page
     assert "https://" not in page
+
+
+def test_every_definition_that_D_V_and_C_rest_on_has_a_row():
+    """e, ė, ∂e; J, W, N, R, I, b, r and axes with their derivatives, both legs."""
+    names = {e.id.split(":", 2)[2].partition("#")[0] for e in catalogue().equations}
+    wanted = {f"{p}e_{n}i{s}" for n in range(1, 40) for p, s in _FORMS}
+    wanted |= {f"{p}e_{angle}B{s}" for angle in ("theta", "phi", "psi") for p, s in _FORMS}
+    bodies = ["B", *(f"{n}{i}" for i in (1, 2) for n in range(1, 7))]
+    wanted |= {f"{p}{x}_{body}{s}" for x in "JW" for body in bodies for p, s in _FORMS[1:]}
+    for n in range(1, 7):
+        wanted |= {f"{p}{x}_{n}i{s}" for x in "NI" for p, s in _FORMS[1:]}
+        wanted |= {f"{p}b_{n}i{s}" for p, s in _FORMS} | {f"{p}r_G{n}i{s}" for p, s in _FORMS}
+        wanted |= {f"{p}R_{2 * n - 1}i{s}" for p, s in _FORMS[1:]} | {f"dr_{n - 1}i/dq_j"}
+    for axis in ("k_0i", "j_2i", "k_4i", "k_6i", "k_8i", "i_10i"):
+        wanted |= {f"{p}{axis}{s}" for p, s in _FORMS}
+    assert wanted - names == set()
+    lost = {e.id for e in catalogue().equations if e.illegible}
+    defined = catalogue().definitions
+    for body in bodies:
+        for x in "JW":
+            assert ("", f"{x}_{body}", 0) in defined or f"scout:4.1:{x}_{body}" in lost
+
+
+_FORMS = (("", ""), ("dot_", ""), ("d", "/dq_j"))
+
+
+def test_illegible_lines_are_recorded_and_not_guessed():
+    for equation in catalogue().equations:
+        if equation.illegible:
+            assert equation.printed == ()
+            assert equation.mending == {}

@@ -31,7 +31,7 @@ class Numbers:
         self.values = values
 
     def lookup(self, symbol, indices):
-        name = symbol.name + "'" * 0 + ("_dot" if symbol.dots else "")
+        name = symbol.name + ("_dot" if symbol.dots else "")
         if name not in self.values:
             raise FormulaError(f"the symbol {name} isn't defined anywhere")
         value = self.values[name]
@@ -65,6 +65,26 @@ def only(formula):
         (r"\sqrt{x^2 + y^2}", {"x": 3, "y": 4}, 5),
         (r"csc\psi \operatorname{csc}\psi", {"psi": 0.4}, 1 / np.sin(0.4) ** 2),
         (r"\dot{x}E_{19} + 3", {"x_dot": 2, "E_19": 5}, 13),
+        (
+            r"-\frac{(c_{32}\dot{c}_{22} - c_{22}\dot{c}_{32})c\theta_{1615}^2}{c_{22}^2}",
+            {"c_32": 2, "c_22_dot": 3, "c_22": 5, "c_32_dot": 7, "theta_1615": 0.3},
+            -(2 * 3 - 5 * 7) * np.cos(0.3) ** 2 / 25,
+        ),
+        (
+            r"2 (x - x_{32} c \theta_{21} - x_{1918} c \phi c \psi)",
+            {"x": 1, "x_32": 2, "x_1918": 3, "theta_21": 0.1, "phi": 0.2, "psi": 0.3},
+            2 * (1 - 2 * np.cos(0.1) - 3 * np.cos(0.2) * np.cos(0.3)),
+        ),
+        (
+            r"\arctan\left(\frac{Y_i c \theta_{65}}{X_i}\right)",
+            {"Y_i": 0.4, "theta_65": 0.2, "X_i": 0.7},
+            np.arctan(0.4 * np.cos(0.2) / 0.7),
+        ),
+        (
+            r"2 \text{arcTan} \left(\frac{B + \sqrt{A^2 + B^2 - C^2}}{A - C} \right)",
+            {"A": 2, "B": 1, "C": 0.5},
+            2 * np.arctan((1 + np.sqrt(4.75)) / 1.5),
+        ),
         (r"ZMP_z - b1_y", {"ZMP_z": 2, "b1_y": 0.5}, 1.5),
     ],
 )
