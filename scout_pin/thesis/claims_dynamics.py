@@ -11,7 +11,8 @@ import numpy as np
 import pinocchio as pin
 
 from scout_pin.dynamics import free_flyer_state, inverse_dynamics, joint_trajectory
-from scout_pin.gait import Motion, load_gait
+from scout_pin.gait import Motion
+from scout_pin.gait_files import load_gait
 from scout_pin.model import Scout, load
 from scout_pin.specification import Specification
 from scout_pin.thesis.explicit import ExplicitModel, Interval, resting

@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 
 from scout_pin.dynamics import joint_trajectory
-from scout_pin.gait import Gait, load_gait
+from scout_pin.gait import Gait
+from scout_pin.gait_files import load_gait
 from scout_pin.kinematics import leg_inverse_kinematics
 from scout_pin.model import Scout, load
 from scout_pin.specification import Specification

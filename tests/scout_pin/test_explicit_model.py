@@ -6,7 +6,7 @@ import pytest
 
 import scout_pin
 from scout_pin.dynamics import free_flyer_state, inverse_dynamics, joint_trajectory
-from scout_pin.gait import load_gait
+from scout_pin.gait_files import load_gait
 from scout_pin.specification import Specification
 from scout_pin.thesis import ExplicitModel
 from thesis_pin.errors import BadInput, NoSolution, UnknownName
