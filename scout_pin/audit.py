@@ -42,11 +42,11 @@ CAUSES = {
     "constraints": "Φ fixes directions, not the feet",
     "columns": "runs of zero columns miscounted",
     "dots": "dots lost, added or merged lines",
-    "dotted-capitals": "dotted capitals read as small letters",
+    "dotted-capitals": "dotted capitals read as small ones",
     "old-frames": "4.3, 4.4: an older set of frames",
     "ddot-q": "∂q̈/∂q̇_j for ∂q̇/∂q̇_j",
-    "shifted-columns": "∂W: a column too many, names shifted",
-    "inertia-reading": "printed inertias used as centroidal",
+    "shifted-columns": "∂W: one column too many, shifted",
+    "inertia-reading": "B.6 used as centroidal tensors",
 }
 BEYOND = (
     ("chapters 1 and 2, appendix A", "no equations of the robot: its field, its making, a census"),

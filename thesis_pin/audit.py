@@ -70,6 +70,7 @@ class Row:
         effect: What following the print does; by quantity.
         note: What a reader should know.
         cause: Slip shared by several equations.
+        check: How it was decided: "identity" at the audit's states, or the claim's name.
     """
 
     id: str
@@ -88,6 +89,7 @@ class Row:
     effect: dict[str, float | str] = field(default_factory=dict)
     note: str = ""
     cause: str = ""
+    check: str = ""
 
     @property
     def failed(self) -> bool:
@@ -208,6 +210,7 @@ def judge(
         result = claims[equation.claim]()
         return _with(
             row,
+            check=equation.claim,
             verdict=verdict(result.printed, result.corrected, physical=True),
             residual_printed=result.printed,
             residual_corrected=result.corrected,
@@ -222,6 +225,7 @@ def judge(
         mended = residual(catalogue, equation, members, environment, equation.left)
     return _with(
         row,
+        check="identity",
         verdict=verdict(
             printed.value, mended.value if mended else None, physical=bool(equation.right)
         ),

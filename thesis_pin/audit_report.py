@@ -62,6 +62,7 @@ def row_document(row: Row) -> dict[str, Any]:
         "effect": row.effect or None,
         "note": row.note or None,
         "cause": row.cause or None,
+        "check": row.check or None,
     }
 
 
@@ -123,7 +124,7 @@ def failure_rows(report: Report, *, every: bool = False) -> list[tuple[str, ...]
         verdicts = "/".join(dict.fromkeys(row.verdict for row in rows))
         who = "/".join(dict.fromkeys(row.attribution for row in rows))
         effect = _worst_effect(worst)
-        found.append((_short(title, 37), str(len(rows)), verdicts, who, effect))
+        found.append((_short(title, 34), str(len(rows)), verdicts, who, effect))
     return found
 
 

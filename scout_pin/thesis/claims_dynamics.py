@@ -15,7 +15,7 @@ from scout_pin.gait import Motion
 from scout_pin.gait_files import load_gait
 from scout_pin.model import Scout, load
 from scout_pin.specification import Specification
-from scout_pin.thesis.explicit import ExplicitModel, Interval, resting
+from scout_pin.thesis.explicit import ExplicitModel, Interval, resting, solve_one
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters
 from thesis_pin.audit import ClaimResult
@@ -36,6 +36,7 @@ def claims(states: int) -> dict[str, Callable[[], ClaimResult]]:
     return {
         "equation_of_motion": partial(_equation_of_motion, states),
         "printed_law_has_no_solution": _law,
+        "actuation": _actuation,
         "inertias_as_used": _inertias_as_used,
         "zmp_at_rest": _zmp_at_rest,
         **{f"stance_{k}": partial(_stance, k) for k in (1, 2, 3)},
@@ -97,6 +98,30 @@ def _largest_relative(found: np.ndarray, truth: np.ndarray) -> float:
     """Largest error of a state, relative to that state's largest entry."""
     axes = tuple(range(1, truth.ndim))
     return float((np.abs(found - truth).max(axis=axes) / np.abs(truth).max(axis=axes)).max())
+
+
+def _actuation() -> ClaimResult:
+    """A_τ against the power of joint torques, τ·θ̇, and what it does to a robot at rest."""
+    right = np.vstack([np.zeros((6, 12)), np.eye(12)])
+    q = random_motion(20)[0]
+    printed, corrected = (ExplicitModel(edition=e).A_tau(q) for e in ("printed", "corrected"))
+    _, still, *_ = gait_in_thesis_coordinates(load(), np.array([0.0]))
+    model = ExplicitModel()
+    force, stance = model.C(still[0]), model.dPhi_dq(still[0], 1)
+    matrices = ExplicitModel(edition="printed").A_tau(still[0]), right
+    solutions = [solve_one(force, actuation, stance) for actuation in matrices]
+    shift = float(np.abs(solutions[0][:12] - solutions[1][:12]).max())
+    left = float(solutions[0][-1])
+    note = (
+        "standing on the left foot, with the right constraints, no torques balance the robot: "
+        f"at best {left:.2g} N·m are left over, with torques off by up to {shift:.2g} N·m"
+    )
+    return ClaimResult(
+        float(np.abs(printed - right).max()),
+        float(np.abs(corrected - right).max()),
+        note,
+        {"torque standing still [N·m]": shift, "unbalanced moment [N·m]": left},
+    )
 
 
 def _stance(interval: Interval) -> ClaimResult:

@@ -194,7 +194,7 @@ class ExplicitModel:
         shape = force.shape[:-1]
         rows = jacobian.shape[-2]
         flat = (x.reshape(-1, *x.shape[len(shape) :]) for x in (force, actuation, jacobian))
-        found = np.array([_solve_one(*one) for one in zip(*flat, strict=True)])
+        found = np.array([solve_one(*one) for one in zip(*flat, strict=True)])
         force_left, moment_left = found[:, -2:].max(axis=0, initial=0.0)
         if max(force_left, moment_left) > _UNBALANCED:
             forces = force_left > _UNBALANCED
@@ -294,7 +294,7 @@ def resting(parameters: Parameters, q: np.ndarray, v: np.ndarray, a: np.ndarray)
     )
 
 
-def _solve_one(force: np.ndarray, actuation: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
+def solve_one(force: np.ndarray, actuation: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
     """τ, λ and what is left over, force rows [N] and moment rows [N·m], for one state."""
     system = np.hstack([actuation, jacobian.T])
     solution = np.linalg.lstsq(system, force, rcond=1e-11)[0]

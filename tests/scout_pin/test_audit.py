@@ -1,6 +1,7 @@
 """The audit of the Scout thesis: complete, computed, explained and current."""
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,9 @@ import pytest
 
 from scout_pin.audit import CAUSES, COMMAND, NUMBERS, audit, states
 from scout_pin.thesis import catalogue
+from scout_pin.thesis.references import References
 from thesis_pin import audit_page, audit_report
+from thesis_pin.audit import residual
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "audit" / "scout.md"
 
@@ -83,6 +86,7 @@ def test_states_cover_both_readings_unequal_legs_and_single_axes():
         ("scout:4.5:A_82", "holds"),
         ("scout:4.6.1:dPhi_1/dq", "wrong"),
         ("scout:4.7:4.23", "wrong"),
+        ("scout:4.5:A_tau", "wrong"),
         ("scout:4:4.1", "holds"),
         ("scout:6.2:ZMP_x", "holds"),
         ("scout:5:x_i", "wrong"),
@@ -116,6 +120,21 @@ def test_an_error_put_into_a_formula_that_holds_changes_its_verdict(rows, identi
     assert judged(equation.model_copy(update={"printed": broken})).verdict == "unexplained"
 
 
+def test_every_dot_lost_from_a_formula_that_holds_is_noticed(rows):
+    dotted = re.compile(r"\\dot\{(\\mathbf\{\w\})\}")
+    environment, noticed = References(states()), 0
+    for equation in catalogue().equations:
+        if rows[equation.id].check != "identity" or rows[equation.id].verdict != "holds":
+            continue
+        for member in equation.printed:
+            for match in list(dotted.finditer(member))[:3]:
+                broken = member[: match.start()] + match[1] + member[match.end() :]
+                found = residual(catalogue(), equation, (broken,), environment, equation.left)
+                assert found.value > 1e-6, (equation.id, broken)
+                noticed += 1
+    assert noticed > 100
+
+
 @pytest.mark.parametrize(
     "identity",
     ["scout:4.3.3:dot_e_9i", "scout:3.1:T_5i6i", "scout:4.1:dot_b_42", "scout:4.4.3:dr_1i/dq_j"],
@@ -140,6 +159,8 @@ def test_a_changed_digit_in_a_printed_number_changes_the_verdict(rows, identity)
 
 def test_following_the_print_has_a_price_that_is_worked_out(rows):
     assert rows["scout:4.7:4.23"].effect["unbalanced force [N]"] == pytest.approx(8.8147, abs=1e-4)
+    shift = rows["scout:4.5:A_tau"].effect["torque standing still [N·m]"]
+    assert shift == pytest.approx(0.52, abs=0.005)
     assert 0.1 < rows["scout:4.4.2:dr_0i/dq_j"].effect["gait torque [N·m]"] < 10
     assert "17" in str(rows["scout:4.1:omega_62"].effect["generalized force"])
     weights = [row.weight for row in audit_rows_in_order(rows)]
