@@ -22,6 +22,7 @@ from scout_pin.thesis import claims_dynamics, claims_robot, claims_tables
 from scout_pin.thesis.explicit import catalogue, resting
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
+from scout_pin.thesis.symbols.forces import matrix_entry
 from thesis_pin.audit import Claims, Report, judge
 from thesis_pin.editions import EditionEnvironment
 from thesis_pin.equations import Catalogue, Equation
@@ -169,10 +170,10 @@ class Effects:
         }
 
     def _of_actuation(self, equation: Equation) -> dict[str, float | str]:
-        from scout_pin.thesis.explicit import split_entry
-
         _, force = self._corrected
-        entry = split_entry(equation.left[3:-1])
+        entry = matrix_entry(equation.left[3:-1])
+        if entry is None:
+            return {}
         value = evaluate(self.catalogue.parse(equation.printed[0]), self._references, {}).array
         left, *_ = self._gait
         feet = [self._references.stance_jacobian(k)[4:, 0] for k in (1, 3)]

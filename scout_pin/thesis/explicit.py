@@ -23,6 +23,7 @@ from scout_pin.specification import Specification
 from scout_pin.thesis.notation import NOTATION
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
+from scout_pin.thesis.symbols.forces import matrix_entry
 from thesis_pin.arrays import finite_array
 from thesis_pin.editions import EditionEnvironment
 from thesis_pin.equations import Catalogue, Edition
@@ -235,14 +236,13 @@ class ExplicitModel:
         result = np.zeros((len(references.state.q), 18, 12))
         environment = self.environment(references)
         for equation in catalogue().equations:
-            entry = equation.left.removeprefix("A_{").removesuffix("}")
-            if not equation.left.startswith("A_{"):
+            entry = matrix_entry(equation.left[3:-1]) if equation.left[:3] == "A_{" else None
+            if entry is None:
                 continue
-            row, column = split_entry(entry)
             node = catalogue().parse(equation.members(self.edition)[0])
             value = evaluate(node, environment, {})
             if value.rank == 0:
-                result[:, row, column] = np.broadcast_to(value.array, (len(result), 1))[:, 0]
+                result[(slice(None), *entry)] = np.broadcast_to(value.array, (len(result), 1))[:, 0]
         return result
 
     def _jacobian(self, references: References, interval: Interval) -> np.ndarray:
@@ -306,15 +306,6 @@ def solve_one(force: np.ndarray, actuation: np.ndarray, jacobian: np.ndarray) ->
         solution = solution + free @ step
     left = system @ solution - force
     return np.concatenate([solution, [np.linalg.norm(left[:3]), np.linalg.norm(left[3:])]])
-
-
-def split_entry(entry: str) -> tuple[int, int]:
-    """Row and column, from 0, of an entry called "410" (4, 10) or "1310" (13, 10)."""
-    for width in (1, 2):
-        row, column = entry[:width], entry[width:]
-        if column and column[0] != "0" and 4 <= int(row) <= 18 and int(column) <= 12:
-            return int(row) - 1, int(column) - 1
-    raise ValueError(entry)
 
 
 def _pose_error(placement: np.ndarray, target: np.ndarray) -> np.ndarray:

@@ -113,3 +113,25 @@ def test_coordinates_are_known_by_both_names():
     assert len(BODIES) == 13
     with pytest.raises(FormulaError):
         coordinate_index("theta_14")
+
+
+@pytest.mark.parametrize(
+    ("digits", "entry"),
+    [
+        ("41", (3, 0)),
+        ("410", (3, 9)),
+        ("104", (9, 3)),
+        ("115", (10, 4)),
+        ("1310", (12, 9)),
+        ("1812", (17, 11)),
+        ("99", (8, 8)),
+        ("11", None),
+        ("1813", None),
+        ("4", None),
+        ("tau", None),
+    ],
+)
+def test_entries_of_the_actuation_matrix_are_told_apart(digits, entry):
+    from scout_pin.thesis.symbols.forces import matrix_entry
+
+    assert matrix_entry(digits) == entry

@@ -10,6 +10,20 @@ from thesis_pin.formula import Symbol
 from thesis_pin.values import Value, matrix, scalar, vector
 
 
+def matrix_entry(digits: str) -> tuple[int, int] | None:
+    """Row and column, from 0, of an entry of A_τ called "410" (4, 10) or "1310" (13, 10).
+
+    Only rows 4 to 18 and columns 1 to 12 are printed, which makes the names unique.
+    """
+    for width in (1, 2):
+        row, column = digits[:width], digits[width:]
+        if not (row + column).isdigit() or not column or column[0] == "0":
+            continue
+        if 4 <= int(row) <= 18 and int(column) <= 12:
+            return int(row) - 1, int(column) - 1
+    return None
+
+
 class Forces(Dynamics):
     """A_τ, δW, Q, τ, φ, Φ, λ, Γ."""
 
@@ -30,16 +44,8 @@ class Forces(Dynamics):
         full = np.vstack([np.zeros((6, 12)), np.eye(12)])
         if symbol.sub == "tau":
             return matrix(full[None, None])
-        for row in range(1, 19):
-            column = symbol.sub.removeprefix(str(row))
-            if column != symbol.sub and column.isdigit() and column[0] != "0":
-                # "111" is row 11, column 1; "1310" can only be row 13, column 10.
-                other = symbol.sub.removeprefix(str(row)[:1])
-                if len(column) == 2 and int(column) > 12 and other:
-                    continue
-                if int(column) <= 12:
-                    return scalar(np.array([[full[row - 1, int(column) - 1]]]))
-        return None
+        entry = matrix_entry(symbol.sub)
+        return None if entry is None else scalar(full[None, None, entry[0], entry[1]])
 
     def _of_delta_q(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
         if not symbol.sub:
