@@ -44,6 +44,7 @@ def parser() -> Parser:
     _add_ik(verbs)
     _add_info(verbs)
     _add_urdf(verbs)
+    _add_audit(verbs)
     return top
 
 
@@ -146,6 +147,27 @@ def _add_urdf(verbs: Any) -> None:
     _add_robot(verb)
     verb.add_argument("--out", metavar="DIR", help="write both readings and the sole meshes there")
     verb.set_defaults(run=_urdf)
+
+
+def _add_audit(verbs: Any) -> None:
+    verb = verbs.add_parser(
+        "audit",
+        help="is this printed equation of the thesis right?",
+        description="A computed verdict on every printed equation of the thesis.",
+        epilog="Example: scout-pin audit --equation 4.3.3:dot_e_9i",
+    )
+    verb.add_argument("--equation", metavar="ID", help="explain one equation")
+    verb.add_argument("--every", action="store_true", help="list every failing line")
+    verb.add_argument("--json", metavar="FILE|-", help="write all rows as JSON")
+    verb.add_argument("--html", metavar="FILE", help="write a page with rendered formulas")
+    verb.add_argument("--markdown", metavar="FILE", help="write the audit as a document")
+    verb.set_defaults(run=_audit)
+
+
+def _audit(arguments: argparse.Namespace) -> int:
+    from scout_pin.audit import run as run_audit
+
+    return run_audit(arguments)
 
 
 def _gait(arguments: argparse.Namespace) -> int:

@@ -135,3 +135,18 @@ class TrajectoryError(BadInput):
 
 class NoSupportForce(BadInput):
     """The floor would have to pull: no zero-moment point exists."""
+
+
+class NoSolution(BadInput):
+    """A system of equations has no solution.
+
+    Args:
+        what: Which system, as a full clause.
+        residual: Least norm of what is left over, over all unknowns, in ``unit``.
+        unit: Unit of the residual.
+        remedy: What to use instead.
+    """
+
+    def __init__(self, what: str, residual: float, unit: str, *, remedy: str = "") -> None:
+        self.residual, self.unit = residual, unit
+        super().__init__(f"{what}: {residual:.6g} {unit} stay unbalanced", remedy=remedy)

@@ -14,11 +14,17 @@ import numpy as np
 _PLANE = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
 
+def _real_or_complex(value: np.ndarray | float) -> np.ndarray:
+    """Floats, or complex numbers as they are: a complex step differentiates exactly."""
+    array = np.asarray(value)
+    return array if array.dtype.kind == "c" else array.astype(float)
+
+
 def rotation(axis: str, angle: np.ndarray | float) -> np.ndarray:
     """Rotation about the axis ``"x"``, ``"y"`` or ``"z"``: ``(...)`` → ``(..., 3, 3)``."""
-    angle = np.asarray(angle, dtype=float)
+    angle = _real_or_complex(angle)
     first, second = _PLANE[axis]
-    matrix = np.zeros((*angle.shape, 3, 3))
+    matrix = np.zeros((*angle.shape, 3, 3), dtype=angle.dtype)
     cosine, sine = np.cos(angle), np.sin(angle)
     fixed = 3 - first - second
     matrix[..., fixed, fixed] = 1.0
@@ -30,7 +36,7 @@ def rotation(axis: str, angle: np.ndarray | float) -> np.ndarray:
 def rotation_derivative(axis: str, angle: np.ndarray | float, order: int = 1) -> np.ndarray:
     """Derivative of :func:`rotation` with respect to its angle, of any order ≥ 1."""
     # Each derivative advances the rotation by a quarter turn in its plane.
-    result = rotation(axis, np.asarray(angle, dtype=float) + order * np.pi / 2)
+    result = rotation(axis, _real_or_complex(angle) + order * np.pi / 2)
     fixed = 3 - sum(_PLANE[axis])
     result[..., fixed, fixed] = 0.0
     return result
@@ -39,7 +45,7 @@ def rotation_derivative(axis: str, angle: np.ndarray | float, order: int = 1) ->
 def transform(rotation_part: np.ndarray, translation: np.ndarray) -> np.ndarray:
     """Homogeneous matrices ``(..., 4, 4)`` from ``(..., 3, 3)`` and ``(..., 3)``."""
     shape = np.broadcast_shapes(rotation_part.shape[:-2], translation.shape[:-1])
-    matrix = np.zeros((*shape, 4, 4))
+    matrix = np.zeros((*shape, 4, 4), dtype=np.result_type(rotation_part, translation, float))
     matrix[..., :3, :3], matrix[..., :3, 3] = rotation_part, translation
     matrix[..., 3, 3] = 1.0
     return matrix

@@ -1,0 +1,312 @@
+"""A batch of states of the biped, with exact first derivatives of every frame.
+
+Placements are products of the elementary transforms of thesis 3.1; each is
+differentiated by putting the derivative of one factor in its place. Nothing of
+the thesis's own derivations is used, so this is what they are held against.
+Every array may be complex: that is how second derivatives are taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from scout_pin.specification import SIDES, Specification
+from thesis_pin.formula import FormulaError
+from thesis_pin.inertia import Reading
+from thesis_pin.values import STEP
+
+COORDINATES = (
+    *("x_B", "y_B", "z_B", "theta_B", "phi_B", "psi_B"),
+    *(f"theta_{n}{i}" for i in (1, 2) for n in range(1, 7)),
+)
+"""Names of q_1 … q_18 (4.2)."""
+
+_PLANES = {"Rx": (1, 2), "Ry": (2, 0), "Rz": (0, 1)}
+LENGTHS = ("x_0", "z_1", "x_2", "x_3", "x_4", "x_5", "y_6")
+BODIES = ("B", *(f"{n}{i}" for i in (1, 2) for n in range(1, 7)))
+"""Torso, then links 1 to 6 of the left and of the right leg."""
+
+# Elementary transforms of a leg after the torso's frame (3.1): axis, length or
+# angle. Joint 6 turns about x: the printed T_z6 is the thesis's slip.
+_LEG = (
+    *(("x", "x_0"), ("Rz", 1), ("z", "z_1"), ("Ry", 2), ("x", "x_2"), ("Rz", 3), ("x", "x_3")),
+    *(("Rz", 4), ("x", "x_4"), ("Rz", 5), ("x", "x_5"), ("Rx", 6), ("y", "y_6")),
+    *(("Rz", "beta_7"), ("Ry", "beta_8")),
+)
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """Constants of the model by the thesis's names, batched like the states.
+
+    Attributes:
+        values: Arrays of shape ``(N or 1, 1, *tail)``: lengths "x_01", angles
+            "beta_11", masses "m_11", centres "G11" (3) and inertias "I11" (3, 3)
+            in the link's own frame, the sole's vertex "b1_y".
+    """
+
+    values: dict[str, np.ndarray]
+
+    @classmethod
+    def of(cls, specification: Specification, reading: Reading = "physical") -> Parameters:
+        """Constants of a specification; inertias are the centroidal tensors it implies."""
+        convention = specification.inertia_convention
+        found: dict[str, object] = {}
+        torso = specification.torso
+        found |= {"m_B": torso.mass, "GB": torso.com, "IB": torso.centroidal(convention, reading)}
+        for i, side in enumerate(SIDES, start=1):
+            leg = specification.leg(side)
+            found |= {f"{name}{i}": getattr(leg, name) for name in LENGTHS}
+            found |= {f"beta_{n}{i}": np.radians(leg.beta_deg[n - 1]) for n in range(1, 7)}
+            found |= {"beta_7": np.radians(leg.beta_7_deg), "beta_8": np.radians(leg.beta_8_deg)}
+            found |= {f"b{i}_y": leg.sole[1][1], f"a{i}": (*leg.sole[0], 0.0)}
+            for n, link in enumerate(leg.links, start=1):
+                found[f"m_{n}{i}"], found[f"G{n}{i}"] = link.mass, link.com
+                found[f"I{n}{i}"] = link.centroidal(convention, reading)
+        return cls(
+            {key: np.asarray(value, dtype=float)[None, None] for key, value in found.items()}
+        )
+
+    @classmethod
+    def random(cls, generator: np.random.Generator) -> Parameters:
+        """A robot of the same kind with nothing equal or zero by accident.
+
+        The two legs differ in every length, angle, mass and inertia.
+        """
+        found: dict[str, object] = {"beta_7": generator.uniform(-3, 3), "beta_8": 1.1}
+        for i in (1, 2):
+            found |= {f"{name}{i}": generator.uniform(0.02, 0.09) for name in LENGTHS}
+            found |= {f"beta_{n}{i}": generator.uniform(-3, 3) for n in range(1, 7)}
+            found[f"b{i}_y"] = generator.uniform(0.05, 0.1)
+            found[f"a{i}"] = np.array([*generator.uniform(-0.1, 0.1, 2), 0.0])
+        for body in BODIES:
+            found[f"m_{body}"] = generator.uniform(0.02, 0.2)
+            found[f"G{body}"] = generator.uniform(-0.04, 0.04, 3)
+            root = generator.uniform(-1e-2, 1e-2, (3, 3))
+            found[f"I{body}"] = root @ root.T + 1e-5 * np.eye(3)
+        return cls(
+            {key: np.asarray(value, dtype=float)[None, None] for key, value in found.items()}
+        )
+
+    @classmethod
+    def repeat(cls, robots: Sequence[tuple[Parameters, int]]) -> Parameters:
+        """One robot after the other, each for a number of states."""
+        names = robots[0][0].values
+        return cls(
+            {
+                name: np.concatenate(
+                    [np.repeat(robot.values[name], count, axis=0) for robot, count in robots]
+                )
+                for name in names
+            }
+        )
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A placement and its derivatives.
+
+    Attributes:
+        placement: Homogeneous matrices, shape ``(N, J, 4, 4)``.
+        derivatives: Derivative by each coordinate it depends on, by index.
+    """
+
+    placement: np.ndarray
+    derivatives: dict[int, np.ndarray]
+
+    def then(self, move: str, value: np.ndarray, coordinate: int | None = None) -> Frame:
+        """Multiply by an elementary transform that may depend on one coordinate.
+
+        Args:
+            move: "x", "y", "z" to translate, "Rx", "Ry", "Rz" to rotate.
+            value: Distance [m] or angle [rad], shape ``(N, J)``.
+            coordinate: Index of the coordinate ``value`` moves with, if any.
+        """
+        after = {k: times_elementary(d, move, value) for k, d in self.derivatives.items()}
+        if coordinate is not None:
+            after[coordinate] = times_elementary(self.placement, move, value, derivative=True)
+        return Frame(times_elementary(self.placement, move, value), after)
+
+    @property
+    def rotation(self) -> np.ndarray:
+        """Axes in the world, shape ``(N, J, 3, 3)``."""
+        return self.placement[..., :3, :3]
+
+    @property
+    def origin(self) -> np.ndarray:
+        """Origin in the world [m], shape ``(N, J, 3)``."""
+        return self.placement[..., :3, 3]
+
+    def spin(self, coordinate: int) -> np.ndarray:
+        """∂R/∂q Rᵀ, the skew matrix of the axis a coordinate turns the frame about."""
+        return self.derivatives[coordinate][..., :3, :3] @ np.swapaxes(self.rotation, -1, -2)
+
+    def axis(self, coordinate: int) -> np.ndarray:
+        """The axis a coordinate turns the frame about, shape ``(N, J, 3)``."""
+        return vee(self.spin(coordinate))
+
+
+def vee(skew: np.ndarray) -> np.ndarray:
+    """Vector of a skew matrix: ``(..., 3, 3)`` → ``(..., 3)``."""
+    return np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
+
+
+@dataclass(frozen=True)
+class State:
+    """States of one or many robots, with virtual displacements and torques.
+
+    Axis 1 of every array runs over the coordinate of differentiation where a
+    derivative by a general q_j is under way, and has length 1 otherwise.
+
+    Attributes:
+        parameters: The robots.
+        q, v, a: Coordinates (4.2) and their rates, shape ``(N, J, 18)``.
+        virtual: Virtual displacements δq, shape ``(N, 1, 18)``.
+        tau: Joint torques [N·m], shape ``(N, 1, 12)``.
+        multipliers: λ, shape ``(N, 1, 12)``.
+        perturbed: Whether a complex step is already in it.
+    """
+
+    parameters: Parameters
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    virtual: np.ndarray
+    tau: np.ndarray
+    multipliers: np.ndarray
+    perturbed: bool = False
+
+    def step(self, along: str | None, rates: bool = False, size: complex = 1j * STEP) -> State:
+        """The state moved by a step, imaginary unless told otherwise.
+
+        Args:
+            along: Name of a coordinate ("theta_11", "q_7"), "q_j" for all of them at
+                once along axis 1, or None for time.
+            rates: Move the coordinate's rate instead of the coordinate.
+            size: Length of the step.
+
+        Raises:
+            FormulaError: No such coordinate.
+        """
+        if along is None:
+            q, v = self.q + size * self.v, self.v + size * self.a
+            return replace(self, q=q, v=v, perturbed=True)
+        if along == "q_j":
+            direction = np.eye(18)[None]
+        else:
+            direction = np.eye(18)[coordinate_index(along)][None, None]
+        if rates:
+            return replace(self, v=self.v + size * direction, perturbed=True)
+        return replace(self, q=self.q + size * direction, perturbed=True)
+
+    @cached_property
+    def torso(self) -> list[Frame]:
+        """Frames after each elementary factor of T_{0,B}; the last is the torso's."""
+        frame = Frame(np.broadcast_to(np.eye(4), (1, 1, 4, 4)), {})
+        frames = []
+        for k, move in enumerate(("x", "y", "z", "Rx", "Ry", "Rz")):
+            frame = frame.then(move, self.q[..., k], k)
+            frames.append(frame)
+        return frames
+
+    @cached_property
+    def legs(self) -> dict[int, list[Frame]]:
+        """Frames of each leg: link 1 to 6, then the sole."""
+        return {i: self._leg(i) for i in (1, 2)}
+
+    def _leg(self, i: int) -> list[Frame]:
+        frame, frames = self.torso[-1], []
+        constants = self.parameters.values
+        for move, what in _LEG:
+            if isinstance(what, int):
+                k = 5 + 6 * (i - 1) + what
+                frame = frame.then(move, self.q[..., k] + constants[f"beta_{what}{i}"], k)
+                frames.append(frame)
+                continue
+            sign = -1 if what == "z_1" or (what == "x_0" and i == 1) else 1
+            value = constants[what if what.startswith("beta") else f"{what}{i}"]
+            frame = frame.then(move, sign * value)
+        frames.append(frame)
+        return frames
+
+    def frame(self, body: str) -> Frame:
+        """Frame of a link: "B" or "31" for link 3 of the left leg; "71" is its sole."""
+        return self.torso[-1] if body == "B" else self.legs[int(body[-1])][int(body[:-1]) - 1]
+
+    def point(self, body: str, local: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """A point of a link in the world and its Jacobian, ``(N, J, 3)``, ``(N, J, 3, 18)``."""
+        frame = self.frame(body)
+        if local is None:
+            local = np.zeros((1, 1, 3))
+        homogeneous = np.concatenate([local, np.ones((*local.shape[:-1], 1))], axis=-1)[..., None]
+        where = (frame.placement @ homogeneous)[..., :3, 0]
+        jacobian = np.zeros((*where.shape, 18), dtype=where.dtype)
+        for k, derivative in frame.derivatives.items():
+            jacobian[..., k] = (derivative @ homogeneous)[..., :3, 0]
+        return where, jacobian
+
+    def centre(self, body: str) -> tuple[np.ndarray, np.ndarray]:
+        """Centre of mass of a link and its Jacobian J."""
+        return self.point(body, self.parameters.values[f"G{body}"])
+
+    def angular(self, body: str) -> np.ndarray:
+        """Jacobian W of a link's angular velocity, shape ``(N, J, 3, 18)``."""
+        frame = self.frame(body)
+        jacobian = np.zeros((*frame.origin.shape, 18), dtype=frame.placement.dtype)
+        for k in frame.derivatives:
+            jacobian[..., k] = frame.axis(k)
+        return jacobian
+
+    def inertia(self, body: str) -> np.ndarray:
+        """Centroidal inertia of a link in world axes, shape ``(N, J, 3, 3)``."""
+        turned = self.frame(body).rotation
+        return turned @ self.parameters.values[f"I{body}"] @ np.swapaxes(turned, -1, -2)
+
+
+def times_elementary(
+    matrix: np.ndarray, move: str, value: np.ndarray, *, derivative: bool = False
+) -> np.ndarray:
+    """``matrix @ T`` for an elementary transform T, or for its derivative.
+
+    A translation changes the last column and a rotation mixes two, so no product
+    of 4×4 matrices is formed.
+
+    Args:
+        matrix: Shape ``(N, J, 4, 4)``.
+        move: "x", "y", "z", "Rx", "Ry" or "Rz".
+        value: Distance or angle, shape ``(N, J)``.
+        derivative: Take ∂T/∂value instead of T.
+    """
+    shape = np.broadcast_shapes(matrix.shape[:-2], value.shape)
+    result = np.zeros((*shape, 4, 4), dtype=np.result_type(matrix, value))
+    if not derivative:
+        result[...] = matrix
+    if move[0] != "R":
+        along = matrix[..., "xyz".index(move)]
+        result[..., 3] += along if derivative else along * value[..., None]
+        return result
+    first, second = _PLANES[move]
+    one, other = matrix[..., first], matrix[..., second]
+    cosine, sine = np.cos(value)[..., None], np.sin(value)[..., None]
+    if derivative:
+        cosine, sine = -sine, cosine
+    result[..., first] = one * cosine + other * sine
+    result[..., second] = other * cosine - one * sine
+    return result
+
+
+def coordinate_index(name: str) -> int:
+    """Index of a coordinate called "theta_11" or "q_7".
+
+    Raises:
+        FormulaError: No such coordinate.
+    """
+    if name.startswith("q_") and name[2:].isdigit() and 1 <= int(name[2:]) <= 18:
+        return int(name[2:]) - 1
+    if name in COORDINATES:
+        return COORDINATES.index(name)
+    raise FormulaError(f"{name!r} isn't one of the 18 coordinates")

@@ -1,0 +1,1 @@
+"""References of the thesis's symbols, one subject a module."""

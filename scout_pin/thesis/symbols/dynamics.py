@@ -1,0 +1,222 @@
+"""Jacobians, energies, D, V and C, momentum and ZMP (4.1 to 4.4, 4.7, 6.2)."""
+
+from __future__ import annotations
+
+import re
+from functools import cached_property
+
+import numpy as np
+
+from scout_pin.thesis.state import BODIES, coordinate_index, vee
+from scout_pin.thesis.symbols.base import GRAVITY
+from scout_pin.thesis.symbols.motion import component
+from scout_pin.thesis.symbols.vectors import Vectors
+from thesis_pin import lagrangian
+from thesis_pin.formula import Node, Symbol
+from thesis_pin.values import STEP, Value, matrix, scalar, vector
+
+
+class Dynamics(Vectors):
+    """What follows from the bodies' Jacobians and masses."""
+
+    def _special_derivative(
+        self, of: Node, by: Symbol | None, indices: dict[str, str]
+    ) -> Value | None:
+        if isinstance(of, Symbol) and of.name == "L" and by is not None and by.dots:
+            return self._momentum(by)
+        return None
+
+    def _momentum(self, by: Symbol) -> Value:
+        """∂L/∂q̇_j = (N q̇)_j, so that its time derivative needs one complex step only."""
+        mass = lagrangian.mass_matrix(list(self.bodies.values()))
+        momentum = (mass @ self.state.v[..., None])[..., 0]
+        if by.sub == "j":
+            return scalar(momentum[:, 0, :])
+        return scalar(momentum[..., coordinate_index(by.name)])
+
+    def _of_T(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.dots or symbol.sup:
+            return None
+        if not symbol.bold and symbol.sub in BODIES:
+            return scalar(self._kinetic(symbol.sub))
+        ends = {"0B": ("0", "B"), "B11": ("B", "11"), "B12": ("B", "12")}
+        for i in "12":
+            ends |= {f"0{i}": ("0", f"7{i}"), f"6{i}{i}": (f"6{i}", f"7{i}")}
+            ends |= {f"{n}{i}{n + 1}{i}": (f"{n}{i}", f"{n + 1}{i}") for n in range(1, 6)}
+        if symbol.sub not in ends:
+            return None
+        first, last = ends[symbol.sub]
+        placement = self.state.frame(last).placement
+        if first != "0":
+            placement = np.linalg.inv(self.state.frame(first).placement) @ placement
+        return matrix(placement)
+
+    def _of_J(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.dots or symbol.sup or symbol.sub not in BODIES:
+            return None
+        return matrix(self.state.centre(symbol.sub)[1])
+
+    def _of_W(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.dots or symbol.sup or symbol.sub not in BODIES:
+            return None
+        return matrix(self.state.angular(symbol.sub))
+
+    def _of_I(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        element = re.fullmatch(r"([xyz])([xyz])(B|[1-6][12])", symbol.sub)
+        if element and not symbol.dots:
+            tensor = self.state.parameters.values[f"I{element[3]}"]
+            return scalar(tensor[..., "xyz".index(element[1]), "xyz".index(element[2])])
+        if symbol.dots or symbol.sub not in BODIES:
+            return None
+        if symbol.sup == "0":
+            return matrix(self.state.inertia(symbol.sub))
+        own = symbol.sub if symbol.sub == "B" else f"{2 * int(symbol.sub[0]) - 1}{symbol.sub[1]}"
+        return self._constant(f"I{symbol.sub}") if symbol.sup == own else None
+
+    @cached_property
+    def bodies(self) -> dict[str, lagrangian.Body]:
+        """Jacobians and mass properties of all bodies at these states."""
+        s = self.state
+        return {
+            body: lagrangian.Body(
+                s.parameters.values[f"m_{body}"],
+                s.inertia(body),
+                s.centre(body)[1],
+                s.angular(body),
+                s.centre(body)[0],
+            )
+            for body in BODIES
+        }
+
+    def _kinetic(self, body: str) -> np.ndarray:
+        return lagrangian.kinetic_energy(self.bodies[body], self.state.v)
+
+    def _potential(self, body: str) -> np.ndarray:
+        mass = self.state.parameters.values[f"m_{body}"]
+        return GRAVITY * mass * self.bodies[body].centre[..., 2]
+
+    def _of_L(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        bodies = [symbol.sub] if symbol.sub in BODIES else list(BODIES) if not symbol.sub else []
+        if not bodies or symbol.dots or symbol.sup:
+            return None
+        return scalar(sum(self._kinetic(body) - self._potential(body) for body in bodies))
+
+    def _of_N(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.dots or symbol.sup or symbol.sub not in BODIES:
+            return None
+        return matrix(lagrangian.mass_matrix([self.bodies[symbol.sub]]))
+
+    def _row(self, array: np.ndarray) -> Value:
+        """Row j of a matrix ``(N, 1, 18, 18)``, with j along axis 1."""
+        return matrix(array[:, 0, :, None, :])
+
+    def _of_D(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.sub[:-1] not in BODIES or symbol.sub[-1:] != "j" or symbol.dots:
+            return None
+        return self._row(self.lookup(Symbol("N", symbol.sub[:-1]), indices).array)
+
+    def _of_V(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if not symbol.bold and symbol.sub in BODIES:
+            return scalar(self._potential(symbol.sub))
+        body, j = symbol.sub[:-1], symbol.sub[-1:]
+        if symbol.bold and symbol.sub in ("1", "2"):
+            return vector(self._foot_side(int(symbol.sub), rates=True))
+        if body not in BODIES or j != "j" or symbol.dots:
+            return None
+        kind = Symbol("N", body)
+        if symbol.primes == 0:
+            return self._row(self.partial(kind, None, indices).array)
+        varied = self.partial(kind, Symbol("q", "j"), indices).array
+        return matrix(0.5 * np.einsum("nok,njkl->njl", self.state.v, varied)[..., None, :])
+
+    def _of_C(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        body, j = symbol.sub[:-1], symbol.sub[-1:]
+        if body not in BODIES or j != "j" or symbol.primes != 1:
+            return None
+        weight = -GRAVITY * self.state.parameters.values[f"m_{body}"]
+        return scalar(weight * self.state.centre(body)[1][:, 0, 2, :])
+
+    @cached_property
+    def terms(self) -> lagrangian.Terms:
+        """D, V and C of the whole robot, shape ``(N, …)``."""
+        moved = self.moved(None, False), self.moved("q_j", False)
+        return lagrangian.assemble(
+            list(self.bodies.values()),
+            lagrangian.exact_rates(list(moved[0].bodies.values()), STEP),
+            lagrangian.exact_rates(list(moved[1].bodies.values()), STEP),
+            self.state.v,
+            GRAVITY,
+        )
+
+    def _of_bb_D(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.sub == "j":
+            return matrix(self.terms.mass[:, :, None, :])
+        return None if symbol.sub else matrix(self.terms.mass[:, None])
+
+    def _of_bb_V(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.sub == "j":
+            return matrix(self.terms.velocity[:, :, None, :])
+        return None if symbol.sub else matrix(self.terms.velocity[:, None])
+
+    def _of_bb_C(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.sub == "j":
+            return scalar(self.terms.gravity)
+        return None if symbol.sub else vector(self.terms.gravity[:, None])
+
+    def _foot_side(self, i: int, rates: bool) -> np.ndarray:
+        """Right-hand sides of (3.16) and (3.24): what the six joints have to supply."""
+        state = self.state
+        joints = slice(6 * i, 6 * i + 6)
+        jacobian = np.concatenate([state.point(f"7{i}")[1], state.angular(f"7{i}")], axis=-2)[
+            ..., joints
+        ]
+        if rates:
+            return (jacobian @ state.v[..., joints, None])[..., 0]
+        later = self.moved(None, False).state
+        moved = np.concatenate([later.point(f"7{i}")[1], later.angular(f"7{i}")], axis=-2)
+        change = np.imag(moved[..., joints]) / STEP
+        return (jacobian @ state.a[..., joints, None] + change @ state.v[..., joints, None])[..., 0]
+
+    def _of_cal_P(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.dots or symbol.sub not in ("", "x", "y", "z"):
+            return None
+        total = sum(
+            self.state.parameters.values[f"m_{body}"][..., None]
+            * self._moving(self.state.centre(body), 1)
+            for body in BODIES
+        )
+        return component(np.asarray(total), symbol.sub)
+
+    def _of_cal_L(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        if symbol.dots or symbol.sub not in ("", "x", "y", "z"):
+            return None
+        total: np.ndarray | float = 0.0
+        for body in BODIES:
+            where, rate = (self._moving(self.state.centre(body), k) for k in (0, 1))
+            mass = self.state.parameters.values[f"m_{body}"][..., None]
+            omega = vee(self._rate(self.state.frame(body)))
+            spin = (self.state.inertia(body) @ omega[..., None])[..., 0]
+            total = total + np.cross(where, mass * rate) + spin
+        return component(np.asarray(total), symbol.sub)
+
+    def _of_ZMP(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        """The point of a floor at height 0.01 m where the floor's wrench has no tilting moment."""
+        height = 0.01
+        if symbol.sub == "z":
+            return scalar(height)
+        later = self.moved(None, False)
+        force: np.ndarray | float = 0.0
+        moment: np.ndarray | float = 0.0
+        for body in BODIES:
+            mass = self.state.parameters.values[f"m_{body}"][..., None]
+            where = self.state.centre(body)[0]
+            fast = np.imag(later._moving(later.state.centre(body), 1)) / STEP
+            omega = vee(later._rate(later.state.frame(body)))
+            turn = np.imag((later.state.inertia(body) @ omega[..., None])[..., 0]) / STEP
+            inertial = mass * (fast + np.array([0.0, 0.0, GRAVITY]))
+            force = force + inertial
+            moment = moment + np.cross(where, inertial) + turn
+        force, moment = np.asarray(force), np.asarray(moment)
+        if symbol.sub == "x":
+            return scalar((height * force[..., 0] - moment[..., 1]) / force[..., 2])
+        return scalar((height * force[..., 1] + moment[..., 0]) / force[..., 2])

@@ -1,0 +1,70 @@
+"""``scout-pin audit`` answers, explains, and refuses what it doesn't know."""
+
+import orjson
+import pytest
+
+from scout_pin.cli import main
+
+
+@pytest.fixture(scope="module")
+def outputs(tmp_path_factory):
+    """One run of the whole audit that writes everything."""
+    folder = tmp_path_factory.mktemp("audit")
+    names = {kind: folder / f"audit.{kind}" for kind in ("json", "html", "markdown")}
+    code = main(["audit", *(part for k, path in names.items() for part in (f"--{k}", str(path)))])
+    assert code == 0
+    return names
+
+
+def test_the_json_has_every_row_with_the_promised_keys(outputs):
+    document = orjson.loads(outputs["json"].read_bytes())
+    keys = {"id", "source", "printed", "corrected", "verdict", "attribution"}
+    keys |= {"residual_printed", "residual_corrected", "effect", "note"}
+    assert all(keys <= set(row) for row in document["rows"])
+    assert sum(document["counts"].values()) == len(document["rows"])
+    assert document["coverage"]["missing"] == []
+    assert document["coverage"]["numbered"] == 59
+
+
+def test_the_page_is_whole_and_needs_no_network(outputs):
+    page = outputs["html"].read_text(encoding="utf-8")
+    assert page.startswith("<!doctype html>")
+    assert page.rstrip().endswith("</html>")
+    assert "src=" not in page
+    assert "href=" not in page
+
+
+def test_the_document_can_be_written_anywhere(outputs):
+    assert outputs["markdown"].read_text(encoding="utf-8").startswith("# Audit of the Scout thesis")
+
+
+def test_one_equation_is_explained(capsys):
+    assert main(["audit", "--equation", "4.4.2:dr_0i/dq_j"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    for part in ("misprint, by the thesis", "as printed", "corrected", "effect", "left leg"):
+        assert part in text
+
+
+def test_an_equation_that_holds_says_so(capsys):
+    assert main(["audit", "--equation", "scout:3.2:3.16"]) == 0
+    assert "holds" in capsys.readouterr().out
+
+
+def test_json_on_standard_output_is_only_json(capsysbinary):
+    assert main(["audit", "--equation", "6.2:ZMP_x", "--json", "-"]) == 0
+    document = orjson.loads(capsysbinary.readouterr().out)
+    assert [row["verdict"] for row in document["rows"]] == ["holds"]
+
+
+def test_an_unknown_equation_is_refused_with_near_names(capsys):
+    assert main(["audit", "--equation", "4.3.3:dot_e_9"]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert "dot_e_9i" in captured.err
+    assert "Traceback" not in captured.err
+
+
+def test_a_file_that_can_not_be_written_is_refused(tmp_path, capsys):
+    target = tmp_path / "missing" / "audit.json"
+    assert main(["audit", "--equation", "6.2:ZMP_x", "--json", str(target)]) == 2
+    assert "can't write" in capsys.readouterr().err

@@ -1,0 +1,326 @@
+"""Verdicts on printed equations, computed from residuals.
+
+A member of an equation is evaluated with every symbol taken from the
+references, so an error is counted once, where it stands. What the print does
+to a reader who follows it is a second number, the effect, and comes from the
+robot's own audit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+import numpy as np
+
+from thesis_pin.equations import Catalogue, Equation, index_values
+from thesis_pin.evaluation import Environment, evaluate
+from thesis_pin.formula import FormulaError
+from thesis_pin.values import Value
+
+Verdict = Literal["holds", "misprint", "wrong", "illegible", "not checkable", "unexplained"]
+VERDICTS: tuple[Verdict, ...] = (
+    *("holds", "misprint", "wrong", "illegible", "not checkable", "unexplained"),
+)
+"""``misprint``: the print fails and its correction holds; ``wrong``: the printed
+statement is physically wrong and the right one holds; ``unexplained``: it fails
+and nothing given in its place holds. No finished audit has one of the last."""
+
+HOLDS = 1e-9
+"""Residual below which two sides are equal: errors of sums of rounded products stay
+under 1e-12, the smallest misprint found is above 1e-4."""
+
+_FLOOR = 1e-3  # what counts as zero is zero against this
+
+
+@dataclass(frozen=True)
+class Residual:
+    """How far a formula is from what it must equal.
+
+    Attributes:
+        value: Largest difference over all states, relative to the larger side;
+            infinity if the formula can't be evaluated.
+        members: The same for each member.
+        reason: Why it can't be evaluated.
+    """
+
+    value: float
+    members: tuple[float, ...] = ()
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Row:
+    """The audit's answer on one equation.
+
+    Attributes:
+        id: ``robot:section:number or symbol``.
+        source: Thesis, section and number, in words.
+        left, printed: As printed.
+        corrected: The members that replace failing ones, by number.
+        verdict: One of :data:`VERDICTS`.
+        attribution: "thesis" or "scan", where somebody slipped.
+        why: Reason for the attribution.
+        residual_printed, residual_corrected: See :class:`Residual`; None where
+            there is nothing to evaluate.
+        places: Where the correction differs from the print.
+        reason: Why the print can't be evaluated, or isn't checked.
+        effect: What following the print does; by quantity.
+        note: What a reader should know.
+        cause: Slip shared by several equations.
+        check: How it was decided: "identity" at the audit's states, or the claim's name.
+    """
+
+    id: str
+    source: str
+    number: tuple[str, ...]
+    left: str
+    printed: tuple[str, ...]
+    corrected: dict[int, str]
+    verdict: Verdict
+    attribution: str = ""
+    why: str = ""
+    residual_printed: float | None = None
+    residual_corrected: float | None = None
+    places: tuple[str, ...] = ()
+    reason: str = ""
+    effect: dict[str, float | str] = field(default_factory=dict)
+    note: str = ""
+    cause: str = ""
+    check: str = ""
+
+    @property
+    def failed(self) -> bool:
+        """Whether the print can't be followed."""
+        return self.verdict in ("misprint", "wrong", "unexplained")
+
+    @property
+    def weight(self) -> float:
+        """For sorting: the largest effect; infinite if following isn't possible."""
+        numbers = [v for v in self.effect.values() if isinstance(v, float)]
+        blocked = any(isinstance(v, str) for v in self.effect.values())
+        return math.inf if blocked else max(numbers, default=0.0)
+
+
+@dataclass(frozen=True)
+class ClaimResult:
+    """What a check in code finds.
+
+    Attributes:
+        printed: Residual of the printed statement.
+        corrected: Residual of what should stand there; None if it holds as printed.
+        note: The finding in words.
+        effect: What following the print does.
+    """
+
+    printed: float
+    corrected: float | None = None
+    note: str = ""
+    effect: dict[str, float | str] = field(default_factory=dict)
+
+
+Claims = Mapping[str, Callable[[], ClaimResult]]
+
+
+def verdict(printed: float, mended: float | None, *, physical: bool) -> Verdict:
+    """The verdict that residuals give.
+
+    Args:
+        printed: Residual of the print.
+        mended: Residual of what is given in its place, if anything is.
+        physical: Whether the replacement is another statement, not another spelling.
+    """
+    if printed < HOLDS:
+        return "holds"
+    if mended is not None and mended < HOLDS:
+        return "wrong" if physical else "misprint"
+    return "unexplained"
+
+
+def difference(left: Value, right: Value) -> float:
+    """Largest difference of two values, relative to the larger of them.
+
+    Raises:
+        FormulaError: They have different shapes.
+    """
+    if min(left.rank, right.rank) >= 0 and (left.rank != right.rank or left.tail != right.tail):
+        raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
+    gap = float(np.abs(left.array - right.array).max())
+    if not math.isfinite(gap):
+        raise FormulaError("isn't finite")
+    return gap / max(float(np.abs(left.array).max()), float(np.abs(right.array).max()), _FLOOR)
+
+
+def residual(
+    catalogue: Catalogue,
+    equation: Equation,
+    members: Sequence[str],
+    environment: Environment,
+    left: str,
+) -> Residual:
+    """How far members are from the left side, symbols taken from the environment."""
+    values, reasons = [], []
+    for number, member in enumerate(members, start=1):
+        if number in equation.imposes:
+            continue
+        try:
+            values.append(max(_member(catalogue, left, member, environment)))
+        except FormulaError as error:
+            values.append(math.inf)
+            reasons.append(f"member {number} {error.what}" if len(members) > 1 else error.what)
+    return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
+
+
+def _member(
+    catalogue: Catalogue, left: str, member: str, environment: Environment
+) -> Iterator[float]:
+    if not member:
+        raise FormulaError("is empty")
+    sides = catalogue.parse(left), catalogue.parse(member)
+    for indices in index_values(*sides):
+        first, second = (evaluate(side, environment, indices) for side in sides)
+        yield difference(first, second)
+
+
+def judge(
+    catalogue: Catalogue, equation: Equation, environment: Environment, claims: Claims, thesis: str
+) -> Row:
+    """The audit's answer on one equation."""
+    number = f" ({', '.join(equation.number)})" if equation.number else ""
+    row = Row(
+        id=equation.id,
+        source=f"{thesis}, {equation.section}{number}",
+        number=equation.number,
+        left=equation.left_printed or equation.left,
+        printed=equation.printed,
+        corrected={**({0: equation.left} if equation.left_printed else {}), **equation.mending},
+        verdict="not checkable",
+        attribution=equation.attribution,
+        why=equation.why,
+        note=equation.note,
+        cause=equation.cause,
+    )
+    if equation.illegible:
+        return _with(row, verdict="illegible", reason=equation.illegible)
+    if equation.not_checkable:
+        return _with(row, reason=equation.not_checkable)
+    if equation.claim:
+        result = claims[equation.claim]()
+        return _with(
+            row,
+            check=equation.claim,
+            verdict=verdict(result.printed, result.corrected, physical=True),
+            residual_printed=result.printed,
+            residual_corrected=result.corrected,
+            reason=result.note,
+            effect=result.effect,
+            places=tuple(_places(catalogue, equation)),
+        )
+    printed = residual(catalogue, equation, equation.printed, environment, row.left)
+    mended = None
+    if equation.mending or equation.left_printed:
+        members = equation.members("corrected")
+        mended = residual(catalogue, equation, members, environment, equation.left)
+    return _with(
+        row,
+        check="identity",
+        verdict=verdict(
+            printed.value, mended.value if mended else None, physical=bool(equation.right)
+        ),
+        residual_printed=printed.value,
+        residual_corrected=mended.value if mended else None,
+        reason=printed.reason or (mended.reason if mended else ""),
+        places=tuple(_places(catalogue, equation)),
+    )
+
+
+def _with(row: Row, **changes: Any) -> Row:
+    return replace(row, **changes)
+
+
+def _places(catalogue: Catalogue, equation: Equation) -> Iterator[str]:
+    if equation.left_printed:
+        for place in catalogue.places(equation.left_printed, equation.left):
+            yield f"left side, {place}"
+    for number, text in equation.mending.items():
+        if number > len(equation.printed):
+            yield f"member {number} is missing: {text}"
+            continue
+        before = equation.printed[number - 1]
+        where = f"member {number}, " if len(equation.printed) > 1 else ""
+        if equation.right:
+            yield f"{where or 'the whole '}statement: {text}"
+        elif not text:
+            yield f"{where}should not be there"
+        else:
+            for place in catalogue.places(before, text):
+                yield where + place
+
+
+@dataclass(frozen=True)
+class Section:
+    """Coverage of one section.
+
+    Attributes:
+        name: Section of the thesis.
+        rows: Equations in the audit.
+        checked: Of these, the ones with a computed verdict.
+        gaps: Id and reason of each that has none.
+    """
+
+    name: str
+    rows: int
+    checked: int
+    gaps: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """A finished audit.
+
+    Attributes:
+        thesis: Its name.
+        rows: One a printed equation.
+        numbers: All equation numbers of the thesis.
+        states: The states it was made at, in words.
+        causes: Title of each shared slip.
+        beyond: What lies outside the audit, and why.
+    """
+
+    thesis: str
+    rows: tuple[Row, ...]
+    numbers: tuple[str, ...]
+    states: str
+    causes: Mapping[str, str]
+    beyond: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of rows by verdict."""
+        return {v: sum(row.verdict == v for row in self.rows) for v in VERDICTS}
+
+    @property
+    def failures(self) -> tuple[Row, ...]:
+        """Failing rows, worst effect first."""
+        failed = [row for row in self.rows if row.failed]
+        return tuple(sorted(failed, key=lambda row: (-row.weight, row.id)))
+
+    @property
+    def missing_numbers(self) -> tuple[str, ...]:
+        """Numbered equations without a row."""
+        covered = {number for row in self.rows for number in row.number}
+        return tuple(number for number in self.numbers if number not in covered)
+
+    @property
+    def sections(self) -> tuple[Section, ...]:
+        """Coverage section by section, in the rows' order."""
+        names = dict.fromkeys(row.id.split(":")[1] for row in self.rows)
+        result = []
+        for name in names:
+            rows = [row for row in self.rows if row.id.split(":")[1] == name]
+            open_ = [row for row in rows if row.verdict in ("illegible", "not checkable")]
+            gaps = tuple((row.id, row.reason) for row in open_)
+            result.append(Section(name, len(rows), len(rows) - len(open_), gaps))
+        return tuple(result)

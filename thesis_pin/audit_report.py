@@ -1,0 +1,232 @@
+"""Faces of an audit: JSON document, terminal table, Markdown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from thesis_pin.audit import HOLDS, VERDICTS, Report, Row
+
+SCHEMA, VERSION = "thesis-pin/audit", 1
+
+
+def document(report: Report) -> dict[str, Any]:
+    """The report for :func:`thesis_pin.report.json_bytes`.
+
+    A residual of a formula that can't be evaluated is null, and ``reason`` says why.
+    """
+    return {
+        "schema": SCHEMA,
+        "version": VERSION,
+        "thesis": report.thesis,
+        "states": report.states,
+        "holds_below": HOLDS,
+        "counts": report.counts,
+        "coverage": {
+            "numbered": len(report.numbers) - len(report.missing_numbers),
+            "numbers": len(report.numbers),
+            "missing": list(report.missing_numbers),
+            "sections": [
+                {
+                    "section": section.name,
+                    "rows": section.rows,
+                    "checked": section.checked,
+                    "gaps": [{"id": name, "reason": reason} for name, reason in section.gaps],
+                }
+                for section in report.sections
+            ],
+            "beyond": [{"what": what, "why": why} for what, why in report.beyond],
+        },
+        "causes": dict(report.causes),
+        "rows": [row_document(row) for row in report.rows],
+    }
+
+
+def row_document(row: Row) -> dict[str, Any]:
+    """One row as JSON."""
+    return {
+        "id": row.id,
+        "source": row.source,
+        "number": list(row.number),
+        "left": row.left,
+        "printed": list(row.printed),
+        "corrected": {str(k): text for k, text in row.corrected.items()} or None,
+        "verdict": row.verdict,
+        "attribution": row.attribution or None,
+        "why": row.why or None,
+        "residual_printed": _finite(row.residual_printed),
+        "residual_corrected": _finite(row.residual_corrected),
+        "places": list(row.places),
+        "reason": row.reason or None,
+        "effect": row.effect or None,
+        "note": row.note or None,
+        "cause": row.cause or None,
+        "check": row.check or None,
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None
+
+
+def residual_text(value: float | None) -> str:
+    """A residual for people: two digits, or that there is none to give."""
+    if value is None:
+        return ""
+    if math.isinf(value):
+        return "not computable"
+    return f"< {HOLDS:.0e}".replace("e-0", "e-") if value < HOLDS else f"{value:.1e}"
+
+
+def effect_text(row: Row) -> str:
+    """What following the print does, in words."""
+    parts = []
+    for name, value in row.effect.items():
+        if isinstance(value, str):
+            parts.append(f"{name}: {value}")
+        else:
+            quantity, _, unit = name.rstrip("]").partition(" [")
+            amount = f"{value:.2g}" if value >= HOLDS else "none"
+            parts.append(f"{quantity} {amount}{f' {unit}' if unit not in ('-', '') else ''}")
+    return ", ".join(parts)
+
+
+def grouped(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
+    """Rows that share a cause together, in the order of each group's first row."""
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(row.cause or row.id, []).append(row)
+    return list(groups.items())
+
+
+# -- terminal ---------------------------------------------------------------------
+
+
+def summary_lines(report: Report) -> Iterator[str]:
+    """Counts and coverage in sentences."""
+    counts = ", ".join(f"{report.counts[v]} {v}" for v in VERDICTS if report.counts[v])
+    yield f"{len(report.rows)} equations of the {report.thesis}: {counts}."
+    covered = len(report.numbers) - len(report.missing_numbers)
+    missing = f"; missing: {', '.join(report.missing_numbers)}" if report.missing_numbers else ""
+    yield f"Numbered equations covered: {covered} of {len(report.numbers)}{missing}."
+    checked = sum(section.checked for section in report.sections)
+    yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
+
+
+def failure_rows(report: Report, *, every: bool = False) -> list[tuple[str, ...]]:
+    """Rows of the failure table: what, lines, verdict, who, residual, worst effect."""
+    found: list[tuple[str, ...]] = []
+    groups = [(row.id, [row]) for row in report.failures] if every else grouped(report.failures)
+    for name, rows in groups:
+        worst = rows[0]
+        title = name.split(":", 1)[-1] if len(rows) == 1 else report.causes.get(name, name)
+        verdicts = "/".join(dict.fromkeys(row.verdict for row in rows))
+        who = "/".join(dict.fromkeys(row.attribution for row in rows))
+        effect = _worst_effect(worst)
+        found.append((_short(title, 34), str(len(rows)), verdicts, who, effect))
+    return found
+
+
+def _worst_effect(row: Row) -> str:
+    """The largest effect with its unit; "blocked" where following isn't possible."""
+    if any(isinstance(v, str) for v in row.effect.values()):
+        return "blocked"
+    numbers = {name: v for name, v in row.effect.items() if isinstance(v, float) and v > 0}
+    if not numbers:
+        return "-"
+    name = max(numbers, key=lambda key: numbers[key])
+    unit = name.rstrip("]").partition(" [")[2].replace("-", "")
+    return f"{numbers[name]:.2g} {unit}".rstrip()
+
+
+def _short(text: str, width: int) -> str:
+    return text if len(text) <= width else text[: width - 1] + "…"
+
+
+def explain(row: Row) -> Iterator[str]:
+    """Everything about one equation, line by line."""
+    yield f"{row.id}   {row.source}"
+    yield f"verdict    {row.verdict}" + (f", by the {row.attribution}" if row.attribution else "")
+    yield f"printed    {row.left}"
+    for member in row.printed:
+        yield f"             = {member}"
+    for number, text in sorted(row.corrected.items()):
+        label = "left side" if number == 0 else f"member {number}"
+        yield f"corrected  {label}: {text or '(nothing)'}"
+    if row.residual_printed is not None:
+        yield f"residual   as printed {residual_text(row.residual_printed)}"
+    if row.residual_corrected is not None:
+        yield f"           corrected {residual_text(row.residual_corrected)}"
+    for place in row.places:
+        yield f"where      {place}"
+    if row.effect:
+        yield f"effect     {effect_text(row)}"
+    for label, text in (("because", row.reason), ("guess", row.why), ("note", row.note)):
+        if text:
+            yield f"{label:<10} {text}"
+
+
+# -- Markdown -----------------------------------------------------------------------
+
+
+def markdown(report: Report, command: str) -> str:
+    """The audit as a document; the same for the same verdicts on every machine."""
+    lines = [
+        f"# Audit of the {report.thesis}",
+        "",
+        f"<!-- Generated by `{command}`; don't edit. -->",
+        "",
+        *(line + "\n" for line in summary_lines(report)),
+        "A *misprint* fails as printed and holds corrected; *wrong* is a physically wrong",
+        "statement whose right form holds. Verdicts are computed from residuals: the largest",
+        f"difference over all states, relative to the larger side; below {HOLDS:.0e} it holds.",
+        "Effects say what a reader meets who follows that one line and is right elsewhere:",
+        "the change of D q̈ + V q̇ + C relative to its largest entry, and of the gait's torques.",
+        "",
+        "## Coverage",
+        "",
+        "| section | equations | computed | without a verdict |",
+        "| --- | ---: | ---: | --- |",
+    ]
+    for section in report.sections:
+        gaps = _gaps(section.gaps)
+        lines.append(f"| {section.name} | {section.rows} | {section.checked} | {gaps} |")
+    lines += ["", "Outside the audit:", ""]
+    lines += [f"- {what}: {why}." for what, why in report.beyond]
+    lines += ["", "## Failures by cause", ""]
+    lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
+    lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
+    lines += ["", "## Failures", ""]
+    for row in report.failures:
+        lines += _markdown_row(row)
+    return "\n".join(lines) + "\n"
+
+
+def _gaps(gaps: tuple[tuple[str, str], ...]) -> str:
+    reasons: dict[str, list[str]] = {}
+    for name, reason in gaps:
+        reasons.setdefault(reason, []).append(name.split(":")[2])
+    return "; ".join(f"{_cell(', '.join(names))}: {why}" for why, names in reasons.items())
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", r"\|")
+
+
+def _markdown_row(row: Row) -> Iterator[str]:
+    who = f", by the {row.attribution}: {row.why}" if row.attribution else ""
+    yield f"### `{row.id}`"
+    yield ""
+    yield f"{row.verdict.capitalize()}{who}."
+    if row.note:
+        yield f"{row.note[:1].upper()}{row.note[1:]}."
+    yield ""
+    yield f"- residual as printed: {residual_text(row.residual_printed)}"
+    if row.reason:
+        yield f"- finding: {row.reason}"
+    for place in row.places:
+        yield f"- {place}"
+    if row.effect:
+        yield f"- effect: {effect_text(row)}"
+    yield ""

@@ -1,0 +1,58 @@
+"""Where two formulas differ, in words a reader can put a finger on."""
+
+from __future__ import annotations
+
+import difflib
+import itertools
+import re
+from collections.abc import Sequence
+
+_SCRIPT = r"(?:\s*[_^]\s*(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\?\w))"
+_LETTER = r"(?:\\d?dot\{[^{}]*\}|\\[a-zA-Z]+|[A-Za-z]\d?|\d+(?:\.\d+)?)"
+_PIECE = re.compile(rf"∂[^ ]+/∂[^ ]+|{_LETTER}'*{_SCRIPT}*|\\\\|\S")
+_LAYOUT = re.compile(
+    r"\\(?:begin|end)\{\w+\}(?:\{[clr| ]*\})?|\\(?:left|right|[bB]igg?[lr]?|c?l?dots)\b\.?"
+)
+
+
+def _pieces(formula: str) -> tuple[list[str], str]:
+    """A formula cut for comparison: into columns if it is a row, else into symbols.
+
+    Fonts and layout are left out; what a piece is called comes with them.
+    """
+    text = re.sub(r"\\(?:mathbf|boldsymbol)\s*\{((?:[^{}]|\{[^{}]*\})*)\}", r"\1", formula)
+    simple = (
+        r"\\frac\{\\partial ([^{} ]*(?:\{[^{}]*\}[^{} ]*)*)\}\{\\partial ([^{} ]*(?:\{[^{}]*\})?)\}"
+    )
+    text = _LAYOUT.sub(" ", re.sub(simple, r"∂\1/∂\2", text))
+    cells = re.split(r"&|\\quad", text.replace("\\\\", "&"))
+    if len(cells) > 4:
+        return [" ".join(re.sub(r"[\[\]]", "", cell).split()) for cell in cells], "column"
+    return _PIECE.findall(text), "symbol"
+
+
+def places(before: str, after: str) -> list[str]:
+    """Where two formulas differ, symbol by symbol, each place in words."""
+    (first, unit), (second, _) = _pieces(before), _pieces(after)
+    found = []
+    matcher = difflib.SequenceMatcher(None, first, second, autojunk=False)
+    for kind, a, b, c, d in matcher.get_opcodes():
+        if kind == "equal":
+            continue
+        joined = _counted if unit == "column" else " ".join
+        old, new = joined(first[a:b]), joined(second[c:d])
+        where = f"{unit} {a + 1}"
+        if kind == "insert":
+            beside = f" after {first[a - 1]}" if a else " at the start"
+            found.append(f"{where}: {new} is missing{beside}")
+        elif kind == "delete":
+            found.append(f"{where}: {old} should not be there")
+        else:
+            found.append(f"{where}: {old} should be {new}")
+    return found
+
+
+def _counted(cells: Sequence[str]) -> str:
+    """Cells in words, runs of equal ones counted: ``0, 0, 0`` → ``3 × 0``."""
+    runs = [(cell, len(list(group))) for cell, group in itertools.groupby(cells)]
+    return ", ".join(f"{count} × {cell}" if count > 1 else cell for cell, count in runs)
