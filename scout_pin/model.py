@@ -59,19 +59,20 @@ def load(
     return Scout(specification, root, inertia)
 
 
-def _thesis_root() -> pin.JointModelComposite:
-    """Three translations along x, y, z, then rotations about x, y, z (thesis 3.1)."""
-    composite = pin.JointModelComposite()
-    for joint in (
-        pin.JointModelPX(),
-        pin.JointModelPY(),
-        pin.JointModelPZ(),
-        pin.JointModelRX(),
-        pin.JointModelRY(),
-        pin.JointModelRZ(),
-    ):
-        composite.addJoint(joint)
-    return composite
+def _thesis_root() -> list[tuple[str, Any]]:
+    """Translations along x, y, z, then rotations about x, y, z (thesis 3.1).
+
+    Six joints, not one composite joint: on a composite, Pinocchio 4.1's
+    computeCoriolisMatrix doesn't give the Coriolis terms of nonLinearEffects.
+    """
+    return [
+        ("torso_x", pin.JointModelPX()),
+        ("torso_y", pin.JointModelPY()),
+        ("torso_z", pin.JointModelPZ()),
+        ("torso_pitch", pin.JointModelRX()),
+        ("torso_roll", pin.JointModelRY()),
+        ("torso_yaw", pin.JointModelRZ()),
+    ]
 
 
 class Scout(LoadedRobot):

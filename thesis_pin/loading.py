@@ -89,7 +89,8 @@ def load_model(text: str, root_joint: Any = None, *, where: str = "URDF") -> pin
 
     Args:
         text: The URDF.
-        root_joint: Joint between world and root link, ``None`` to fix it.
+        root_joint: Joint between world and root link; a list of (name, joint) for
+            several in series; ``None`` to fix it.
         where: File name for messages.
 
     Raises:
@@ -99,9 +100,23 @@ def load_model(text: str, root_joint: Any = None, *, where: str = "URDF") -> pin
     try:
         if root_joint is None:
             return pin.buildModelFromXML(text)
+        if isinstance(root_joint, list):
+            return _on_chain(root_joint, pin.buildModelFromXML(text))
         return pin.buildModelFromXML(text, root_joint)
     except (RuntimeError, ValueError) as error:
         raise ModelError(f"Pinocchio can't read it ({error})", where=where) from None
+
+
+def _on_chain(joints: list[tuple[str, Any]], model: pin.Model) -> pin.Model:
+    """A fixed model set upon joints in series."""
+    base, parent = pin.Model(), 0
+    for name, joint in joints:
+        parent = base.addJoint(parent, joint, pin.SE3.Identity(), name)
+        base.addJointFrame(parent)
+    end = base.getFrameId(joints[-1][0])
+    whole = pin.appendModel(base, model, end, pin.SE3.Identity())
+    whole.name = model.name
+    return whole
 
 
 def frame_id(model: pin.Model, name: str, *, where: str = "") -> int:

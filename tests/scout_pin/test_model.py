@@ -49,6 +49,17 @@ def test_both_roots_have_the_same_mass_matrix_and_forces(request, rng, specifica
             np.testing.assert_allclose(ours, theirs, atol=1e-12)
 
 
+def test_coriolis_matrix_gives_the_coriolis_terms_under_both_roots(rng):
+    for root in ("free_flyer", "thesis"):
+        robot = scout_pin.load(root=root)
+        q = pin.randomConfiguration(robot.model, -np.ones(robot.model.nq), np.ones(robot.model.nq))
+        v = rng.normal(size=18)
+        matrix = pin.computeCoriolisMatrix(robot.model, robot.data, q, v)
+        terms = pin.nonLinearEffects(robot.model, robot.data, q, v)
+        terms = terms - pin.computeGeneralizedGravity(robot.model, robot.data, q)
+        np.testing.assert_allclose(matrix @ v, terms, atol=1e-12)
+
+
 def test_thesis_root_places_the_torso_by_the_thesis_transformations(scout_thesis, rng):
     q = rng.uniform(-1, 1, 18)
     pin.framesForwardKinematics(scout_thesis.model, scout_thesis.data, q)
