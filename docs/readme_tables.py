@@ -68,7 +68,22 @@ def paths() -> Iterator[str]:
         yield f"| {' | '.join(cells)} |"
 
 
-TABLES = {"gaits": gaits, "paths": paths}
+def audits() -> Iterator[str]:
+    """Verdict counts, from the generated documents (which have staleness tests of their own)."""
+    yield "| thesis | equations | holds | misprint | wrong | illegible | not checkable |"
+    yield "| --- | --- | --- | --- | --- | --- | --- |"
+    for name in ("scout",):
+        text = (ROOT / "docs" / "audit" / f"{name}.md").read_text(encoding="utf-8")
+        line = re.search(r"^(\d+) equations of .*$", text, flags=re.MULTILINE)
+        if line is None:
+            raise SystemExit(f"docs/audit/{name}.md doesn't count its equations")
+        verdicts = ("holds", "misprint", "wrong", "illegible", "not checkable")
+        counts = [re.search(rf"(\d+) {verdict}", line[0]) for verdict in verdicts]
+        cells = [line[1], *(count[1] if count else "0" for count in counts)]
+        yield f"| [{name}](docs/audit/{name}.md) | {' | '.join(cells)} |"
+
+
+TABLES = {"gaits": gaits, "paths": paths, "audits": audits}
 
 
 def renewed(text: str) -> str:
