@@ -37,7 +37,7 @@ from pydantic import Field
 
 from pollard_pin.path import Path, Timing, arc, joined, line, through
 from thesis_pin.errors import BadInput, TrajectoryError
-from thesis_pin.specification import Key, Positive, Strict, Vector3, read_toml
+from thesis_pin.specification import Key, Positive, Strict, Vector3, read_text, read_toml
 
 _QUANTITIES = ("time", "x", "y", "z", "psi", "theta", "phi")
 _SUFFIXES = {"time": ("_s",), "x": ("_m",), "y": ("_m",), "z": ("_m",)}
@@ -82,7 +82,7 @@ class PathFile(Strict):
 
     format: Literal[1]
     name: str = "path"
-    interpolation: Literal["cubic", "quintic", "quadratic", "linear"] = "cubic"
+    interpolation: Literal["cubic", "free", "quintic", "quadratic"] = "cubic"
     poses: tuple[Node, ...] = ()
     start: Pose | None = None
     segments: tuple[Annotated[Line | Arc, Field(discriminator="kind")], ...] = ()
@@ -142,18 +142,14 @@ def _segments(content: PathFile) -> list[Path]:
     return paths
 
 
-def read_csv(file: str | File, method: str = "cubic") -> Path:
+def read_csv(file: str | File, method: str = "free") -> Path:
     """A path from CSV; see the head of this module.
 
     Raises:
         BadInput: It can't be read, a column is missing or a cell isn't a number.
         TrajectoryError: Time doesn't increase, or there are fewer than two rows.
     """
-    try:
-        text = File(file).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it isn't UTF-8 text"
-        raise BadInput(f"can't read the path: {reason}", where=str(file)) from None
+    text = read_text("path", file)
     rows = [
         (number, row)
         for number, row in enumerate(csv.reader(text.splitlines()), start=1)
@@ -179,6 +175,8 @@ def read_csv(file: str | File, method: str = "cubic") -> Path:
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} poses", where=str(file), allowed="at least 2")
     table *= factors
+    # 179° and −179° are neighbours: an angle that wraps around doesn't turn back.
+    table[:, 4:] = np.unwrap(table[:, 4:], axis=0)
     return through(table[:, 0], table[:, 1:], method, name=File(file).name)
 
 

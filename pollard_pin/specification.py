@@ -224,7 +224,7 @@ class Specification(Strict):
             BadInput: The file can't be read.
             SpecificationError: It is invalid; carries every problem with its key.
         """
-        return read_toml("specification", cls, path or POLLARD_PATH)
+        return read_toml("specification", cls, POLLARD_PATH if path is None else path)
 
     @property
     def side_chains(self) -> tuple[SideChain, SideChain]:

@@ -76,7 +76,7 @@ def _add_gait(verbs: Any) -> None:
     )
     verb.add_argument(
         "--interpolation",
-        choices=("linear", "quadratic", "cubic", "quintic"),
+        choices=("linear", "quadratic", "cubic", "free", "quintic"),
         help="method for the gait's nodes, instead of the gait's own",
     )
     verb.add_argument(
@@ -86,7 +86,10 @@ def _add_gait(verbs: Any) -> None:
         help="seconds in the gait's unit of t (default: the gait's own)",
     )
     verb.add_argument(
-        "--samples", type=count("--samples", 2), default=401, help="samples (default: 401)"
+        "--samples",
+        type=count("--samples", 2),
+        default=401,
+        help="evenly spaced samples; a few more stand beside each change (default: 401)",
     )
     verb.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
     verb.add_argument("--json", metavar="FILE|-", help="write the report as JSON")
@@ -231,7 +234,7 @@ def _print_report(report: GaitReport) -> None:
         "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
         f"Fastest time unit by speed {f.speed:.4f} s, by torque {torque}, by both (line) {line}.",
         f"ZMP margin: worst {report.margin.min() * 1e3:.1f} mm; stable in "
-        f"{report.stable_share:.1%} of samples.",
+        f"{report.stable_share:.1%} of the time.",
         f"Floor wrench: admissible in {report.dynamics.admissible.mean():.1%} of samples; "
         f"friction used up to {used:.0%}.",
         f"Lowest corner of a swinging sole: {report.clearance * 1e3:.1f} mm above the floor.",

@@ -18,7 +18,9 @@ from typing import Literal
 import numpy as np
 from scipy.interpolate import PPoly
 
-from thesis_pin.errors import BadInput, TrajectoryError
+from thesis_pin.arrays import finite_array
+from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
+from thesis_pin.interpolation import jumps
 from thesis_pin.rotations import euler_placement
 from thesis_pin.specification import Strict
 from thesis_pin.tolerances import TOLERANCES
@@ -72,6 +74,23 @@ class Motion:
             self.support[samples],
             *(body.at_rest(samples) for body in (self.torso, self.left_foot, self.right_foot)),
         )
+
+
+@dataclass(frozen=True)
+class RateJump:
+    """A planned rate that changes in an instant: it would take an infinite force.
+
+    Attributes:
+        t: Time in the gait's unit.
+        body: One of :data:`BODIES`.
+        coordinate: One of :data:`COORDINATES`.
+        size: Jump [m/s] or [rad/s].
+    """
+
+    t: float
+    body: str
+    coordinate: str
+    size: float
 
 
 @dataclass(frozen=True)
@@ -129,10 +148,37 @@ class Gait:
         return events
 
     def sample_times(self, samples: int) -> np.ndarray:
-        """``samples`` times t, evenly spaced from start to end."""
+        """Times t evenly spaced from start to end, and both sides of every change.
+
+        Phases and pieces of curves begin and end in an instant; a few more samples
+        just before and after each make sure that no peak depends on the spacing.
+
+        Args:
+            samples: Number of evenly spaced times.
+        """
         if samples < 2:
             raise BadInput(f"{samples} samples", allowed="at least 2")
-        return np.linspace(self.start, self.end, samples)
+        changes = [p.start for p in self.phases] + [p.end for p in self.phases]
+        changes += [x for curves in self.curves.values() for curve in curves for x in curve.x]
+        side = 1e-9 * (self.end - self.start)
+        near = np.concatenate([np.unique(changes) - side, np.unique(changes) + side])
+        near = near[(near > self.start) & (near < self.end)]
+        return np.union1d(np.linspace(self.start, self.end, samples), near)
+
+    def rate_jumps(self, time_unit: float | None = None) -> list[RateJump]:
+        """Instants at which a planned rate jumps, largest first.
+
+        A foot's lift-off and landing count too: a foot can't start in an instant.
+        """
+        unit = self.time_unit if time_unit is None else time_unit
+        found = []
+        for body, curves in self.curves.items():
+            for coordinate, curve in zip(COORDINATES, curves, strict=True):
+                sizes = np.abs(jumps(curve, 1)) / unit
+                inside = (curve.x[1:-1] > self.start) & (curve.x[1:-1] < self.end)
+                for k in np.flatnonzero((sizes > TOLERANCES.rate_jump) & inside):
+                    found.append(RateJump(float(curve.x[k + 1]), body, coordinate, sizes[k]))
+        return sorted(found, key=lambda jump: -jump.size)
 
     def body(self, name: str, t: np.ndarray, time_unit: float | None = None) -> BodyMotion:
         """Motion of one body at times t; derivatives are per second."""
@@ -155,10 +201,12 @@ class Gait:
             TrajectoryError: A time is outside the gait, or a foot in support isn't
                 flat on the floor, or moves.
         """
-        t = np.asarray(t, dtype=float)
+        t = finite_array("t", t, None)
+        if t.ndim != 1 or not t.size:
+            raise WrongShape("t", t.shape, "(n,), n at least 1")
         unit = self.time_unit if time_unit is None else time_unit
-        if not (np.isfinite(unit) and unit > 0):
-            raise BadInput(f"time unit {unit}", allowed="a positive number of seconds")
+        if not 1e-6 <= unit <= 1e6:
+            raise BadInput(f"time unit {unit} s", allowed="a positive number, 1e-6 to 1e6 s")
         if t.min() < self.start or t.max() > self.end:
             raise TrajectoryError(
                 f"t from {t.min():g} to {t.max():g}",

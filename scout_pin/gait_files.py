@@ -16,13 +16,14 @@ from scipy.interpolate import PPoly
 
 from scout_pin.gait import BODIES, COORDINATES, Gait, Phase
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
-from thesis_pin.interpolation import METHODS, constant, interpolate, join, polynomial
-from thesis_pin.specification import Key, Positive, Strict, read_toml
+from thesis_pin.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
+from thesis_pin.specification import Key, Positive, Strict, read_text, read_toml
+from thesis_pin.tolerances import TOLERANCES
 
 GAITS = Path(__file__).parent / "gaits"
 PRESETS = ("thesis", "thesis-program")
 
-Method = Literal["linear", "quadratic", "cubic", "quintic"]
+Method = Literal["linear", "quadratic", "cubic", "free", "quintic"]
 
 
 class Segment(Strict):
@@ -158,12 +159,14 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
     """
     if interpolation is not None and interpolation not in METHODS:
         raise UnknownName("interpolation", interpolation, list(METHODS))
+    if not isinstance(source, str | Path):
+        raise BadInput(f"{source!r} isn't a gait", allowed=f"{', '.join(PRESETS)} or a path")
     if str(source) in PRESETS:
         source = GAITS / f"{source}.toml"
     path = Path(source)
-    if path.suffix == ".csv":
-        return _from_csv(path, interpolation or "cubic")
-    if path.suffix != ".toml":
+    if path.suffix.lower() == ".csv":
+        return _from_csv(path, interpolation or "free")
+    if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
@@ -184,8 +187,23 @@ def _curves(file: GaitFile, body: Body, override: str | None) -> tuple[PPoly, ..
             curves.append(constant(start, end, curve * factor))
             continue
         made = _join_segments(curve, override, file.interpolation)
-        curves.append(PPoly(made.c * factor, made.x))
+        made = PPoly(made.c * factor, made.x)
+        _refuse_jumps(made, f"gait {file.name!r}: {coordinate}")
+        curves.append(made)
     return tuple(curves)
+
+
+def _refuse_jumps(curve: PPoly, where: str) -> None:
+    """Segments must meet; the thesis's own rounding leaves gaps below 0.06 mm."""
+    sizes = np.abs(jumps(curve))
+    if (sizes > TOLERANCES.seam).any():
+        k = int(np.argmax(sizes))
+        raise TrajectoryError(
+            f"its value jumps by {sizes[k]:.3g}",
+            where=f"{where} at t = {curve.x[k + 1]:g}",
+            allowed=f"{TOLERANCES.seam:g} m or rad",
+            remedy="Let each segment begin with the value the one before ends with",
+        )
 
 
 def _join_segments(curve: tuple[Segment, ...], override: str | None, default: str) -> PPoly:
@@ -215,20 +233,26 @@ def _join_segments(curve: tuple[Segment, ...], override: str | None, default: st
 def _from_csv(path: Path, method: str) -> Gait:
     """Columns ``t`` [s], ``support`` and any of ``<body>_<coordinate>`` [m], [rad]."""
     known = [f"{body}_{coordinate}" for body in BODIES for coordinate in COORDINATES]
-    try:
-        with path.open(newline="", encoding="utf-8") as stream:
-            reader = csv.DictReader(row for row in stream if not row.lstrip().startswith("#"))
-            rows = list(reader)
-            columns = reader.fieldnames or []
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it isn't UTF-8 text"
-        raise BadInput(f"can't read the gait: {reason}", where=str(path)) from None
+    lines = [
+        (number, [cell.strip() for cell in row])
+        for number, row in enumerate(csv.reader(read_text("gait", path).splitlines()), start=1)
+        if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
+    ]
+    columns = lines[0][1] if lines else []
     for name in columns:
         if name not in (*known, "t", "support"):
             raise UnknownName("column", name, ["t", "support", *known], where=str(path))
+        if columns.count(name) > 1:
+            raise TrajectoryError(f"column {name!r} is given twice", where=str(path))
     for name in ("t", "support"):
         if name not in columns:
             raise TrajectoryError(f"there is no column {name!r}", where=str(path))
+    for number, row in lines:
+        if len(row) != len(columns):
+            raise TrajectoryError(
+                f"{len(row)} cells", where=f"{path}:{number}", allowed=f"{len(columns)}"
+            )
+    rows = [dict(zip(columns, row, strict=True)) for _, row in lines[1:]]
     if len(rows) < 4:
         raise TrajectoryError(f"{len(rows)} samples", where=str(path), allowed="at least 4")
     numbers = {name: _column(path, rows, name) for name in columns if name != "support"}
@@ -240,6 +264,9 @@ def _from_csv(path: Path, method: str) -> Gait:
             where=f"{path}: sample {k + 2}",
             allowed="strictly increasing t",
         )
+    for name in numbers:
+        if name.endswith(("pitch", "roll", "yaw")):
+            numbers[name] = np.unwrap(numbers[name])
     phases = tuple(_csv_phases(path, rows, t))
     curves = {
         body: tuple(

@@ -14,7 +14,7 @@ from scout_pin.dynamics import (
     inverse_dynamics,
     joint_trajectory,
 )
-from scout_pin.gait import Gait, Motion
+from scout_pin.gait import Gait, Motion, RateJump
 from scout_pin.impact import Impact, impacts
 from scout_pin.model import Scout
 from scout_pin.servo_limits import FastestTimeUnit, fastest_time_unit
@@ -83,18 +83,30 @@ class GaitReport:
 
     @property
     def stable_share(self) -> float:
-        """Share of samples whose ZMP is inside the support polygon."""
-        return float((self.margin > 0).mean())
+        """Share of the time with the ZMP inside the support polygon."""
+        time, inside = self.joints.time, self.margin > 0
+        # An interval counts if both its ends do: instants of double support weigh nothing.
+        return float((np.diff(time) * (inside[1:] & inside[:-1])).sum() / (time[-1] - time[0]))
 
     @property
     def can_walk(self) -> bool:
-        """Whether the floor can supply every wrench the motion needs."""
-        return bool((self.margin > 0).all() and self.dynamics.admissible.all())
+        """Whether the floor can supply every wrench, feet swing clear and no rate jumps."""
+        return bool(
+            (self.margin > 0).all()
+            and self.dynamics.admissible.all()
+            and self.clearance >= -1e-9
+            and not self.rate_jumps
+        )
+
+    @cached_property
+    def rate_jumps(self) -> list[RateJump]:
+        """Instants at which a planned rate jumps, largest first."""
+        return self.gait.rate_jumps(self.time_unit)
 
     @property
     def within_limits(self) -> bool:
-        """Walkable, carried by the servos and with swing feet above the floor."""
-        return self.can_walk and self.servos_carry and self.clearance >= -1e-9
+        """Walkable and carried by the servos."""
+        return self.can_walk and self.servos_carry
 
     @cached_property
     def worst_contact(self) -> tuple[int, float]:
@@ -228,6 +240,10 @@ class GaitReport:
             "least_violation_time": float(self.joints.time[sample]),
             "peak_friction_used": float(np.nanmax(used)) if np.isfinite(used).any() else None,
             "swing_clearance": self.clearance,
+            "rate_jumps": [
+                {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}
+                for j in self.rate_jumps
+            ],
             "impacts": [
                 {
                     "time": impact.t * self.time_unit,

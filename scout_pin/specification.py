@@ -171,7 +171,7 @@ class Specification(Strict):
             BadInput: The file can't be read.
             SpecificationError: It is invalid; carries every problem with its key.
         """
-        return read_toml("specification", cls, path or SCOUT_PATH)
+        return read_toml("specification", cls, SCOUT_PATH if path is None else path)
 
     def leg(self, side: str) -> Leg:
         """The leg of one side."""

@@ -16,6 +16,7 @@ def sentences(report: GaitReport) -> list[str]:
         *_walking(report),
         *_servos(report),
         *_swing(report),
+        *_smooth(report),
     ]
 
 
@@ -23,6 +24,8 @@ def _walking(report: GaitReport) -> list[str]:
     name, count = report.robot.specification.name.capitalize(), len(report.margin)
     outside = report.margin <= 0
     refused = int((~report.dynamics.admissible).sum())
+    if not outside.any() and not refused and not report.can_walk:
+        return [f"{name} can't walk this gait as planned, though the floor could carry it."]
     if not outside.any() and not refused:
         worst = report.margin.min() * 1e3
         return [
@@ -59,7 +62,7 @@ def _walking(report: GaitReport) -> list[str]:
     if refused:
         result.append(
             f"In {refused} of {count} samples no admissible floor wrench exists; the torques "
-            f"below suppose feet glued to the floor. At worst (t = {report.motion.t[sample]:g}) "
+            f"suppose feet glued to the floor. At worst (t = {report.motion.t[sample]:g}) "
             f"the glue has to supply {violation:.3f} N·m."
         )
     return result
@@ -89,3 +92,17 @@ def _swing(report: GaitReport) -> list[str]:
     if report.clearance < -1e-9:
         return [f"A swinging sole goes {-report.clearance * 1e3:.1f} mm into the floor."]
     return []
+
+
+def _smooth(report: GaitReport) -> list[str]:
+    if not report.rate_jumps:
+        return []
+    worst = report.rate_jumps[0]
+    unit = "m/s" if worst.coordinate in "xyz" else "rad/s"
+    count = len(report.rate_jumps)
+    often = "once" if count == 1 else f"{count} times"
+    return [
+        f"A planned rate jumps {often}, most {worst.body.replace('_', ' ')} {worst.coordinate} by "
+        f"{worst.size:.3g} {unit} at t = {worst.t:g}; no finite torque does that "
+        "and none is counted."
+    ]

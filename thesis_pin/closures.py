@@ -29,7 +29,7 @@ from pydantic import Field, field_validator
 from thesis_pin.errors import BadInput, ModelError, UnknownName
 from thesis_pin.joint_types import replace_joints
 from thesis_pin.loading import LoadedRobot, check_urdf, frame_id
-from thesis_pin.specification import Key, Strict, key_lines, validate
+from thesis_pin.specification import Key, Strict, key_lines, read_text, validate
 
 FILE_KIND = "closure file"
 
@@ -40,6 +40,21 @@ class Extra(Strict):
     format: Literal[1]
     robot: str = ""
     names: tuple[str, ...] = ()
+
+
+class _UniqueKeys(yaml.SafeLoader):
+    """YAML's safe loader, which otherwise keeps the last of repeated keys in silence."""
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:
+        seen: set[Any] = set()
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)
+            if key in seen:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"the key {key!r} is given twice", key_node.start_mark
+                )
+            seen.add(key)
+        return super().construct_mapping(node, deep)
 
 
 class ClosureFile(Strict):
@@ -56,13 +71,13 @@ class ClosureFile(Strict):
     @classmethod
     def _small(cls, value: Any) -> Any:
         if isinstance(value, list | tuple):
-            return [item.lower() if isinstance(item, str) else item for item in value]
+            return tuple(item.lower() if isinstance(item, str) else item for item in value)
         return value
 
     @field_validator("name_mot", mode="before")
     @classmethod
     def _one_or_many(cls, value: Any) -> Any:
-        return [value] if isinstance(value, str) else value
+        return (value,) if isinstance(value, str) else value
 
     @classmethod
     def read(cls, path: str | Path) -> ClosureFile:
@@ -72,18 +87,13 @@ class ClosureFile(Strict):
             BadInput: It can't be read or isn't YAML.
             SpecificationError: It breaks the schema; carries every problem.
         """
-        try:
-            text = Path(path).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "it isn't UTF-8 text"
-            raise BadInput(f"can't read the {FILE_KIND}: {reason}", where=str(path)) from None
-        return cls.parse(text, where=str(path))
+        return cls.parse(read_text(FILE_KIND, path), where=str(path))
 
     @classmethod
     def parse(cls, text: str, *, where: str = "<text>") -> ClosureFile:
         """The same for text already in memory."""
         try:
-            data = yaml.safe_load(text)
+            data = yaml.load(text, Loader=_UniqueKeys)
         except yaml.YAMLError as error:
             reason = " ".join(str(error).split())
             raise BadInput(f"the {FILE_KIND} isn't valid YAML: {reason}", where=where) from None

@@ -51,6 +51,11 @@ def cubic(t: ArrayLike, value: ArrayLike) -> PPoly:
     return CubicSpline(t, value, bc_type="clamped")
 
 
+def free(t: ArrayLike, value: ArrayLike) -> PPoly:
+    """Cubic spline through samples of a motion that goes on at both ends (not-a-knot), C²."""
+    return CubicSpline(t, value, bc_type="not-a-knot")
+
+
 def quintic(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Quintic spline, C⁴, with zero rate and acceleration at both ends."""
     ends = [(1, 0.0), (2, 0.0)]
@@ -61,6 +66,7 @@ METHODS: dict[str, Callable[[ArrayLike, ArrayLike], PPoly]] = {
     "linear": linear,
     "quadratic": quadratic,
     "cubic": cubic,
+    "free": free,
     "quintic": quintic,
 }
 """Methods by the names used in files and on the command line."""
@@ -111,6 +117,16 @@ def polynomial(start: float, end: float, coefficients: Sequence[float]) -> PPoly
     """
     shifted = np.poly1d(coefficients)(np.poly1d([1.0, start]))
     return PPoly(np.atleast_1d(np.poly1d(shifted).coeffs)[:, None], np.array([start, end]))
+
+
+def jumps(curve: PPoly, order: int = 0) -> np.ndarray:
+    """Jumps of a curve, or of a derivative, at its inner knots, shape ``(knots − 2,)``."""
+    derivative = curve.derivative(order) if order else curve
+    width = np.diff(curve.x)[:-1]
+    before = np.zeros(len(width))
+    for coefficient in derivative.c[:, :-1]:
+        before = before * width + coefficient
+    return derivative(curve.x[1:-1]) - before
 
 
 def join(pieces: Sequence[PPoly]) -> PPoly:

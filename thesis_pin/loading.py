@@ -248,6 +248,12 @@ def _check_joint(name: str, joint: ElementTree.Element, where: str) -> None:
     kind = joint.get("type", "")
     if kind not in JOINT_TYPES:
         raise UnknownName("joint type", kind, JOINT_TYPES, where=here)
+    if joint.find("mimic") is not None:
+        raise ModelError(
+            "it mimics another joint, which the model would ignore",
+            where=here,
+            remedy="Remove <mimic>; tie the joints by a loop if they are tied",
+        )
     for element in (joint.find("origin"), joint.find("axis"), joint.find("limit")):
         if element is not None:
             for key in element.attrib:

@@ -66,13 +66,26 @@ def read_toml(kind: str, schema: type[File], path: str | Path) -> File:
         BadInput: The file can't be opened or isn't TOML.
         SpecificationError: It is TOML but breaks the schema; carries every problem.
     """
-    path = Path(path)
+    return parse_toml(kind, schema, read_text(kind, path), where=str(path))
+
+
+def read_text(kind: str, path: str | Path) -> str:
+    """Text of a UTF-8 file, with or without a byte order mark.
+
+    Args:
+        kind: What the file is, for messages.
+        path: The file.
+
+    Raises:
+        BadInput: It isn't a path, can't be opened or isn't UTF-8.
+    """
+    if not isinstance(path, str | Path) or not str(path):
+        raise BadInput(f"{path!r} isn't the name of a {kind} file", allowed="a path")
     try:
-        text = path.read_text(encoding="utf-8")
+        return Path(path).read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it isn't UTF-8 text"
         raise BadInput(f"can't read the {kind}: {reason}", where=str(path)) from None
-    return parse_toml(kind, schema, text, where=str(path))
 
 
 def parse_toml(kind: str, schema: type[File], text: str, *, where: str = "<text>") -> File:
@@ -112,7 +125,8 @@ def validate(
 
     problems = []
     try:
-        result = schema.model_validate(data)
+        # Strict: true isn't 1 and "0.33" isn't 0.33. Files have lists where we have tuples.
+        result = schema.model_validate(_tuples(data), strict=True)
     except ValidationError as error:
         for detail in error.errors(include_url=False):
             key = _real_key(detail["loc"], data)
@@ -208,6 +222,14 @@ def _dotted(key: Key) -> str:
     for part in key:
         text += f"[{part}]" if isinstance(part, int) else ("." if text else "") + part
     return text or "(whole file)"
+
+
+def _tuples(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {key: _tuples(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return tuple(_tuples(value) for value in data)
+    return data
 
 
 def _short(value: object) -> str:

@@ -21,6 +21,8 @@ class Tolerances:
             lost rank [-].
         stance_drift: How far a foot in support may stray from rest or floor [m].
         joint_limit: Excess still taken as inside a joint limit [rad].
+        seam: Jump of value accepted where segments of a curve meet [m], [rad].
+        rate_jump: Jump of rate that counts as smooth [m/s], [rad/s].
         static: Joint speed below which Coulomb friction is taken as zero [rad/s].
     """
 
@@ -33,6 +35,8 @@ class Tolerances:
     rank: float = 1e-9
     stance_drift: float = 1e-6
     joint_limit: float = 1e-9
+    seam: float = 1e-4
+    rate_jump: float = 1e-6
     static: float = 1e-9
 
 

@@ -103,7 +103,7 @@ def test_zmp_by_6_1_is_the_centre_of_pressure_of_the_floors_wrenches(case):
     single = ~motion.support.all(axis=1)
     for k, foot in enumerate((motion.left_foot, motion.right_foot)):
         mine = single & motion.support[:, k]
-        local = np.concatenate([dynamics.centre_of_pressure[:, k], np.zeros((81, 1))], axis=1)
+        local = np.concatenate([dynamics.centre_of_pressure[:, k], np.zeros((len(zmp), 1))], axis=1)
         world = foot.position + np.einsum("nij,nj->ni", foot.rotation, local)
         np.testing.assert_allclose(world[mine, :2], zmp[mine], atol=1e-10)
 

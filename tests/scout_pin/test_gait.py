@@ -222,11 +222,7 @@ def test_a_broken_gait_is_refused_with_key_and_line(tmp_path, old, new, key, say
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
-        (
-            "y_mm = [\n  { t = [0, 20], value = [0, 0] },\n",
-            "y_mm = [\n  { t = [0, 20], value = [0, 3] },\n",
-            "moves",
-        ),
+        ("x_mm = -44.54", "x_mm = [{ t = [0, 40], value = [-44.54, -40] }]", "moves"),
         ("x_mm = -44.54", "x_mm = -44.54\nroll_deg = 2", "flat on the floor"),
     ],
 )
@@ -237,6 +233,26 @@ def test_a_stance_foot_that_moves_or_tilts_is_refused(tmp_path, old, new, says):
     path.write_text(text.replace(old, new, 1))
     with pytest.raises(TrajectoryError, match=says):
         load_gait(path).sample(np.array([1.0]))
+
+
+def test_a_gait_that_teleports_is_refused_with_place_and_size(tmp_path):
+    text = (EXAMPLES / "walk.toml").read_text()
+    old = "{ t = [4, 12], value = [-26, -26] }"
+    assert old in text
+    path = tmp_path / "gait.toml"
+    path.write_text(text.replace(old, old.replace("-26", "-20")))
+    with pytest.raises(TrajectoryError, match=r"x at t = 4: its value jumps by 0.006"):
+        load_gait(path)
+
+
+def test_rate_jumps_are_found_with_their_sizes():
+    thesis = {(j.t, j.body, j.coordinate): j.size for j in load_gait("thesis").rate_jumps()}
+    # Lift-off and landing by 4 mm a unit (3 of table 5.1), and y_B where it is cut off.
+    for t, body in ((20.0, "left_foot"), (20.0, "right_foot")):
+        assert thesis[t, body, "z"] == pytest.approx(4e-3 / 0.1)
+    assert thesis[25.0, "torso", "y"] == pytest.approx(1.43e-3, rel=1e-2)
+    assert load_gait(EXAMPLES / "walk.toml").rate_jumps() == []
+    assert load_gait(EXAMPLES / "walk.toml", "linear").rate_jumps()
 
 
 def test_times_outside_the_gait_and_bad_units_are_refused():

@@ -32,7 +32,7 @@ def test_default_report_says_plainly_that_the_thesis_gait_cannot_walk():
     assert done.stderr == ""
     text = " ".join(done.stdout.split())
     assert "Scout can't walk this gait" in text
-    assert "17.0 mm in 398 of 401 samples" in text
+    assert "17.0 mm in 418 of 421 samples" in text
     assert "tip onto the foot it means to lift" in text
     assert "feet glued to the floor" in text
     assert "left_hip_yaw θ_11" in text
@@ -78,18 +78,21 @@ def test_a_swinging_sole_that_dips_into_the_floor_breaks_a_limit(tmp_path):
 
 def test_json_has_every_documented_field_and_shape():
     document = json.loads(scout_pin("gait", "--json", "-", "--samples", "11").stdout)
+    # Eleven evenly spaced samples, and those beside every change.
+    count = len(document["time"])
+    assert 11 < count == document["parameters"]["samples"]
     assert (document["schema"], document["version"]) == ("scout-pin/gait-report", 1)
     shapes = {
-        "time": (11,),
-        "theta": (11, 12),
-        "theta_rate": (11, 12),
-        "theta_acceleration": (11, 12),
-        "torque": (11, 12),
-        "left_wrench": (11, 6),
-        "right_wrench": (11, 6),
-        "com": (11, 3),
-        "zmp": (11, 2),
-        "margin": (11,),
+        "time": (count,),
+        "theta": (count, 12),
+        "theta_rate": (count, 12),
+        "theta_acceleration": (count, 12),
+        "torque": (count, 12),
+        "left_wrench": (count, 6),
+        "right_wrench": (count, 6),
+        "com": (count, 3),
+        "zmp": (count, 2),
+        "margin": (count,),
     }
     for name, shape in shapes.items():
         assert np.shape(document[name]) == shape, name
@@ -105,7 +108,7 @@ def test_out_writes_report_table_and_figures(tmp_path):
     names = {path.name for path in (tmp_path / "report").iterdir()}
     assert {"report.json", "samples.csv", "torques.png", "stability.svg"} <= names
     header, *rows = (tmp_path / "report/samples.csv").read_text().splitlines()
-    assert len(rows) == 401
+    assert len(rows) > 401
     assert "torque_left_hip_roll_Nm" in header.split(",")
     assert (tmp_path / "report/torques.png").read_bytes().startswith(b"\x89PNG")
 
@@ -121,6 +124,21 @@ def test_a_gait_that_walks_passes_strict(gait, specification):
     done = scout_pin("gait", *arguments)
     assert done.returncode == 0, done.stdout
     assert "can walk this gait" in done.stdout
+
+
+@pytest.mark.parametrize("samples", ["2", "3"])
+def test_few_samples_do_not_hide_that_the_thesis_gait_tips(samples):
+    done = scout_pin("gait", "--samples", samples, "--strict")
+    assert done.returncode == 1
+    assert "can't walk this gait" in done.stdout
+
+
+def test_a_gait_whose_rates_jump_cannot_be_walked():
+    done = scout_pin(
+        "gait", "--gait", EXAMPLES / "walk.toml", "--interpolation", "linear", "--strict"
+    )
+    assert done.returncode == 1
+    assert "A planned rate jumps" in done.stdout
 
 
 def test_strict_exits_1_when_the_gait_breaks_a_limit():
@@ -146,7 +164,7 @@ BAD = {
     "missing specification": (["gait", "--specification", "no.toml"], "no.toml"),
     "gait beyond the joints' limits": (
         ["gait", "--specification", str(EXAMPLES / "lopsided.toml")],
-        "left foot, sample 238: reachable, but outside the joint limits",
+        "reachable, but outside the joint limits",
     ),
     "too fast to stay on the floor": (["gait", "--time-unit", "0.001"], "floor would have to pull"),
     "NaN pose": (["ik", "left", "--position", "nan", "0", "0"], "finite"),

@@ -6,9 +6,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thesis_pin.errors import NotFinite, TrajectoryError, UnknownName
-from thesis_pin.interpolation import METHODS, constant, interpolate, join, polynomial
+from thesis_pin.interpolation import (
+    METHODS,
+    constant,
+    interpolate,
+    join,
+    jumps,
+    polynomial,
+)
 
-SMOOTH = {"linear": 0, "quadratic": 1, "cubic": 2, "quintic": 4}
+SMOOTH = {"linear": 0, "quadratic": 1, "cubic": 2, "free": 2, "quintic": 4}
 
 
 def nodes(seed, count):
@@ -60,6 +67,20 @@ def test_smooth_curves_start_and_end_at_rest(method, orders):
     curve = interpolate([0, 1, 3], [1.0, 2.0, -1.0], method)
     for order in range(1, orders + 1):
         np.testing.assert_allclose(curve([0.0, 3.0], order), 0.0, atol=1e-12)
+
+
+def test_samples_of_a_cubic_give_it_back_when_the_ends_are_free():
+    t = np.linspace(0, 2, 9)
+    curve = interpolate(t, t**3 - t, "free")
+    probe = np.linspace(0, 2, 31)
+    np.testing.assert_allclose(curve(probe), probe**3 - probe, atol=1e-13)
+    np.testing.assert_allclose(curve(probe, 1), 3 * probe**2 - 1, atol=1e-12)
+
+
+def test_jumps_are_found_at_inner_knots():
+    curve = join([constant(0, 1, 2.0), polynomial(1, 3, [1.0, 1.5]), constant(3, 4, 4.5)])
+    np.testing.assert_allclose(jumps(curve), [0.5, 0.0], atol=1e-15)
+    np.testing.assert_allclose(jumps(curve, 1), [1.0, -1.0], atol=1e-15)
 
 
 def test_printed_polynomials_and_joined_pieces_keep_their_values():
