@@ -1,0 +1,162 @@
+"""A headless Chromium, driven over its DevTools protocol: what pages do in a real browser."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import shutil
+import subprocess
+import tempfile
+import time
+import urllib.request
+from pathlib import Path
+
+import numpy as np
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+
+
+def find() -> str | None:
+    """Path of a Chromium on this machine, None without one."""
+    return next((path for name in NAMES if (path := shutil.which(name))), None)
+
+
+class Chromium:
+    """One browser with one tab at a time; a context manager."""
+
+    def __init__(self, width: int = 1280, height: int = 720) -> None:
+        self._profile = tempfile.TemporaryDirectory(prefix="chromium_", ignore_cleanup_errors=True)
+        path = find()
+        assert path, "no Chromium"
+        self._process = subprocess.Popen(
+            [
+                path,
+                "--headless=new",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+                "--enable-unsafe-swiftshader",
+                "--hide-scrollbars",
+                "--no-first-run",
+                f"--window-size={width},{height}",
+                f"--user-data-dir={self._profile.name}",
+                "--remote-debugging-port=0",
+                "about:blank",
+            ],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        self._socket = None
+        self._count = 0
+        self.events: list[dict] = []
+
+    def __enter__(self) -> Chromium:
+        from websockets.sync.client import connect
+
+        file = Path(self._profile.name, "DevToolsActivePort")
+        deadline = time.monotonic() + 60
+        while not (file.exists() and "\n" in file.read_text()):
+            assert time.monotonic() < deadline, "Chromium doesn't start"
+            time.sleep(0.05)
+        port = file.read_text().splitlines()[0]
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/json/list") as answer:
+            page = next(tab for tab in json.load(answer) if tab["type"] == "page")
+        self._socket = connect(page["webSocketDebuggerUrl"], max_size=None)
+        for domain in ("Page", "Runtime", "Network", "Log"):
+            self.call(f"{domain}.enable")
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._socket is not None:
+            self._socket.close()
+        self._process.terminate()
+        try:
+            self._process.wait(10)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._profile.cleanup()
+
+    def call(self, method: str, **parameters):
+        """One DevTools command; events that come meanwhile are kept in ``events``."""
+        self._count += 1
+        self._socket.send(
+            json.dumps({"id": self._count, "method": method, "params": parameters})
+        )
+        while True:
+            message = json.loads(self._socket.recv(timeout=120))
+            if message.get("id") == self._count:
+                assert "error" not in message, message["error"]
+                return message["result"]
+            self.events.append(message)
+
+    def open(self, url: str, width: int = 1280, height: int = 720, mobile: bool = False) -> None:
+        """Load a page, forgetting the events of the one before."""
+        self.call(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=mobile,
+        )
+        self.call("Page.navigate", url="about:blank")
+        time.sleep(0.1)
+        self.run("1")
+        self.events.clear()
+        self.call("Page.navigate", url=url)
+
+    def run(self, script: str):
+        """Value of a JavaScript expression; promises are awaited."""
+        answer = self.call(
+            "Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True
+        )
+        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+        return answer["result"].get("value")
+
+    def until(self, script: str, seconds: float = 60.0):
+        """Wait until a JavaScript expression is true, and return its value."""
+        deadline = time.monotonic() + seconds
+        while not (value := self.run(script)):
+            assert time.monotonic() < deadline, (script, self.complaints())
+            time.sleep(0.1)
+        return value
+
+    def press(self, key: str, code: str = "", text: str = "") -> None:
+        """Press and release a key."""
+        common = {"key": key, "code": code or key}
+        self.call("Input.dispatchKeyEvent", type="keyDown", text=text, **common)
+        self.call("Input.dispatchKeyEvent", type="keyUp", **common)
+
+    def picture(self, file: Path | None = None) -> np.ndarray:
+        """Screenshot as ``(height, width, 3)`` numbers from 0 to 255; kept in a file if named."""
+        from PIL import Image
+
+        data = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
+        if file is not None:
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_bytes(data)
+        return np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).astype(int)
+
+    def requests(self) -> list[str]:
+        """Addresses asked for since the page was opened, data and blob URLs left out."""
+        self.run("1")
+        return [
+            event["params"]["request"]["url"]
+            for event in self.events
+            if event["method"] == "Network.requestWillBeSent"
+            and not event["params"]["request"]["url"].startswith(("data:", "blob:"))
+        ]
+
+    def complaints(self) -> list[str]:
+        """Errors and exceptions on the console since the page was opened."""
+        found = []
+        for event in self.events:
+            details = event.get("params", {})
+            if event["method"] == "Runtime.exceptionThrown":
+                found.append(json.dumps(details["exceptionDetails"])[:2000])
+            elif event["method"] == "Runtime.consoleAPICalled" and details["type"] == "error":
+                found.append(json.dumps(details["args"])[:2000])
+            elif event["method"] == "Log.entryAdded" and details["entry"]["level"] == "error":
+                found.append(json.dumps(details["entry"])[:2000])
+        return found
