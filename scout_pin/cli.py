@@ -210,10 +210,13 @@ def _view(arguments: argparse.Namespace) -> int:
     from scout_pin.model import load
     from scout_pin.report import gait_report
     from scout_pin.view import gait_scene
+    from thesis_pin.scene import frames
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     gait = load_gait(arguments.gait, arguments.interpolation)
-    report = gait_report(robot, gait, samples=401, time_unit=arguments.time_unit)
+    unit = arguments.time_unit or gait.time_unit
+    samples = frames((gait.end - gait.start) * unit)
+    report = gait_report(robot, gait, samples=samples, time_unit=unit)
     run_view(gait_scene(report), arguments)
     return OK
 

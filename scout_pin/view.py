@@ -56,7 +56,7 @@ def gait_scene(report: GaitReport) -> Scene:
     force_scale = height / (robot.mass * 9.81)
     zone = levels(report.margin[keep], MARGIN_BOUNDS)
     return Scene(
-        title=f"{robot.specification.name}, gait {report.gait.name}",
+        title=f"{robot.specification.name.capitalize()}, gait {report.gait.name}",
         description=_description(report),
         time=report.joints.time[keep],
         groups=_groups(force_scale),

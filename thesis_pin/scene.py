@@ -405,6 +405,11 @@ def thinned(count: int, most: int) -> np.ndarray:
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
 
+def frames(duration: float) -> int:
+    """Number of samples that shows a motion of some seconds smoothly: 60 a second, in bounds."""
+    return int(np.clip(round(60 * duration) + 1, 241, 1201))
+
+
 def levels(values: np.ndarray, bounds: Sequence[float]) -> np.ndarray:
     """Index of the band each value lies in: 0 below the first bound, and so on up."""
     return np.digitize(values, bounds).astype(float)

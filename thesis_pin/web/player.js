@@ -323,6 +323,12 @@ function makePlayer(root, scene, options = {}) {
   root.classList.add("player");
   root.replaceChildren(pane);
   const stage = makeStage(THREE, pane, scene);
+  if (options.embedded) {
+    // The wheel scrolls the page unless the reader has taken hold of the picture.
+    stage.controls.enableZoom = false;
+    pane.addEventListener("pointerdown", () => { stage.controls.enableZoom = true; });
+    pane.addEventListener("mouseleave", () => { stage.controls.enableZoom = false; });
+  }
   const canvas = stage.renderer.domElement;
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", scene.description);
@@ -409,11 +415,12 @@ function makePlayer(root, scene, options = {}) {
 
   // -- clock
   let now = start, playing = false, last = null, frames = 0, since = null, slow = 0, drawn = 0;
+  let inSight = true;
   const listeners = [];
-  const set = (t, told = true) => {
+  const set = (t) => {
     now = Math.min(end, Math.max(start, t));
     apply(now);
-    if (told) listeners.forEach((listener) => listener(now - start));
+    listeners.forEach((listener) => listener(now - start));
   };
   const setPlaying = (on) => {
     playing = on;
@@ -425,7 +432,7 @@ function makePlayer(root, scene, options = {}) {
   slider.addEventListener("input", () => set(start + Number(slider.value)));
 
   function count(clock) {
-    since = since ?? clock;
+    if (since === null) { since = clock; frames = 0; }
     frames += 1;
     if (clock - since < 2000) return;
     player.frameRate = 1000 * (frames - 1) / (clock - since);
@@ -448,10 +455,10 @@ function makePlayer(root, scene, options = {}) {
     if (playing && last !== null) {
       const next = now + Number(rate.value) * (clock - last) / 1000;
       set(next <= end ? next : start + ((next - start) % (end - start)));
-      count(clock);
+      if (inSight) count(clock);
     }
     last = clock;
-    if (stage.dirty) { stage.draw(); drawn += 1; }
+    if (stage.dirty && inSight) { stage.draw(); drawn += 1; }
   }
 
   // -- keys
@@ -473,9 +480,9 @@ function makePlayer(root, scene, options = {}) {
   });
 
   const player = {
-    title: scene.title, start, end, frameRate: null, stage, items, groups,
+    title: scene.title, start, duration: end - start, frameRate: null, stage, items, groups,
     get time() { return now - start; },
-    set time(t) { set(start + t, false); },
+    set time(t) { set(start + t); },
     get playing() { return playing; },
     get framesDrawn() { return drawn; },
     play: () => setPlaying(true),
@@ -494,6 +501,10 @@ function makePlayer(root, scene, options = {}) {
   }
   if (box.isEmpty()) box.setFromObject(stage.world);
   stage.frame(box);
+  new IntersectionObserver((entries) => {
+    inSight = entries[entries.length - 1].isIntersecting;
+    since = null;
+  }).observe(pane);
   new ResizeObserver(stage.resize).observe(pane);
   stage.resize();
   stage.look("3d");
