@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import io
 import json
 import shutil
@@ -26,10 +27,34 @@ class Chromium:
     """One browser with one tab at a time; a context manager."""
 
     def __init__(self, width: int = 1280, height: int = 720) -> None:
-        self._profile = tempfile.TemporaryDirectory(prefix="chromium_", ignore_cleanup_errors=True)
+        self._size = (width, height)
+        self._stack = contextlib.ExitStack()
+        self._count = 0
+        self.events: list[dict] = []
+
+    def __enter__(self) -> Chromium:
+        from websockets.sync.client import connect
+
+        with contextlib.ExitStack() as stack:
+            address = self._start(stack)
+            self._socket = stack.enter_context(connect(address, max_size=None))
+            self._stack = stack.pop_all()
+        for domain in ("Page", "Runtime", "Network", "Log"):
+            self.call(f"{domain}.enable")
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    def _start(self, stack: contextlib.ExitStack) -> str:
+        """Start the browser; address of its first tab's DevTools."""
         path = find()
         assert path, "no Chromium"
-        self._process = subprocess.Popen(
+        profile = stack.enter_context(
+            tempfile.TemporaryDirectory(prefix="chromium_", ignore_cleanup_errors=True)
+        )
+        width, height = self._size
+        process = subprocess.Popen(
             [
                 path,
                 "--headless=new",
@@ -40,43 +65,23 @@ class Chromium:
                 "--hide-scrollbars",
                 "--no-first-run",
                 f"--window-size={width},{height}",
-                f"--user-data-dir={self._profile.name}",
+                f"--user-data-dir={profile}",
                 "--remote-debugging-port=0",
                 "about:blank",
             ],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        self._socket = None
-        self._count = 0
-        self.events: list[dict] = []
-
-    def __enter__(self) -> Chromium:
-        from websockets.sync.client import connect
-
-        file = Path(self._profile.name, "DevToolsActivePort")
+        stack.callback(_end, process)
+        file = Path(profile, "DevToolsActivePort")
         deadline = time.monotonic() + 60
         while not (file.exists() and "\n" in file.read_text()):
             assert time.monotonic() < deadline, "Chromium doesn't start"
             time.sleep(0.05)
         port = file.read_text().splitlines()[0]
         with urllib.request.urlopen(f"http://127.0.0.1:{port}/json/list") as answer:
-            page = next(tab for tab in json.load(answer) if tab["type"] == "page")
-        self._socket = connect(page["webSocketDebuggerUrl"], max_size=None)
-        for domain in ("Page", "Runtime", "Network", "Log"):
-            self.call(f"{domain}.enable")
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self._socket is not None:
-            self._socket.close()
-        self._process.terminate()
-        try:
-            self._process.wait(10)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
-        self._profile.cleanup()
+            tabs = json.load(answer)
+        return next(tab for tab in tabs if tab["type"] == "page")["webSocketDebuggerUrl"]
 
     def call(self, method: str, **parameters):
         """One DevTools command; events that come meanwhile are kept in ``events``."""
@@ -160,3 +165,12 @@ class Chromium:
             elif event["method"] == "Log.entryAdded" and details["entry"]["level"] == "error":
                 found.append(json.dumps(details["entry"])[:2000])
         return found
+
+
+def _end(process: subprocess.Popen) -> None:
+    process.terminate()
+    try:
+        process.wait(10)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()

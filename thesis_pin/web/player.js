@@ -248,7 +248,7 @@ function makeStage(THREE, element, scene) {
   stage.frame = (box) => {
     stage.middle = box.getCenter(new THREE.Vector3());
     stage.size = Math.max(0.05, box.getSize(new THREE.Vector3()).length());
-    const sun = new THREE.DirectionalLight(0xffffff, 0.85);
+    const sun = new THREE.DirectionalLight(0xffffff, 0.7);
     sun.position.copy(stage.middle).add(new THREE.Vector3(0.8, 0.5, 1.6).setLength(2 * stage.size));
     sun.target.position.copy(stage.middle);
     sun.castShadow = true;
@@ -260,7 +260,7 @@ function makeStage(THREE, element, scene) {
       left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1 * stage.size,
       far: 5 * stage.size,
     });
-    world.add(sun, sun.target, new THREE.HemisphereLight(0xffffff, 0x8a939c, 0.75));
+    world.add(sun, sun.target, new THREE.HemisphereLight(0xffffff, 0x8a939c, 0.65));
     if (scene.floor !== null) addFloor(box);
   };
 

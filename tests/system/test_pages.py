@@ -1,0 +1,367 @@
+"""Pages in a real browser: they draw, move, obey, and ask nothing of any network."""
+
+import signal
+import subprocess
+import sys
+import urllib.request
+from pathlib import Path
+
+import numpy as np
+import pytest
+from example_robots import NAMES, example_robot
+
+import scout_pin
+from scout_pin.page import gait_page
+from scout_pin.specification import SIDES
+from scout_pin.view import gait_scene
+from thesis_pin import page, scene, viewer
+
+pytestmark = pytest.mark.browser
+
+ROOT = Path(__file__).parents[2]
+BACKGROUND = (0xF4, 0xF6, 0xF8)
+
+
+@pytest.fixture(scope="module")
+def report():
+    return scout_pin.gait_report(
+        scout_pin.load(), scout_pin.load_gait(ROOT / "examples" / "walk.toml"), samples=241
+    )
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("pages")
+
+
+@pytest.fixture(scope="module")
+def view_file(report, folder):
+    viewer.write_html(gait_scene(report), folder / "view.html")
+    return folder / "view.html"
+
+
+@pytest.fixture(scope="module")
+def report_file(report, folder):
+    (folder / "report.html").write_bytes(gait_page(report))
+    return folder / "report.html"
+
+
+@pytest.fixture
+def view(browser, view_file):
+    """The exported animation, paused at its start."""
+    browser.open(view_file.as_uri())
+    browser.until("window.player && player.framesDrawn > 0")
+    browser.run("player.pause(); player.time = 0")
+    return browser
+
+
+def still(browser, file=None):
+    """Screenshot after everything set so far has been drawn."""
+    browser.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    return browser.picture(file)
+
+
+def differing(first, second):
+    """Number of pixels that differ clearly."""
+    return int((np.abs(first - second).max(axis=-1) > 24).sum())
+
+
+def vertices(name):
+    """JavaScript: every vertex of an item in the world, as a list of [x, y, z]."""
+    return f"""(() => {{
+      const found = [], item = player.items.find((item) => item.name === {name!r});
+      player.stage.world.updateMatrixWorld(true);
+      item.object.traverse((part) => {{
+        const places = part.geometry?.attributes.position;
+        for (let i = 0; places && i < places.count; i++) {{
+          const point = new MeshCat.THREE.Vector3().fromBufferAttribute(places, i);
+          found.push(part.localToWorld(point).toArray());
+        }}
+      }});
+      return found;
+    }})()"""
+
+
+def shown(name):
+    return f"player.items.find((item) => item.name === {name!r}).object.visible"
+
+
+def test_an_exported_page_asks_for_nothing_complains_of_nothing_and_is_small(view, view_file):
+    assert view.requests() == [view_file.as_uri()]
+    assert view.complaints() == []
+    assert view_file.stat().st_size < 3e6
+
+
+def test_a_page_of_ten_seconds_with_every_overlay_stays_under_3_mb(folder):
+    robot, gait = scout_pin.load(), scout_pin.load_gait(ROOT / "examples" / "walk.toml")
+    slow = 10 / (gait.end - gait.start)
+    long = scout_pin.gait_report(robot, gait, samples=scene.frames(10), time_unit=slow)
+    assert len(viewer.html(gait_scene(long))) < 3e6
+
+
+def test_the_robot_is_drawn_and_moves(view, report, artefacts):
+    first = still(view, artefacts / "scout_view.png")
+    stage = first[40:640, 340:]
+    assert (np.abs(stage - BACKGROUND).max(axis=-1) > 40).mean() > 0.02
+    view.run(f"player.time = {report.joints.time[-1] / 3}")
+    assert differing(first, still(view, artefacts / "scout_view_later.png")) > 2000
+
+
+def test_the_animation_runs_by_itself_and_starts_again_at_its_end(view):
+    view.run("player.time = player.duration - 0.05; player.play()")
+    view.until("player.time < player.duration / 2")
+    seen = view.run("player.time")
+    view.until(f"player.time > {seen} + 0.1")
+    assert view.run("document.querySelector('button.play').textContent").endswith("pause")
+
+
+def test_a_reader_who_wants_less_motion_gets_a_page_at_rest(browser, view_file):
+    feature = [{"name": "prefers-reduced-motion", "value": "reduce"}]
+    browser.call("Emulation.setEmulatedMedia", features=feature)
+    try:
+        browser.open(view_file.as_uri())
+        browser.until("window.player && player.framesDrawn > 0")
+        assert browser.run("player.playing") is False
+    finally:
+        browser.call("Emulation.setEmulatedMedia", features=[])
+
+
+def test_every_group_can_be_hidden_and_shown_again(view):
+    names = view.run("[...player.groups.keys()]")
+    assert {"soles", "com", "zmp", "polygon", "forces", "traces"} <= set(names)
+    view.run("player.time = player.duration / 2; player.look('top')")
+    for name in names:
+        before = still(view)
+        view.run(f"player.toggle({name!r})")
+        assert differing(before, still(view)) > 20, name
+        view.run(f"player.toggle({name!r})")
+        assert differing(before, still(view)) < 20, name
+
+
+def test_the_keyboard_plays_steps_and_toggles(view):
+    view.press(" ", "Space", " ")
+    assert view.run("player.playing") is True
+    view.press(" ", "Space", " ")
+    assert view.run("player.playing") is False
+    view.press("Home")
+    view.press("ArrowRight")
+    step = view.run("player.time")
+    assert step == pytest.approx(view.run("player.duration") / 100, rel=1e-6)
+    view.press("End")
+    assert view.run("player.time") == pytest.approx(view.run("player.duration"))
+    visible = view.run("player.groups.get('robot').object.visible")
+    view.press("1", "Digit1", "1")
+    assert view.run("player.groups.get('robot').object.visible") is not visible
+
+
+def test_everything_a_reader_operates_has_a_name(view, report):
+    unnamed = view.run(
+        "[...document.querySelectorAll('button, input, select, canvas')].filter((e) => "
+        "!(e.getAttribute('aria-label') || e.textContent || e.labels?.[0]?.textContent)).length"
+    )
+    assert unnamed == 0
+    label = view.run("document.querySelector('canvas').getAttribute('aria-label')")
+    assert report.verdict()[0] in label
+
+
+def test_scrubbing_goes_to_the_moment_and_shows_its_values(view, report):
+    view.run(
+        "(() => { const s = document.querySelector('input[type=range]'); s.value = 3;"
+        "s.dispatchEvent(new Event('input')); })()"
+    )
+    assert view.run("player.time") == pytest.approx(3.0)
+    k = int(np.argmin(abs(report.joints.time - 3.0)))
+    shown_values = view.run("[...document.querySelectorAll('dd')].map((e) => e.textContent)")
+    assert f"{report.margin[k] * 1e3:.1f} mm" in shown_values
+
+
+@pytest.mark.parametrize("share", [0.1, 0.3, 0.8])
+def test_an_arrow_starts_at_the_pressure_and_its_tip_is_where_the_force_says(view, report, share):
+    k = int(share * (len(report.joints.time) - 1))
+    view.run(f"player.time = {report.joints.time[k]}")
+    scale = report.com[:, 2].mean() / (report.robot.mass * 9.81)
+    for j, side in enumerate(SIDES):
+        force = report.dynamics.wrench[k, j, :3]
+        moment = report.dynamics.wrench[k, j, 3:]
+        foot = report.motion.left_foot if side == "left" else report.motion.right_foot
+        if not report.motion.support[k, j]:
+            assert view.run(shown(f"{side}_force")) is False
+            continue
+        # The floor is z = 0, so the pressure acts where the moment's x and y vanish.
+        start = foot.position[k] + np.array([-moment[1], moment[0], 0.0]) / force[2]
+        along = force / np.linalg.norm(force)
+        reach = (np.array(view.run(vertices(f"{side}_force"))) - start) @ along
+        points = np.array(view.run(vertices(f"{side}_force")))
+        tip = points[np.argmax(reach)]
+        np.testing.assert_allclose(tip, start + scale * force, atol=2e-5)
+        assert reach.min() == pytest.approx(0.0, abs=2e-5)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2, 0.5, 0.75, 1.0])
+def test_soles_in_support_stand_on_the_floor_and_none_goes_below(view, report, share):
+    k = int(share * (len(report.joints.time) - 1))
+    view.run(f"player.time = {report.joints.time[k]}")
+    for j, side in enumerate(SIDES):
+        low = np.array(view.run(vertices(f"{side}_sole_0")))[:, 2].min()
+        if report.motion.support[k, j]:
+            assert low == pytest.approx(0.0, abs=2e-6)
+        assert low > -2e-6
+
+
+def test_the_zero_moment_point_has_its_place_and_the_colour_of_its_margin(browser, folder):
+    thesis = scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait(), samples=241)
+    viewer.write_html(gait_scene(thesis), folder / "thesis.html")
+    browser.open((folder / "thesis.html").as_uri())
+    browser.until("window.player && player.framesDrawn > 0")
+    browser.run("player.pause()")
+    colour = (
+        "player.items.find((i) => i.name === 'zmp').object.material.color"
+        ".clone().convertLinearToSRGB().getHexString()"
+    )
+    for k, expected in ((60, "d55e00"), (0, "0072b2")):
+        assert (thesis.margin[k] < 0) == (expected == "d55e00")
+        browser.run(f"player.time = {thesis.joints.time[k]}")
+        assert browser.run(colour) == expected
+        place = np.mean(browser.run(vertices("zmp")), axis=0)[:2]
+        np.testing.assert_allclose(place, thesis.zmp[k], atol=2e-4)
+
+
+def test_a_browser_that_drops_frames_says_so(view):
+    view.call("Emulation.setCPUThrottlingRate", rate=20)
+    try:
+        view.run("player.play()")
+        view.until("document.querySelector('.status').textContent.includes('dropped')", 120)
+        assert view.run("player.frameRate") < 30
+    finally:
+        view.call("Emulation.setCPUThrottlingRate", rate=1)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_any_pinocchio_robot_can_be_shown(browser, folder, artefacts, name):
+    model, visual, q = example_robot(name)
+    picture = scene.Scene(
+        title=Path(name).stem,
+        description="A robot turns all its joints.",
+        time=np.linspace(0, 3, len(q)),
+        groups=(scene.Group("robot", "robot"),),
+        items=tuple(scene.robot_items(model, visual, q, colour=lambda name: "#0072B2")),
+        floor=0.0 if "panda" in name else None,
+    )
+    file = folder / f"{Path(name).stem}.html"
+    viewer.write_html(picture, file)
+    browser.open(file.as_uri())
+    browser.until("window.player && player.framesDrawn > 0")
+    browser.run("player.pause(); player.time = 1.5")
+    image = still(browser, artefacts / f"{Path(name).stem}.png")
+    assert (np.abs(image[40:640, 340:] - BACKGROUND).max(axis=-1) > 40).mean() > 0.02
+    assert browser.complaints() == []
+
+
+def test_the_report_page_is_complete_quiet_and_fits_a_phone(browser, report_file, artefacts):
+    for width, height, mobile in ((1280, 900, False), (390, 844, True)):
+        browser.open(report_file.as_uri(), width, height, mobile)
+        browser.until("window.ready && player.framesDrawn > 0")
+        assert browser.requests() == [report_file.as_uri()]
+        assert browser.complaints() == []
+        plots = browser.run("document.querySelectorAll('.plot').length")
+        assert browser.run("document.querySelectorAll('.plot .main-svg .cartesianlayer').length") == plots
+        assert browser.run("document.documentElement.scrollWidth") <= width
+        browser.run("player.pause(); player.time = 1.5")
+        still(browser, artefacts / f"report_{width}.png")
+    assert report_file.stat().st_size < 3e6
+
+
+def test_the_report_answers_first(browser, report_file, report):
+    browser.open(report_file.as_uri())
+    browser.until("window.ready")
+    order = browser.run("document.querySelector('main').innerText")
+    places = [
+        order.index(text)
+        for text in (report.verdict()[0], "The motion", "Stability margin", "Joints",
+                     "Assumptions", "Parameters", "Software")
+    ]
+    assert places == sorted(places)
+
+
+def test_plots_follow_the_animation_and_a_click_goes_to_its_moment(browser, report_file):
+    browser.open(report_file.as_uri())
+    browser.until("window.ready && player.framesDrawn > 0")
+    browser.run("player.pause()")
+    place = (
+        "(() => { const plot = document.querySelectorAll('.plot')[1];"
+        "const box = plot.querySelector('.nsewdrag').getBoundingClientRect();"
+        "const cursor = plot.querySelector('.cursor').getBoundingClientRect();"
+        "return (cursor.left + cursor.width / 2 - box.left) / box.width; })()"
+    )
+    for share in (0.25, 0.8):
+        browser.run(f"player.time = {share} * player.duration")
+        assert browser.run(place) == pytest.approx(share, abs=0.01)
+    browser.run(
+        "document.querySelectorAll('.plot .canvas')[1]"
+        ".emit('plotly_click', {points: [{x: 1.25}]})"
+    )
+    assert browser.run("player.time") == pytest.approx(1.25)
+
+
+EVIL = "</script><script>window.stolen = 1</script><img src=x onerror='window.stolen = 2'>"
+
+
+def test_texts_of_user_files_are_shown_and_never_run(browser, folder, report):
+    import dataclasses
+
+    gait = dataclasses.replace(report.gait, name=EVIL, source=EVIL)
+    evil = dataclasses.replace(report, gait=gait)
+    for name, content in (("view", viewer.html(gait_scene(evil))), ("report", gait_page(evil))):
+        file = folder / f"evil_{name}.html"
+        file.write_bytes(content)
+        browser.open(file.as_uri())
+        browser.until("window.player && player.framesDrawn > 0")
+        assert EVIL in browser.run("document.title")
+        assert EVIL in browser.run("document.body.innerText")
+        assert browser.run("typeof window.stolen") == "undefined"
+        assert browser.complaints() == []
+
+
+def test_plots_are_figures_that_plotly_itself_accepts(report):
+    import plotly.graph_objects
+
+    from scout_pin.page import _plots
+
+    for plot in _plots(report):
+        plotly.graph_objects.Figure(plot.figure)
+        assert set(plot.figure["layout"]["margin"].items()) == set(page.MARGINS.items())
+
+
+def live(*arguments):
+    code = "import sys; from scout_pin.cli import main; sys.exit(main())"
+    process = subprocess.Popen(
+        [sys.executable, "-c", code, "view", "--no-browser", *arguments],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        cwd=ROOT,
+    )
+    return process, process.stderr.readline()
+
+
+def test_the_live_page_loads_draws_and_ends_cleanly_on_ctrl_c(browser, artefacts):
+    process, line = live("--port", "0", "--speed", "0.5")
+    try:
+        address = line.split(" at ")[1].split()[0]
+        assert address.startswith("http://127.0.0.1:")
+        browser.open(address)
+        browser.until("window.player && player.framesDrawn > 5")
+        assert browser.run("player.playing") is True
+        assert browser.run("document.querySelector('.bar select').value") == "0.5"
+        browser.run("player.pause()")
+        image = still(browser, artefacts / "scout_live.png")
+        assert (np.abs(image[40:640, 340:] - BACKGROUND).max(axis=-1) > 40).mean() > 0.02
+        assert browser.complaints() == []
+        assert all(url.startswith(address) for url in browser.requests())
+    finally:
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=30)
+    assert (process.returncode, out) == (0, "")
+    assert "Traceback" not in err
+    with pytest.raises(OSError, match="refused"):
+        urllib.request.urlopen(address)
