@@ -37,7 +37,7 @@ def parser() -> Parser:
     """The command's parser with all its verbs."""
     top = Parser(
         prog="scout-pin",
-        description="Scout, an 18-DoF biped: torque reports, inverse kinematics, URDF.",
+        description="Scout, an 18-DoF biped: torque reports, animations, inverse kinematics, URDF.",
         epilog="Example: scout-pin gait --out report",
     )
     top.add_argument("--version", action="version", version=f"scout-pin {__version__}")
@@ -97,7 +97,9 @@ def _add_gait(verbs: Any) -> None:
     )
     verb.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
     verb.add_argument("--json", metavar="FILE|-", help="write the report as JSON")
-    verb.add_argument("--html", metavar="FILE", help="write the report as a page to mail")
+    verb.add_argument(
+        "--html", metavar="FILE", help="write the report as a page to mail: animation and plots"
+    )
     verb.add_argument(
         "--strict", action="store_true", help="exit with 1 if the gait breaks a limit"
     )
@@ -200,13 +202,13 @@ def _gait(arguments: argparse.Namespace) -> int:
     gait = load_gait(arguments.gait, arguments.interpolation)
     report = gait_report(robot, gait, samples=arguments.samples, time_unit=arguments.time_unit)
     _write_report(report, arguments)
-    if arguments.json != "-":
+    if "-" not in (arguments.json, arguments.html):
         _print_report(report)
     return OK if report.within_limits or not arguments.strict else LIMIT_VIOLATED
 
 
 def _view(arguments: argparse.Namespace) -> int:
-    from scout_pin.gait import load_gait
+    from scout_pin.gait_files import load_gait
     from scout_pin.model import load
     from scout_pin.report import gait_report
     from scout_pin.view import gait_scene

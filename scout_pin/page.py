@@ -59,7 +59,9 @@ def _tiles(report: GaitReport) -> list[Tile]:
     use, fastest = report.servo_use.max(), report.fastest.line
     used = report.summary()["peak_friction_used"]
     return [
-        Tile("worst ZMP margin", f"{report.margin.min() * 1e3:.1f} mm", bool(report.margin.min() > 0)),
+        Tile(
+            "worst ZMP margin", f"{report.margin.min() * 1e3:.1f} mm", bool(report.margin.min() > 0)
+        ),
         Tile(
             "samples whose wrench the floor can give",
             f"{report.dynamics.admissible.mean():.1%}",
@@ -67,7 +69,9 @@ def _tiles(report: GaitReport) -> list[Tile]:
         ),
         Tile("worst use of a servo's torque-speed line", f"{use:.0%}", bool(use <= 1)),
         Tile("peak torque", f"{report.actuators.peak_torque.max():.3f} N·m"),
-        Tile("lowest swinging corner", f"{report.clearance * 1e3:.1f} mm", report.clearance >= -1e-9),
+        Tile(
+            "lowest swinging corner", f"{report.clearance * 1e3:.1f} mm", report.clearance >= -1e-9
+        ),
         Tile("fastest time unit", "none" if fastest is None else f"{fastest:.4f} s"),
         Tile("work of all servos", f"{report.actuators.positive_work.sum() * 1e3:.0f} mJ"),
         Tile("friction used, most", "–" if used is None else f"{used:.0%}"),
@@ -187,9 +191,7 @@ def _servos(report: GaitReport, keep: np.ndarray) -> list[Plot]:
     names = "Left leg solid, right leg dotted."
 
     def both(name: str, values: np.ndarray) -> list[tuple[str, float]]:
-        return [
-            (name, sign * float(value)) for value in np.unique(values) for sign in (1.0, -1.0)
-        ]
+        return [(name, sign * float(value)) for value in np.unique(values) for sign in (1.0, -1.0)]
 
     return [
         time_plot(
@@ -302,7 +304,17 @@ def _tables(report: GaitReport) -> list[Table]:
     a = report.actuators
     joints = Table(
         "Joints",
-        ("joint", "", "peak N·m", "RMS N·m", "peak rad/s", "peak W", "work + mJ", "work − mJ", "servo"),
+        (
+            "joint",
+            "",
+            "peak N·m",
+            "RMS N·m",
+            "peak rad/s",
+            "peak W",
+            "work + mJ",
+            "work − mJ",
+            "servo",
+        ),
         [
             (
                 name,

@@ -84,9 +84,7 @@ def _groups(force_scale: float) -> tuple[Group, ...]:
         Group("com", "centre of mass and its floor projection", ((BLACK, ""),)),
         Group("zmp", "zero-moment point", tuple(zip(_MARGIN_COLOURS, _MARGIN_TEXTS, strict=True))),
         Group("polygon", "support polygon", ((BLUE, ""),)),
-        Group(
-            "forces", f"contact forces (1 N is {force_scale * 1e3:.0f} mm long)", ((GREEN, ""),)
-        ),
+        Group("forces", f"contact forces (1 N is {force_scale * 1e3:.0f} mm long)", ((GREEN, ""),)),
         Group("traces", "traces of the feet", ((PURPLE, ""),)),
         Group(
             "torques",
@@ -149,9 +147,7 @@ def _forces(report: GaitReport, keep: np.ndarray, scale: float, size: float) -> 
         point = foot.position + np.einsum("nij,nj->ni", foot.rotation[..., :2], pressure)
         force = report.dynamics.wrench[:, k, :3]
         items.append(
-            Arrow(
-                f"{side}_force", "forces", point[keep], force[keep], scale, 1.5e-3 * size, GREEN
-            )
+            Arrow(f"{side}_force", "forces", point[keep], force[keep], scale, 1.5e-3 * size, GREEN)
         )
     return items
 

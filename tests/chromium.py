@@ -19,8 +19,13 @@ NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable"
 
 
 def find() -> str | None:
-    """Path of a Chromium on this machine, None without one."""
-    return next((path for name in NAMES if (path := shutil.which(name))), None)
+    """Path of a Chromium on this machine that runs, None without one."""
+    for name in NAMES:
+        path = shutil.which(name)
+        # Some distributions install a stub that only says where to get the browser.
+        if path and subprocess.run([path, "--version"], capture_output=True).returncode == 0:
+            return path
+    return None
 
 
 class Chromium:
@@ -86,9 +91,7 @@ class Chromium:
     def call(self, method: str, **parameters):
         """One DevTools command; events that come meanwhile are kept in ``events``."""
         self._count += 1
-        self._socket.send(
-            json.dumps({"id": self._count, "method": method, "params": parameters})
-        )
+        self._socket.send(json.dumps({"id": self._count, "method": method, "params": parameters}))
         while True:
             message = json.loads(self._socket.recv(timeout=120))
             if message.get("id") == self._count:

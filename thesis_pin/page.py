@@ -140,8 +140,11 @@ def assumptions_table(assumptions: Iterable[Mapping[str, Any]]) -> Table:
     rows = [
         (
             str(entry["name"]).replace("_", " "),
-            ", ".join(f"{k} {v:g}" if isinstance(v, float) else f"{k} {v}"
-                      for k, v in entry.items() if k not in ("name", "why")),
+            ", ".join(
+                f"{k} {v:g}" if isinstance(v, float) else f"{k} {v}"
+                for k, v in entry.items()
+                if k not in ("name", "why")
+            ),
             str(entry["why"]),
         )
         for entry in assumptions

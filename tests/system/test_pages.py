@@ -264,7 +264,10 @@ def test_the_report_page_is_complete_quiet_and_fits_a_phone(browser, report_file
         assert browser.requests() == [report_file.as_uri()]
         assert browser.complaints() == []
         plots = browser.run("document.querySelectorAll('.plot').length")
-        assert browser.run("document.querySelectorAll('.plot .main-svg .cartesianlayer').length") == plots
+        assert (
+            browser.run("document.querySelectorAll('.plot .main-svg .cartesianlayer').length")
+            == plots
+        )
         assert browser.run("document.documentElement.scrollWidth") <= width
         browser.run("player.pause(); player.time = 1.5")
         still(browser, artefacts / f"report_{width}.png")
@@ -277,8 +280,15 @@ def test_the_report_answers_first(browser, report_file, report):
     order = browser.run("document.querySelector('main').innerText")
     places = [
         order.index(text)
-        for text in (report.verdict()[0], "The motion", "Stability margin", "Joints",
-                     "Assumptions", "Parameters", "Software")
+        for text in (
+            report.verdict()[0],
+            "The motion",
+            "Stability margin",
+            "Joints",
+            "Assumptions",
+            "Parameters",
+            "Software",
+        )
     ]
     assert places == sorted(places)
 
@@ -297,8 +307,7 @@ def test_plots_follow_the_animation_and_a_click_goes_to_its_moment(browser, repo
         browser.run(f"player.time = {share} * player.duration")
         assert browser.run(place) == pytest.approx(share, abs=0.01)
     browser.run(
-        "document.querySelectorAll('.plot .canvas')[1]"
-        ".emit('plotly_click', {points: [{x: 1.25}]})"
+        "document.querySelectorAll('.plot .canvas')[1].emit('plotly_click', {points: [{x: 1.25}]})"
     )
     assert browser.run("player.time") == pytest.approx(1.25)
 

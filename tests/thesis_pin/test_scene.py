@@ -1,12 +1,14 @@
 """Scenes hold what they say, and refuse what no page could show."""
 
 import json
+import re
 import struct
+from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
-from example_robots import NAMES, example_robot
+from example_robots import NAMES, SHARE, example_robot
 
 from thesis_pin import scene, viewer
 from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
@@ -64,8 +66,8 @@ def test_what_no_page_could_show_is_refused_with_item_and_array(changes, error, 
     assert says in str(found.value)
 
 
-def test_encoding_keeps_every_number_to_single_precision(rng=np.random.default_rng(5)):
-    path = rng.normal(size=(5, 3))
+def test_encoding_keeps_every_number_to_single_precision():
+    path = np.random.default_rng(5).normal(size=(5, 3))
     arrow = scene.Arrow("arrow", "a", path, 2 * path, 0.5, 0.01, "#112233")
     document, _ = decoded(viewer.encode(made(ball(position=path), arrow)))
     first, second = document["items"]
@@ -140,3 +142,12 @@ def test_thinning_keeps_both_ends_and_short_motions_whole():
     assert scene.thinned(5, 10).tolist() == [0, 1, 2, 3, 4]
     some = scene.thinned(10001, 1201)
     assert (some[0], some[-1], len(some)) == (0, 10000, 1201)
+
+
+def test_the_example_of_the_documents_runs(tmp_path, monkeypatch):
+    document = Path(__file__).parents[2] / "docs" / "viewer.md"
+    (code,) = re.findall(r"```python\n(.*?)```", document.read_text(), flags=re.DOTALL)
+    robots = SHARE / "example-robot-data" / "robots" / NAMES[0]
+    monkeypatch.chdir(tmp_path)
+    exec(code.replace('"panda.urdf"', repr(str(robots))).replace('"share"', repr(str(SHARE))), {})
+    assert (tmp_path / "panda.html").stat().st_size > 1e5

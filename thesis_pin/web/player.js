@@ -74,7 +74,7 @@ function makers(THREE) {
   function body(item) {
     const material = paint(item.colour, {
       ...(item.geometry.type === "mesh" ? { flatShading: true, shininess: 5 } : {}),
-      transparent: item.opacity < 1, opacity: item.opacity,
+      transparent: item.opacity < 1, opacity: item.opacity, depthWrite: item.opacity === 1,
     });
     const mesh = new THREE.Mesh(shape(item.geometry), material);
     mesh.castShadow = mesh.receiveShadow = true;
@@ -343,7 +343,14 @@ function makePlayer(root, scene, options = {}) {
     groups.set(group.name, { ...group, object });
   }
   const items = scene.items.map((item) => ({ ...item, ...maker[item.kind](item) }));
-  for (const item of items) groups.get(item.group).object.add(item.object);
+  for (const item of items) {
+    groups.get(item.group).object.add(item.object);
+    if (item.kind === "body") continue;
+    item.object.traverse((part) => {  // after translucent bodies, whose tint would change colours
+      part.renderOrder = 1;
+      if (part.material) part.material.transparent = true;
+    });
+  }
 
   function apply(t) {
     const at = locate(time, t);

@@ -1,0 +1,39 @@
+"""Pictures of the README that the viewer draws in a headless Chromium.
+
+Run ``python docs/viewer_pictures.py`` to renew them.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+
+
+def main() -> None:
+    """Draw every picture into ``docs/images``."""
+    from chromium import Chromium
+
+    import scout_pin
+    from scout_pin.view import gait_scene
+    from thesis_pin import viewer
+
+    gait = scout_pin.load_gait(ROOT / "examples" / "walk.toml")
+    report = scout_pin.gait_report(scout_pin.load(), gait)
+    scenes = {"scout_walk": (gait_scene(report), 4.2)}
+    with tempfile.TemporaryDirectory() as folder, Chromium() as browser:
+        for name, (scene, moment) in scenes.items():
+            page = Path(folder, f"{name}.html")
+            viewer.write_html(scene, page)
+            browser.open(page.as_uri(), 1120, 640)
+            browser.until("window.player && player.framesDrawn > 0")
+            browser.run(f"player.pause(); player.time = {moment}")
+            browser.run("new Promise((done) => setTimeout(done, 500))")
+            browser.picture(ROOT / "docs" / "images" / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main()
