@@ -10,9 +10,10 @@ from scout_pin.dynamics import free_flyer_state
 from scout_pin.report import GaitReport
 from scout_pin.specification import JOINT_NAMES, SIDES
 from scout_pin.stability import polygons
+from thesis_pin.drawing import joint_placements
 from thesis_pin.loading import joint_id
 from thesis_pin.report import PALETTE, figure_files, new_figure
-from thesis_pin.scene import joint_placements, thinned
+from thesis_pin.scene import thinned
 
 _NAMES = ("yaw", "roll", "pitch", "knee", "ankle pitch", "ankle roll")
 

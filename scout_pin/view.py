@@ -10,7 +10,7 @@ from scout_pin.dynamics import free_flyer_state
 from scout_pin.report import GaitReport
 from scout_pin.specification import JOINT_NAMES, SIDES
 from scout_pin.stability import polygons
-from thesis_pin.loading import joint_id
+from thesis_pin.drawing import axis_placements, joint_placements, robot_items
 from thesis_pin.report import PALETTE
 from thesis_pin.scene import (
     Arc,
@@ -22,9 +22,7 @@ from thesis_pin.scene import (
     Readout,
     Scene,
     Trace,
-    joint_placements,
     levels,
-    robot_items,
     thinned,
 )
 
@@ -166,13 +164,12 @@ def _torques(report: GaitReport, keep: np.ndarray, q: np.ndarray, size: float) -
     frames = joint_placements(robot.model, q)
     items: list[Item] = []
     for k, name in enumerate(JOINT_NAMES):
-        number = joint_id(robot.model, name)
         share = report.dynamics.torque[keep, k] / robot.stall_torque[k]
         items.append(
             Arc(
                 f"torque_{name}",
                 "torques",
-                _about_z(frames[:, number], robot.model.joints[number].shortname()),
+                axis_placements(robot.model, name, frames),
                 2 * np.pi * np.clip(share, -1.0, 1.0),
                 0.014 * size,
                 _SERVO_COLOURS,
@@ -180,16 +177,3 @@ def _torques(report: GaitReport, keep: np.ndarray, q: np.ndarray, size: float) -
             )
         )
     return items
-
-
-def _about_z(frames: np.ndarray, joint: str) -> np.ndarray:
-    """Frames turned so that their z axis is the joint's axis, ``(n, 7)``."""
-    from scipy.spatial.transform import Rotation
-
-    turn = {
-        "JointModelRX": Rotation.from_euler("y", 90, degrees=True),
-        "JointModelRY": Rotation.from_euler("x", -90, degrees=True),
-        "JointModelRZ": Rotation.identity(),
-    }[joint]
-    turned = (Rotation.from_quat(frames[:, 3:]) * turn).as_quat()
-    return np.column_stack([frames[:, :3], turned])

@@ -1,22 +1,20 @@
 """What there is to see: a robot and its overlays over time, free of any robot's details.
 
-A scene is data. :mod:`thesis_pin.viewer` turns it into a page; nothing here
-knows of browsers. Every array's first axis is the scene's time; a NaN in an
-item's sample hides the item there. Lengths in metres, world frame.
+A scene is data. :mod:`thesis_pin.drawing` makes items from Pinocchio models,
+:mod:`thesis_pin.viewer` turns scenes into pages; nothing here knows of either.
+Every array's first axis is the scene's time; a NaN in an item's sample hides
+the item there. Lengths in metres, world frame.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
-
-if TYPE_CHECKING:
-    import pinocchio as pin
 
 GREY = "#9AA0A6"
 
@@ -300,104 +298,6 @@ class Scene:
                     np.shape(readout.values),
                     str(time.shape),
                 )
-
-
-def placements(se3: Any) -> np.ndarray:
-    """Positions and quaternions (x, y, z, w) of transforms: ``(..., 4, 4)`` → ``(..., 7)``."""
-    from scipy.spatial.transform import Rotation
-
-    matrices = np.asarray(se3, dtype=float)
-    flat = Rotation.from_matrix(matrices[..., :3, :3].reshape(-1, 3, 3)).as_quat()
-    turned = flat.reshape(*matrices.shape[:-2], 4)
-    return np.concatenate([matrices[..., :3, 3], turned], axis=-1)
-
-
-def joint_placements(model: pin.Model, q: np.ndarray) -> np.ndarray:
-    """Placement of every joint at every sample, by Pinocchio: ``(n, nq)`` → ``(n, joints, 7)``.
-
-    Raises:
-        WrongShape: ``q`` doesn't fit the model.
-        NotFinite: ``q`` holds NaN or infinity.
-    """
-    import pinocchio as pin
-
-    q = np.asarray(q, dtype=float)
-    if q.ndim != 2 or q.shape[1] != model.nq:
-        raise WrongShape("q", q.shape, f"(n, {model.nq})")
-    if not np.isfinite(q).all():
-        raise NotFinite("q", tuple(np.argwhere(~np.isfinite(q))[0].tolist()))
-    data = model.createData()
-    matrices = np.empty((len(q), model.njoints, 4, 4))
-    for k in range(len(q)):
-        pin.forwardKinematics(model, data, q[k])
-        for joint in range(model.njoints):
-            matrices[k, joint] = data.oMi[joint].homogeneous
-    return placements(matrices)
-
-
-def robot_items(
-    model: pin.Model,
-    geometry: pin.GeometryModel,
-    q: np.ndarray,
-    *,
-    group: str | Callable[[str], str] = "robot",
-    colour: Callable[[str], str | None] | None = None,
-) -> list[Body]:
-    """The visual geometry of any Pinocchio model along a motion.
-
-    Args:
-        model: Pinocchio model.
-        geometry: Its visual (or collision) geometry.
-        q: Configurations, shape ``(n, nq)``.
-        group: Group of all shapes, or of a shape by its name.
-        colour: Colour of a shape by its name; None takes the model's own.
-
-    Raises:
-        WrongShape, NotFinite: ``q`` doesn't fit.
-        BadInput: A shape of a kind that can't be drawn.
-    """
-    moves = joint_placements(model, q)
-    items = []
-    for shape in geometry.geometryObjects:
-        red, green, blue, alpha = np.clip(shape.meshColor, 0.0, 1.0)
-        own = "#" + "".join(f"{round(255 * part):02x}" for part in (red, green, blue))
-        items.append(
-            Body(
-                name=shape.name,
-                group=group if isinstance(group, str) else group(shape.name),
-                geometry=_geometry(shape.geometry, shape.name),
-                placement=moves[:, shape.parentJoint],
-                local=shape.placement.homogeneous,
-                colour=(colour(shape.name) if colour else None) or own,
-                opacity=float(alpha),
-            )
-        )
-    return items
-
-
-def _geometry(shape: Any, name: str) -> dict[str, Any]:
-    """A collision library's shape as plain data; its cylinders and the like lie along z."""
-    kind = type(shape).__name__
-    if kind == "Sphere":
-        return {"type": "ellipsoid", "radii": [shape.radius] * 3}
-    if kind == "Ellipsoid":
-        return {"type": "ellipsoid", "radii": np.asarray(shape.radii).tolist()}
-    if kind == "Box":
-        return {"type": "box", "size": (2 * np.asarray(shape.halfSide)).tolist()}
-    if kind in ("Cylinder", "Capsule", "Cone"):
-        return {"type": kind.lower(), "radius": shape.radius, "length": 2 * shape.halfLength}
-    if hasattr(shape, "tri_indices"):
-        faces = [[shape.tri_indices(k)[j] for j in range(3)] for k in range(shape.num_tris)]
-        return {"type": "mesh", "vertices": np.array(shape.vertices()), "faces": np.array(faces)}
-    if kind.startswith("Convex"):
-        points = np.array([shape.point(k) for k in range(shape.num_points)])
-        faces = [[shape.polygons(k)[j] for j in range(3)] for k in range(shape.num_polygons)]
-        return {"type": "mesh", "vertices": points, "faces": np.array(faces)}
-    raise BadInput(
-        f"can't draw a {kind}",
-        where=f"geometry {name!r}",
-        allowed="sphere, ellipsoid, box, cylinder, capsule, cone, mesh",
-    )
 
 
 def thinned(count: int, most: int) -> np.ndarray:

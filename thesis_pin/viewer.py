@@ -8,9 +8,9 @@ security policy forbids every request to anywhere else.
 
 Example, for any Pinocchio model::
 
-    from thesis_pin import scene, viewer
+    from thesis_pin import drawing, scene, viewer
 
-    items = scene.robot_items(model, visual_model, q)
+    items = drawing.robot_items(model, visual_model, q)
     picture = scene.Scene("arm", "An arm waves.", time, (scene.Group("robot", "robot"),), items)
     viewer.write_html(picture, "arm.html")
     viewer.show(picture)

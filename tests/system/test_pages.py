@@ -14,7 +14,7 @@ import scout_pin
 from scout_pin.page import gait_page
 from scout_pin.specification import SIDES
 from scout_pin.view import gait_scene
-from thesis_pin import page, scene, viewer
+from thesis_pin import drawing, page, scene, viewer
 
 pytestmark = pytest.mark.browser
 
@@ -244,7 +244,7 @@ def test_any_pinocchio_robot_can_be_shown(browser, folder, artefacts, name):
         description="A robot turns all its joints.",
         time=np.linspace(0, 3, len(q)),
         groups=(scene.Group("robot", "robot"),),
-        items=tuple(scene.robot_items(model, visual, q, colour=lambda name: "#0072B2")),
+        items=tuple(drawing.robot_items(model, visual, q, colour=lambda name: "#0072B2")),
         floor=0.0 if "panda" in name else None,
     )
     file = folder / f"{Path(name).stem}.html"
