@@ -30,7 +30,7 @@ BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = PALETTE
 _NAMES = ("yaw", "roll", "pitch", "knee", "ankle pitch", "ankle roll")
 _BAND = {"left": SKY, "right": ORANGE}
 
-MOST_SAMPLES = 2001
+MOST_SAMPLES = 1201
 
 
 def gait_page(report: GaitReport) -> bytes:

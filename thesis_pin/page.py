@@ -241,8 +241,8 @@ def base_layout(x: str, y: str) -> dict[str, Any]:
 
 
 def _short(values: np.ndarray) -> list[float | None]:
-    """Numbers with six digits; NaN becomes None, a gap."""
-    return [None if v != v else float(f"{v:.6g}") for v in np.asarray(values, dtype=float)]
+    """Numbers with five digits; NaN becomes None, a gap."""
+    return [None if v != v else float(f"{v:.5g}") for v in np.asarray(values, dtype=float)]
 
 
 def _json(document: Any) -> bytes:

@@ -252,6 +252,7 @@ class Scene:
         items: What is drawn.
         readouts: Values shown as text.
         floor: Height of the floor [m], None for no floor.
+        forward: The way ahead on the floor, for the views from front and side.
         camera: Camera position and the point it looks at, shape ``(2, 3)``; None
             looks at the items from the right, ahead and above.
     """
@@ -263,6 +264,7 @@ class Scene:
     items: tuple[Item, ...]
     readouts: tuple[Readout, ...] = ()
     floor: float | None = 0.0
+    forward: tuple[float, float] = (0.0, 1.0)
     camera: np.ndarray | None = None
 
     def __post_init__(self) -> None:

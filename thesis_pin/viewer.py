@@ -183,6 +183,7 @@ def encode(scene: Scene) -> bytes:
         "description": scene.description,
         "time": np.asarray(scene.time),
         "floor": scene.floor,
+        "forward": scene.forward,
         "camera": None if scene.camera is None else np.asarray(scene.camera).tolist(),
         "groups": [vars(group) for group in scene.groups],
         "items": [_item(item) for item in scene.items],

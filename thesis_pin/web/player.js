@@ -93,7 +93,7 @@ function makers(THREE) {
 
   function ball(item) {
     const material = paint(item.colours[0]);
-    const object = new THREE.Mesh(new THREE.SphereGeometry(item.radius, 24, 16), material);
+    const object = new THREE.Mesh(new THREE.SphereGeometry(item.radius, 18, 12), material);
     const colour = levelled(item, material);
     return {
       object,
@@ -108,8 +108,8 @@ function makers(THREE) {
   // Along +z from the origin, of length one for the shaft; the head keeps its shape.
   function arrow(item) {
     const r = item.radius, material = paint(item.colour);
-    const tube = new THREE.CylinderGeometry(r, r, 1, 20).rotateX(Math.PI / 2).translate(0, 0, 0.5);
-    const tip = new THREE.ConeGeometry(2.6 * r, 7 * r, 24).rotateX(Math.PI / 2)
+    const tube = new THREE.CylinderGeometry(r, r, 1, item.head ? 14 : 6).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+    const tip = new THREE.ConeGeometry(2.6 * r, 7 * r, 16).rotateX(Math.PI / 2)
       .translate(0, 0, -3.5 * r);
     const shaft = new THREE.Mesh(tube, material), head = new THREE.Mesh(tip, material);
     const object = new THREE.Group().add(shaft);
@@ -160,11 +160,11 @@ function makers(THREE) {
   }
 
   function trace(item) {
-    const list = points(item.samples.points), SIDES = 6;
+    const list = points(item.samples.points), SIDES = 5;
     const tube = (material, radius, sides) => new THREE.Mesh(
       new THREE.TubeGeometry(new Polyline(list), list.length - 1, radius, sides), material);
     const whole = tube(flatPaint(item.colour, { transparent: true, opacity: 0.3 }),
-      0.45 * item.radius, 4);
+      0.45 * item.radius, 3);
     const done = tube(flatPaint(item.colour), item.radius, SIDES);
     return {
       object: new THREE.Group().add(whole, done),
@@ -198,7 +198,7 @@ function makers(THREE) {
   }
 
   function arc(item) {
-    const PIECES = 96, SIDES = 8, r = item.radius, material = paint(item.colours[0]);
+    const PIECES = 60, SIDES = 6, r = item.radius, material = paint(item.colours[0]);
     const circle = [];
     for (let i = 0; i <= PIECES; i++) {
       const angle = 2 * Math.PI * i / PIECES;
@@ -242,10 +242,12 @@ function makeStage(THREE, element, scene) {
   renderer.outputEncoding = THREE.sRGBEncoding;
   const world = new THREE.Scene();
   world.background = new THREE.Color(0xf4f6f8);  // not encoded again
-  const stage = { world, camera, controls, renderer, viewer, dirty: true, middle: null, size: 1 };
+  const stage = { world, camera, controls, renderer, viewer, dirty: true, middle: null, size: 1,
+    box: null, open: 1 };
   controls.addEventListener("change", () => { stage.dirty = true; });
 
   stage.frame = (box) => {
+    stage.box = box;
     stage.middle = box.getCenter(new THREE.Vector3());
     stage.size = Math.max(0.05, box.getSize(new THREE.Vector3()).length());
     const sun = new THREE.DirectionalLight(0xffffff, 0.7);
@@ -282,15 +284,34 @@ function makeStage(THREE, element, scene) {
     }
   }
 
+  // Distance from the middle at which every corner of the box is in sight.
+  function room(way) {
+    const high = Math.tan(camera.fov * Math.PI / 360), wide = high * camera.aspect * stage.open;
+    const right = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion);
+    const up = new THREE.Vector3(0, 1, 0).applyQuaternion(camera.quaternion);
+    let distance = 0.1 * stage.size;
+    for (let i = 0; i < 8; i++) {
+      const corner = new THREE.Vector3(...["x", "y", "z"].map(
+        (axis, bit) => stage.box[i >> bit & 1 ? "max" : "min"][axis])).sub(stage.middle);
+      const needed = Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(up)) / high);
+      distance = Math.max(distance, needed + corner.dot(way));
+    }
+    return 1.12 * distance;
+  }
+
   stage.look = (name) => {
     if (name === "3d" && scene.camera) {
       camera.position.fromArray(scene.camera[0]);
       controls.target.fromArray(scene.camera[1]);
     } else {
-      const direction = { "3d": [1, 1.1, 0.55], front: [0, 1, 0.04], side: [1, 0, 0.04],
+      // How much to the right, ahead and up of the robot the camera stands.
+      const [right, ahead, up] = { "3d": [1, 1.1, 0.55], front: [0, 1, 0.04], side: [1, 0, 0.04],
         top: [0, -1e-3, 1] }[name];
-      const narrow = Math.min(1, camera.aspect);
-      camera.position.fromArray(direction).setLength(1.6 * stage.size / narrow).add(stage.middle);
+      const [x, y] = scene.forward;
+      const way = new THREE.Vector3(right * y + ahead * x, -right * x + ahead * y, up).normalize();
+      camera.position.copy(way).add(stage.middle);
+      camera.lookAt(stage.middle);
+      camera.position.copy(stage.middle).addScaledVector(way, room(way));
       controls.target.copy(stage.middle);
     }
     controls.update();
@@ -303,6 +324,7 @@ function makeStage(THREE, element, scene) {
     camera.aspect = width / height;
     // The legend covers the left: look past it.
     const covered = Math.min(element.querySelector(".side[open]")?.offsetWidth || 0, width / 3);
+    stage.open = 1 - covered / width;
     camera.setViewOffset(width, height, -covered / 2, 0, width, height);
     renderer.setSize(width, height);
     stage.dirty = true;
