@@ -28,6 +28,33 @@ def find() -> str | None:
     return None
 
 
+BACKGROUND = (0xF4, 0xF6, 0xF8)
+"""Colour of an empty stage."""
+
+_VERTICES = """(() => {
+  const found = [], item = player.items.find((item) => item.name === %s);
+  player.stage.world.updateMatrixWorld(true);
+  item.object.traverse((part) => {
+    const places = part.geometry?.attributes.position;
+    for (let i = 0; places && i < places.count; i++) {
+      const point = new MeshCat.THREE.Vector3().fromBufferAttribute(places, i);
+      found.push(part.localToWorld(point).toArray());
+    }
+  });
+  return found;
+})()"""
+
+
+def differing(first: np.ndarray, second: np.ndarray) -> int:
+    """Number of pixels that differ clearly between two pictures."""
+    return int((np.abs(first - second).max(axis=-1) > 24).sum())
+
+
+def share_drawn(picture: np.ndarray) -> float:
+    """Share of the stage, right of the legend, that is not background or floor."""
+    return float((np.abs(picture[40:640, 340:] - BACKGROUND).max(axis=-1) > 110).mean())
+
+
 class Chromium:
     """One browser with one tab at a time; a context manager."""
 
@@ -145,6 +172,26 @@ class Chromium:
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(data)
         return np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).astype(int)
+
+    def still(self, file: Path | None = None) -> np.ndarray:
+        """Screenshot after everything set so far has been drawn."""
+        frame = "requestAnimationFrame"
+        self.run(f"new Promise((done) => {frame}(() => {frame}(done)))")
+        return self.picture(file)
+
+    def watch(self, page: Path | str) -> None:
+        """Open a page with a player and stop it at its start."""
+        self.open(page.as_uri() if isinstance(page, Path) else page)
+        self.until("window.player && player.framesDrawn > 0")
+        self.run("player.pause(); player.time = 0")
+
+    def vertices(self, item: str) -> np.ndarray:
+        """Every vertex of a player's item as it stands in the world [m], shape ``(v, 3)``."""
+        return np.array(self.run(_VERTICES % json.dumps(item)))
+
+    def shown(self, item: str) -> bool:
+        """Whether a player's item is drawn, its group's switch apart."""
+        return self.run(f"player.items.find((i) => i.name === {json.dumps(item)}).object.visible")
 
     def requests(self) -> list[str]:
         """Addresses asked for since the page was opened, data and blob URLs left out."""

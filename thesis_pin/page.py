@@ -93,7 +93,7 @@ class Page:
         good: Whether the answer is yes.
         verdict: Sentences, the most important first.
         tiles: Key numbers.
-        plots, tables: In order.
+        plots, tables: In order; may be empty.
         scene: The animation; None for a page without.
     """
 
@@ -112,14 +112,20 @@ def html(page: Page) -> bytes:
     return viewer.render(
         "report.html",
         page=page,
-        plotly=viewer.packed(viewer.package_file("plotly", "package_data/plotly.min.js")),
-        figures=viewer.packed(_json([plot.figure for plot in page.plots])),
+        plots=_plot_parts(page.plots) if page.plots else None,
         margins=MARGINS,
         player_parts=viewer.player_parts(page.scene) if page.scene else None,
         report_script=viewer.web_file("report.js"),
         report_style=viewer.web_file("report.css"),
         unpack=viewer.web_file("unpack.js"),
     )
+
+
+def _plot_parts(plots: Sequence[Plot]) -> dict[str, str]:
+    return {
+        "library": viewer.packed(viewer.package_file("plotly", "package_data/plotly.min.js")),
+        "figures": viewer.packed(_json([plot.figure for plot in plots])),
+    }
 
 
 def software() -> Table:

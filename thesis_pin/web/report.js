@@ -49,10 +49,10 @@ function tieToClock(player, elements, margins) {
   measure();
 }
 
-async function showReport(margins, hasScene) {
-  const stage = document.getElementById("player");
+async function showReport(margins) {
+  const stage = document.getElementById("player"), plots = document.getElementById("plots");
   let player = null;
-  if (hasScene) {
+  if (stage) {
     try {
       await loadLibrary("meshcat");
       player = makePlayer(stage, decodeScene(await unpack("scene")), { embedded: true });
@@ -60,13 +60,15 @@ async function showReport(margins, hasScene) {
       complain(stage, error);  // the plots may still work
     }
   }
-  try {
-    await loadLibrary("plotly");
-    const figures = JSON.parse(new TextDecoder().decode(await unpack("figures")));
-    const elements = await drawPlots(figures);
-    if (player) tieToClock(player, elements, margins);
-  } catch (error) {
-    complain(document.getElementById("plots"), error);
+  if (plots) {
+    try {
+      await loadLibrary("plotly");
+      const figures = JSON.parse(new TextDecoder().decode(await unpack("figures")));
+      const elements = await drawPlots(figures);
+      if (player) tieToClock(player, elements, margins);
+    } catch (error) {
+      complain(plots, error);
+    }
   }
   window.player = player;
   window.ready = true;
