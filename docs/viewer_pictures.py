@@ -17,13 +17,21 @@ def main() -> None:
     """Draw every picture into ``docs/images``."""
     from chromium import Chromium
 
+    import pollard_pin
     import scout_pin
+    from pollard_pin.view import path_scene
     from scout_pin.view import gait_scene
     from thesis_pin import viewer
 
     gait = scout_pin.load_gait(ROOT / "examples" / "walk.toml")
     report = scout_pin.gait_report(scout_pin.load(), gait)
-    scenes = {"scout_walk": (gait_scene(report), 4.2)}
+    robot = pollard_pin.load()
+    path = pollard_pin.load_path(ROOT / "examples" / "spray_arch.toml")
+    spraying = pollard_pin.trajectory_report(robot, path)
+    scenes = {
+        "scout_walk": (gait_scene(report), 4.2),
+        "pollard_spray": (path_scene(spraying), 0.6 * path.duration),
+    }
     with tempfile.TemporaryDirectory() as folder, Chromium() as browser:
         for name, (scene, moment) in scenes.items():
             page = Path(folder, f"{name}.html")
