@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thesis_pin.errors import BadInput, NotFinite, WrongShape
-from thesis_pin.loading import frame_id, joint_id
 from thesis_pin.scene import Arrow, Ball, Body, Item
 
 if TYPE_CHECKING:
@@ -59,6 +58,8 @@ def frame_placements(model: pin.Model, name: str, q: np.ndarray) -> np.ndarray:
     """
     import pinocchio as pin
 
+    from thesis_pin.loading import frame_id
+
     number, q = frame_id(model, name), _configurations(model, q)
     data = model.createData()
     matrices = np.empty((len(q), 4, 4))
@@ -84,6 +85,8 @@ def axis_placements(model: pin.Model, joint: str, moves: np.ndarray) -> np.ndarr
         BadInput: The joint doesn't turn about one axis.
     """
     from scipy.spatial.transform import Rotation
+
+    from thesis_pin.loading import joint_id
 
     number = joint_id(model, joint)
     axis = _axis(model.joints[number], joint)

@@ -3,6 +3,8 @@
 import json
 import re
 import struct
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -194,3 +196,13 @@ def test_closures_show_how_far_a_loop_is_open():
     assert second.radius < first.radius  # so that a closed loop shows one ball
     with pytest.raises(UnknownName, match="unknown frame 'c'"):
         drawing.closure_items(model, [("a", "c")], q, "loops", 0.1)
+
+
+def test_importing_the_viewer_imports_nothing_heavy():
+    code = (
+        "import sys; from thesis_pin import drawing, page, scene, serving, viewer\n"
+        "heavy = {'pinocchio', 'scipy', 'matplotlib', 'meshcat', 'plotly', 'jinja2'}\n"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
