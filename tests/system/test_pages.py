@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 from chromium import differing, share_drawn
 from example_robots import NAMES, example_robot
 
@@ -161,6 +162,56 @@ def test_an_arrow_starts_at_the_pressure_and_its_tip_is_where_the_force_says(vie
         tip = points[np.argmax(reach)]
         np.testing.assert_allclose(tip, start + scale * force, atol=2e-5)
         assert reach.min() == pytest.approx(0.0, abs=2e-5)
+
+
+def test_between_samples_everything_is_halfway(view, report):
+    for k in (60, 150):
+        view.run(f"player.time = {report.joints.time[k : k + 2].mean()}")
+        centre = view.vertices("com").mean(axis=0)
+        np.testing.assert_allclose(centre, report.com[k : k + 2].mean(axis=0), atol=2e-4)
+        for side in SIDES:
+            foot = report.motion.left_foot if side == "left" else report.motion.right_foot
+            corners = report.robot.sole_vertices(side, foot.placement[k : k + 2])
+            found = view.vertices(f"{side}_sole_0")
+            np.testing.assert_allclose(found.min(axis=0)[:2], corners.mean(0).min(0)[:2], atol=1e-4)
+            np.testing.assert_allclose(found.max(axis=0)[:2], corners.mean(0).max(0)[:2], atol=1e-4)
+
+
+def test_traces_follow_the_feet_and_are_bold_up_to_now(view, report):
+    for share in (0.0, 0.5, 1.0):
+        view.run(f"player.time = {share} * player.duration")
+        for side in SIDES:
+            foot = report.motion.left_foot if side == "left" else report.motion.right_foot
+            points = view.vertices(f"{side}_trace")
+            gap = np.linalg.norm(points[:, None] - foot.position, axis=-1).min(axis=1)
+            assert gap.max() < 1.5e-3
+            bold = view.run(
+                "(() => { const line = player.items.find((i) => i.name === "
+                f"'{side}_trace').object.children[1].geometry;"
+                "return line.drawRange.count / line.index.count; })()"
+            )
+            assert bold == pytest.approx(share, abs=0.01)
+
+
+def test_the_polygon_is_the_hull_of_the_soles_that_bear_load(view, report):
+    for k in (0, 60, 180):
+        view.run(f"player.time = {report.joints.time[k]}")
+        found = np.array(
+            view.run(
+                "(() => { const found = []; for (const one of player.items.find((i) => i.name === "
+                "'polygon').object.children) if (one.visible) found.push(...one.children[0]"
+                ".geometry.attributes.position.array); return found; })()"
+            )
+        ).reshape(-1, 3)
+        soles = [
+            report.robot.sole_vertices(side, foot.placement[k])
+            for j, (side, foot) in enumerate(
+                zip(SIDES, (report.motion.left_foot, report.motion.right_foot), strict=True)
+            )
+            if report.motion.support[k, j]
+        ]
+        hull = shapely.MultiPoint(np.concatenate(soles)[:, :2]).convex_hull
+        assert shapely.Polygon(found[:, :2]).symmetric_difference(hull).area < 1e-9
 
 
 @pytest.mark.parametrize("share", [0.0, 0.2, 0.5, 0.75, 1.0])

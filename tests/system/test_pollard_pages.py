@@ -139,6 +139,22 @@ def test_torque_arcs_turn_about_their_motors_by_their_share(view, report, sample
         assert np.exp(1j * angle) == pytest.approx(np.exp(1j * expected), abs=1e-3)
 
 
+def test_between_samples_bodies_are_where_the_mean_angles_put_them(view, report):
+    robot, data = report.robot, report.robot.model.createData()
+    names = [shape.name for shape in robot.visual_model.geometryObjects]
+    places = robot.visual_model.createData()
+    for k in (70, 333):
+        view.run(f"player.time = {report.joints.time[k : k + 2].mean()}")
+        middle = report.joints.q[k : k + 2].mean(axis=0)
+        pin.updateGeometryPlacements(robot.model, data, robot.visual_model, places, middle)
+        for name in ("forearm_0", "chain1_rod_0", "chain2_rod_0"):
+            # Half a sample's motion moves these by millimetres.
+            box = view.vertices(name)
+            centre = (box.max(axis=0) + box.min(axis=0)) / 2
+            expected = places.oMg[names.index(name)].translation
+            np.testing.assert_allclose(centre, expected, atol=2e-4)
+
+
 def test_the_tip_warns_as_the_arm_is_stretched(report):
     assert set(margin_zone(report)) == {2.0}
     outwards = line([0.45, 0, 0, 0, 0, 0], [0.80, 0, 0, 0, 0, 0], 2.0)
