@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import scout_pin
-from scout_pin.view import gait_scene
+from scout_pin.view import MARGIN_BOUNDS, gait_scene
+from thesis_pin.scene import levels
 
 WALK = Path(__file__).parents[2] / "examples" / "walk.toml"
 
@@ -48,6 +49,7 @@ def test_forces_of_both_feet_are_the_weight_and_what_moves_the_robot(report, ite
 
 
 def test_colours_of_the_zero_moment_point_follow_its_margin(report, items):
+    assert levels(np.array([-1e-4, 1e-4, 4.9e-3, 5.1e-3]), MARGIN_BOUNDS).tolist() == [0, 1, 1, 2]
     level = items["zmp"].level
     np.testing.assert_array_equal(level == 0, report.margin < 0)
     np.testing.assert_array_equal(level == 2, report.margin >= 5e-3)

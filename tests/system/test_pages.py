@@ -241,16 +241,6 @@ def test_the_zero_moment_point_has_its_place_and_the_colour_of_its_margin(browse
         np.testing.assert_allclose(place, thesis.zmp[k], atol=2e-4)
 
 
-def test_a_browser_that_drops_frames_says_so(view):
-    view.call("Emulation.setCPUThrottlingRate", rate=20)
-    try:
-        view.run("player.play()")
-        view.until("document.querySelector('.status').textContent.includes('dropped')", 120)
-        assert view.run("player.frameRate") < 30
-    finally:
-        view.call("Emulation.setCPUThrottlingRate", rate=1)
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_any_pinocchio_robot_can_be_shown(browser, folder, artefacts, name):
     model, visual, q = example_robot(name)
@@ -369,9 +359,9 @@ def test_texts_of_user_files_are_shown_and_never_run(browser, folder, report):
 def test_plots_are_figures_that_plotly_itself_accepts(report):
     import plotly.graph_objects
 
-    from scout_pin.page import _plots
+    from scout_pin.page_plots import report_plots
 
-    for plot in _plots(report):
+    for plot in report_plots(report):
         plotly.graph_objects.Figure(plot.figure)
         assert set(plot.figure["layout"]["margin"].items()) == set(page.MARGINS.items())
 
@@ -388,7 +378,9 @@ def live(*arguments):
     return process, process.stderr.readline()
 
 
-def test_the_live_page_loads_draws_and_ends_cleanly_on_ctrl_c(browser, artefacts):
+def test_the_live_page_draws_says_when_it_drops_frames_and_ends_cleanly_on_ctrl_c(
+    browser, artefacts
+):
     process, line = live("--port", "0", "--speed", "0.5")
     try:
         address = line.split(" at ")[1].split()[0]
@@ -401,11 +393,18 @@ def test_the_live_page_loads_draws_and_ends_cleanly_on_ctrl_c(browser, artefacts
         image = browser.still(artefacts / "scout_live.png")
         assert share_drawn(image) > 0.02
         assert browser.complaints() == []
+        browser.call("Emulation.setCPUThrottlingRate", rate=20)
+        browser.run("player.play()")
+        browser.until("document.querySelector('.status').textContent.includes('dropped')", 120)
+        assert browser.run("player.frameRate") < 30
+        browser.until("performance.getEntriesByType('resource').some((e) => /frames/.test(e.name))")
         assert all(url.startswith(address) for url in browser.requests())
     finally:
+        browser.call("Emulation.setCPUThrottlingRate", rate=1)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=30)
     assert (process.returncode, out) == (0, "")
     assert "Traceback" not in err
+    assert err.count("of 30 frames a second: frames are dropped") == 1
     with pytest.raises(OSError, match="refused"):
         urllib.request.urlopen(address)
