@@ -78,7 +78,7 @@ def _verdict(report: TrajectoryReport) -> list[str]:
 
 
 def _tiles(report: TrajectoryReport) -> list[Tile]:
-    a, summary = report.summary_of_actuators, report.summary()
+    a, summary = report.actuators, report.summary()
     return [
         Tile("peak torque at the base", f"{a.peak_torque[:3].max():.3f} N·m"),
         Tile("peak torque in the wrist", f"{a.peak_torque[3:].max() * 1e3:.1f} mN·m"),
@@ -204,7 +204,7 @@ def _joints(report: TrajectoryReport, keep: np.ndarray) -> list[Plot]:
 
 
 def _tables(report: TrajectoryReport) -> list[Table]:
-    a, summary = report.summary_of_actuators, report.summary()
+    a, summary = report.actuators, report.summary()
     reading = summary["other_inertia"]
     motors = Table(
         "Motors",

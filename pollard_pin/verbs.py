@@ -98,7 +98,7 @@ def view(arguments: argparse.Namespace) -> int:
         path,
         samples=frames(path.duration),
         branch=_branch(arguments),
-        actuators=arguments.actuators,
+        motors=arguments.actuators,
     )
     run_view(path_scene(report), arguments)
     return OK
