@@ -101,7 +101,7 @@ def player_parts(scene: Scene) -> dict[str, Any]:
     return {
         "meshcat": packed(_meshcat_bundle()),
         "scene": packed(encode(scene)),
-        "player": web_file("player.js"),
+        "player": "".join(web_file(f"{name}.js") for name in ("items", "stage", "player")),
         "player_style": web_file("player.css"),
         "unpack": web_file("unpack.js"),
         "description": scene.description,
