@@ -1,4 +1,4 @@
-"""Pictures of the README that the viewer draws in a headless Chromium.
+"""Pictures of the README: the viewer's, drawn in a headless Chromium, and figure 5.3.
 
 Run ``python docs/viewer_pictures.py`` to renew them.
 """
@@ -20,11 +20,17 @@ def main() -> None:
     import pollard_pin
     import scout_pin
     from pollard_pin.view import path_scene
+    from scout_pin.plots import stick_figures
     from scout_pin.view import gait_scene
     from thesis_pin import viewer
+    from thesis_pin.report import figure_files
 
     gait = scout_pin.load_gait(ROOT / "examples" / "walk.toml")
     report = scout_pin.gait_report(scout_pin.load(), gait)
+    thesis = scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait())
+    figure = figure_files("scout_stick_figures", stick_figures(thesis))["scout_stick_figures.png"]
+    (ROOT / "docs" / "images" / "scout_stick_figures.png").write_bytes(figure)
+
     robot = pollard_pin.load()
     path = pollard_pin.load_path(ROOT / "examples" / "spray_arch.toml")
     spraying = pollard_pin.trajectory_report(robot, path)
