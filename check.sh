@@ -23,7 +23,7 @@ echo "== types"
 "$bin/mypy"
 
 echo "== tests"
-"$bin/python" -m pytest -n auto
+"$bin/python" -m pytest -n auto -rs
 
 echo "== wheel, used from a clean virtual environment outside the checkout"
 outside="$(mktemp -d)"

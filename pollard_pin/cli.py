@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from thesis_pin import __version__
-from thesis_pin.command_line import Parser, count, number, run
+from thesis_pin.command_line import Parser, add_view_options, count, number, run
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -19,13 +19,14 @@ def parser() -> Parser:
     """The command's parser with all its verbs."""
     top = Parser(
         prog="pollard-pin",
-        description="Pollard, a three-chain parallel spray robot: torque reports, kinematics, "
-        "workspace, URDF.",
+        description="Pollard, a three-chain parallel spray robot: torque reports, animations, "
+        "kinematics, workspace, URDF.",
         epilog="Example: pollard-pin trajectory --out report",
     )
     top.add_argument("--version", action="version", version=f"pollard-pin {__version__}")
     verbs = top.add_subparsers(title="verbs", required=True, metavar="VERB")
     _add_trajectory(verbs)
+    _add_view(verbs)
     _add_ik(verbs)
     _add_fk(verbs)
     _add_workspace(verbs)
@@ -68,15 +69,7 @@ def _add_branch(verb: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_trajectory(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "trajectory",
-        help="what the motors, joints and ball joints have to do on a path",
-        description="Torques, power, work, loop reactions and singularity margins on a path.",
-        epilog="Example: pollard-pin trajectory --path examples/spray_arch.toml --out report",
-    )
-    _add_robot(verb)
-    _add_branch(verb)
+def _add_path(verb: argparse.ArgumentParser) -> None:
     verb.add_argument(
         "--path", metavar="FILE", help=".csv or .toml path (default: the curve of appendix B)"
     )
@@ -104,12 +97,42 @@ def _add_trajectory(verbs: Any) -> None:
         default="six",
         help="six motors, or the thesis's three with what they can't carry (default: six)",
     )
+
+
+def _add_trajectory(verbs: Any) -> None:
+    verb = verbs.add_parser(
+        "trajectory",
+        help="what the motors, joints and ball joints have to do on a path",
+        description="Torques, power, work, loop reactions and singularity margins on a path.",
+        epilog="Example: pollard-pin trajectory --path examples/spray_arch.toml --out report",
+    )
+    _add_robot(verb)
+    _add_branch(verb)
+    _add_path(verb)
     verb.add_argument(
         "--samples", type=count("--samples", 2), default=2001, help="samples (default: 2001)"
     )
     verb.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
     verb.add_argument("--json", metavar="FILE|-", help="write the report as JSON")
+    verb.add_argument(
+        "--html", metavar="FILE", help="write the report as a page to mail: animation and plots"
+    )
     verb.set_defaults(run=_later("trajectory"))
+
+
+def _add_view(verbs: Any) -> None:
+    verb = verbs.add_parser(
+        "view",
+        help="watch the robot on a path in the browser",
+        description="Show the robot on a path with torques, ball-joint forces and margins, "
+        "on 127.0.0.1.",
+        epilog="Example: pollard-pin view --path examples/spray_arch.toml --html spray.html",
+    )
+    _add_robot(verb)
+    _add_branch(verb)
+    _add_path(verb)
+    add_view_options(verb)
+    verb.set_defaults(run=_later("view"))
 
 
 def _add_ik(verbs: Any) -> None:

@@ -6,7 +6,14 @@ import argparse
 import sys
 from typing import TYPE_CHECKING, Any
 
-from thesis_pin.command_line import OK, print_table, print_text, write_file, write_folder
+from thesis_pin.command_line import (
+    OK,
+    print_table,
+    print_text,
+    run_view,
+    write_file,
+    write_folder,
+)
 
 if TYPE_CHECKING:
     from pollard_pin.geometry import Branch
@@ -56,6 +63,11 @@ def trajectory(arguments: argparse.Namespace) -> int:
         from thesis_pin.report import json_bytes
 
         content = json_bytes(report.document())
+    page = b""
+    if arguments.html:
+        from pollard_pin.page import trajectory_page
+
+        page = trajectory_page(report)
     if arguments.out:
         from pollard_pin.plots import report_files
         from thesis_pin.report import csv_bytes
@@ -64,10 +76,31 @@ def trajectory(arguments: argparse.Namespace) -> int:
         write_folder(arguments.out, files | report_files(report))
     if arguments.json:
         write_file(arguments.json, content)
-    if arguments.json != "-":
+    if arguments.html:
+        write_file(arguments.html, page)
+    if "-" not in (arguments.json, arguments.html):
         from pollard_pin.tables import print_report
 
         print_report(report)
+    return OK
+
+
+def view(arguments: argparse.Namespace) -> int:
+    from pollard_pin.model import load
+    from pollard_pin.report import trajectory_report
+    from pollard_pin.view import path_scene
+    from thesis_pin.scene import frames
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    path = _path(arguments, robot.specification)
+    report = trajectory_report(
+        robot,
+        path,
+        samples=frames(path.duration),
+        branch=_branch(arguments),
+        motors=arguments.actuators,
+    )
+    run_view(path_scene(report), arguments)
     return OK
 
 

@@ -12,11 +12,13 @@ from thesis_pin.command_line import (
     LIMIT_VIOLATED,
     OK,
     Parser,
+    add_view_options,
     count,
     number,
     print_table,
     print_text,
     run,
+    run_view,
     write_file,
     write_folder,
 )
@@ -35,12 +37,13 @@ def parser() -> Parser:
     """The command's parser with all its verbs."""
     top = Parser(
         prog="scout-pin",
-        description="Scout, an 18-DoF biped: torque reports, inverse kinematics, URDF.",
+        description="Scout, an 18-DoF biped: torque reports, animations, inverse kinematics, URDF.",
         epilog="Example: scout-pin gait --out report",
     )
     top.add_argument("--version", action="version", version=f"scout-pin {__version__}")
     verbs = top.add_subparsers(title="verbs", required=True, metavar="VERB")
     _add_gait(verbs)
+    _add_view(verbs)
     _add_ik(verbs)
     _add_info(verbs)
     _add_urdf(verbs)
@@ -60,14 +63,7 @@ def _add_robot(verb: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_gait(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "gait",
-        help="can this gait walk, and can the servos carry it?",
-        description="Torques, contact forces, stability and servo limits of a gait.",
-        epilog="Example: scout-pin gait --gait walk.toml --time-unit 0.05 --out report",
-    )
-    _add_robot(verb)
+def _add_which_gait(verb: argparse.ArgumentParser) -> None:
     verb.add_argument(
         "--gait",
         metavar="NAME|FILE",
@@ -85,6 +81,17 @@ def _add_gait(verbs: Any) -> None:
         metavar="SECONDS",
         help="seconds in the gait's unit of t (default: the gait's own)",
     )
+
+
+def _add_gait(verbs: Any) -> None:
+    verb = verbs.add_parser(
+        "gait",
+        help="can this gait walk, and can the servos carry it?",
+        description="Torques, contact forces, stability and servo limits of a gait.",
+        epilog="Example: scout-pin gait --gait walk.toml --time-unit 0.05 --out report",
+    )
+    _add_robot(verb)
+    _add_which_gait(verb)
     verb.add_argument(
         "--samples",
         type=count("--samples", 2),
@@ -94,9 +101,25 @@ def _add_gait(verbs: Any) -> None:
     verb.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
     verb.add_argument("--json", metavar="FILE|-", help="write the report as JSON")
     verb.add_argument(
+        "--html", metavar="FILE", help="write the report as a page to mail: animation and plots"
+    )
+    verb.add_argument(
         "--strict", action="store_true", help="exit with 1 if the gait breaks a limit"
     )
     verb.set_defaults(run=_gait)
+
+
+def _add_view(verbs: Any) -> None:
+    verb = verbs.add_parser(
+        "view",
+        help="watch a gait in the browser",
+        description="Show the robot along a gait with forces, ZMP and support, on 127.0.0.1.",
+        epilog="Example: scout-pin view --gait walk.toml --html walk.html",
+    )
+    _add_robot(verb)
+    _add_which_gait(verb)
+    add_view_options(verb)
+    verb.set_defaults(run=_view)
 
 
 def _add_ik(verbs: Any) -> None:
@@ -182,17 +205,38 @@ def _gait(arguments: argparse.Namespace) -> int:
     gait = load_gait(arguments.gait, arguments.interpolation)
     report = gait_report(robot, gait, samples=arguments.samples, time_unit=arguments.time_unit)
     _write_report(report, arguments)
-    if arguments.json != "-":
+    if "-" not in (arguments.json, arguments.html):
         _print_report(report)
     return OK if report.within_limits or not arguments.strict else LIMIT_VIOLATED
+
+
+def _view(arguments: argparse.Namespace) -> int:
+    from scout_pin.gait_files import load_gait
+    from scout_pin.model import load
+    from scout_pin.report import gait_report
+    from scout_pin.view import gait_scene
+    from thesis_pin.scene import frames
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    gait = load_gait(arguments.gait, arguments.interpolation)
+    unit = arguments.time_unit or gait.time_unit
+    samples = frames((gait.end - gait.start) * unit)
+    report = gait_report(robot, gait, samples=samples, time_unit=unit)
+    run_view(gait_scene(report), arguments)
+    return OK
 
 
 def _write_report(report: GaitReport, arguments: argparse.Namespace) -> None:
     from thesis_pin.report import csv_bytes, json_bytes
 
-    if not (arguments.json or arguments.out):
+    if not (arguments.json or arguments.out or arguments.html):
         return
     document = json_bytes(report.document())
+    page = b""
+    if arguments.html:
+        from scout_pin.page import gait_page
+
+        page = gait_page(report)
     if arguments.out:
         from scout_pin.plots import figures
 
@@ -201,6 +245,8 @@ def _write_report(report: GaitReport, arguments: argparse.Namespace) -> None:
         print(f"wrote {arguments.out}", file=sys.stderr)
     if arguments.json:
         write_file(arguments.json, document)
+    if arguments.html:
+        write_file(arguments.html, page)
 
 
 def _print_report(report: GaitReport) -> None:

@@ -1,4 +1,4 @@
-"""Figures of a gait report: the thesis's own (5.1, 5.2) and those it has not."""
+"""Figures of a gait report: the thesis's own (5.1, 5.2, 5.3) and those it has not."""
 
 from __future__ import annotations
 
@@ -6,10 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from scout_pin.dynamics import free_flyer_state
 from scout_pin.report import GaitReport
-from scout_pin.specification import SIDES
+from scout_pin.specification import JOINT_NAMES, SIDES
 from scout_pin.stability import polygons
+from thesis_pin.drawing import joint_placements
+from thesis_pin.loading import joint_id
 from thesis_pin.report import PALETTE, figure_files, new_figure
+from thesis_pin.scene import thinned
 
 _NAMES = ("yaw", "roll", "pitch", "knee", "ankle pitch", "ankle roll")
 
@@ -26,6 +30,7 @@ def figures(report: GaitReport) -> dict[str, bytes]:
     for name, draw in (
         ("feet_and_torso", feet_and_torso),
         ("joint_angles", joint_angles),
+        ("stick_figures", stick_figures),
         ("torques", torques),
         ("stability", stability),
     ):
@@ -60,6 +65,56 @@ def joint_angles(report: GaitReport) -> Any:
         axes[k, 0].set(ylabel=f"{side} leg [°]")
     axes[1, 0].set(xlabel="time [s]")
     return figure
+
+
+def stick_figures(report: GaitReport, frames: int = 8) -> Any:
+    """The robot as a stick figure at moments of the gait, from the side and from the front: 5.3."""
+    some = thinned(len(report.joints.time), frames)
+    lines = _skeleton(report, some)
+    figure, axes = new_figure(1.35 * len(some), 4.2, rows=2, columns=len(some))
+    top = max(points[..., 2].max() for points in lines.values()) * 1e3 + 15
+    colours = {"left": PALETTE[5], "right": PALETTE[4], "torso": "0.35"}
+    for row, (across, view) in enumerate(((1, "from the right"), (0, "from behind"))):
+        everything = np.concatenate([points[..., across].ravel() for points in lines.values()])
+        limits = np.array([everything.min(), everything.max()]) * 1e3 + (-15, 15)
+        for k, axis in enumerate(axes[row]):
+            for name, points in lines.items():
+                axis.plot(
+                    *points[k][:, [across, 2]].T * 1e3,
+                    color=colours[name.split("_")[0]],
+                    linewidth=1.2 if "sole" in name else 2,
+                    marker="" if "sole" in name else "o",
+                    markersize=3,
+                )
+            axis.axhline(0, color="black", linewidth=0.8)
+            axis.set(aspect="equal", xlim=limits, ylim=(-12, top), xticks=[])
+            if row == 0:
+                axis.set_title(f"{report.joints.time[some[k]]:.2f} s", fontsize=9)
+            if k:
+                axis.set_yticks([])
+        axes[row, 0].set_ylabel(f"{view}, z [mm]", fontsize=9)
+    axes[1, 0].plot([], [], color=colours["left"], label="left leg")
+    axes[1, 0].plot([], [], color=colours["right"], label="right leg")
+    figure.legend(fontsize=8, loc="outside lower center", ncols=2)
+    return figure
+
+
+def _skeleton(report: GaitReport, some: np.ndarray) -> dict[str, np.ndarray]:
+    """Lines through the joints' origins and around the soles: name → ``(frames, points, 3)``."""
+    robot = report.robot
+    q = free_flyer_state(report.motion.torso, report.joints)[0][some]
+    frames = joint_placements(robot.model, q)[..., :3]
+    lines = {}
+    for k, side in enumerate(SIDES):
+        numbers = [joint_id(robot.model, name) for name in JOINT_NAMES[6 * k : 6 * k + 6]]
+        lines[side] = frames[:, numbers]
+    lines["torso"] = np.stack([lines[side][:, 0] for side in SIDES], axis=1)
+    for side, foot in zip(SIDES, (report.motion.left_foot, report.motion.right_foot), strict=True):
+        place = foot.placement[some]
+        corners = robot.sole_vertices(side, place)
+        lines[f"{side}_sole"] = np.concatenate([corners, corners[:, :1]], axis=1)
+        lines[side] = np.concatenate([lines[side], place[:, None, :3, 3]], axis=1)
+    return lines
 
 
 def torques(report: GaitReport) -> Any:

@@ -12,8 +12,12 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from thesis_pin.errors import BadInput, ThesisPinError
+
+if TYPE_CHECKING:
+    from thesis_pin.scene import Scene
 
 OK, LIMIT_VIOLATED, BAD_INPUT = 0, 1, 2
 
@@ -86,6 +90,49 @@ def count(name: str, least: int) -> Callable[[str], int]:
         return value
 
     return read
+
+
+def add_view_options(verb: argparse.ArgumentParser) -> None:
+    """The options every ``view`` verb has besides its motion's."""
+    verb.add_argument(
+        "--speed",
+        type=number("--speed", positive=True),
+        default=1.0,
+        help="playing speed; 1 is real time (default: 1)",
+    )
+    verb.add_argument(
+        "--port",
+        type=count("--port", 0),
+        help="port on 127.0.0.1; 0 is any (default: the first free one from 7000)",
+    )
+    verb.add_argument("--no-browser", action="store_true", help="only print the address")
+    verb.add_argument(
+        "--hold",
+        type=number("--hold", positive=True),
+        metavar="SECONDS",
+        help="end by itself (default: on Ctrl-C)",
+    )
+    verb.add_argument(
+        "--html", metavar="FILE", help="write one self-contained page instead of serving it"
+    )
+
+
+def run_view(scene: Scene, arguments: argparse.Namespace) -> None:
+    """Write a scene to the file, or serve it, as :func:`add_view_options` asked."""
+    from thesis_pin import viewer
+
+    if arguments.html:
+        viewer.write_html(scene, arguments.html, speed=arguments.speed)
+        print(f"wrote {arguments.html}", file=sys.stderr)
+        return
+    viewer.show(
+        scene,
+        speed=arguments.speed,
+        port=arguments.port,
+        browser=not arguments.no_browser,
+        hold=arguments.hold,
+        say=lambda text: print(text, file=sys.stderr, flush=True),
+    )
 
 
 def write_file(target: str | Path, content: bytes) -> None:

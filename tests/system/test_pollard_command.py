@@ -89,7 +89,10 @@ def test_out_writes_report_samples_and_the_thesis_figures(pollard_pin, tmp_path)
     assert row["torque_chain0_shoulder_Nm"] == report["torque"][49][0]
 
 
-@pytest.mark.parametrize("verb", ["trajectory", "ik", "fk", "workspace", "info", "urdf", "check"])
+VERBS = ("trajectory", "view", "ik", "fk", "workspace", "info", "urdf", "check")
+
+
+@pytest.mark.parametrize("verb", VERBS)
 def test_help_of_every_verb_has_an_example_that_names_it(pollard_pin, verb):
     done = pollard_pin(verb, "--help")
     assert done.returncode == 0
@@ -182,10 +185,25 @@ def test_the_example_path_is_a_closed_one_and_balances_its_energy(pollard_pin):
     assert document["parameters"]["segments"][0]["path"] == "arc"
 
 
+def test_view_and_report_are_written_as_pages(pollard_pin, tmp_path):
+    path = ROOT / "examples" / "spray_arch.toml"
+    done = pollard_pin("view", "--path", path, "--html", tmp_path / "view.html")
+    assert (done.returncode, done.stdout) == (0, "")
+    done = pollard_pin("trajectory", "--samples", "201", "--html", tmp_path / "report.html")
+    assert done.returncode == 0
+    assert "determinant of constant sign" in " ".join(done.stdout.split())
+    for name in ("view.html", "report.html"):
+        assert (tmp_path / name).read_bytes().startswith(b"<!doctype html>")
+    done = pollard_pin("view", "--no-browser", "--port", "0", "--hold", "0.1")
+    assert done.returncode == 0
+    assert "at http://127.0.0.1:" in done.stderr
+
+
 def test_everything_runs_on_the_second_specification(pollard_pin, tmp_path):
     other = ROOT / "pollard_pin" / "specifications" / "skewed.toml"
     for arguments in (
-        ("trajectory", "--samples", "101"),
+        ("trajectory", "--samples", "101", "--html", tmp_path / "report.html"),
+        ("view", "--html", tmp_path / "view.html"),
         ("ik", "0.47", "0", "0.05", "0", "10", "0"),
         ("info",),
         ("urdf", "--out", tmp_path),

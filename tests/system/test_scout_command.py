@@ -171,6 +171,12 @@ BAD = {
     "two coordinates": (["ik", "left", "--position", "0", "0"], "expected 3"),
     "unknown verb": (["dance"], "gait"),
     "out is a file": (["gait", "--out", __file__], "folder"),
+    "page into nowhere": (["gait", "--html", "no/where/report.html"], "can't write"),
+    "view into nowhere": (["view", "--html", "no/where/view.html"], "can't write"),
+    "zero speed": (["view", "--speed", "0"], "positive"),
+    "negative hold": (["view", "--hold", "-1"], "positive"),
+    "no port": (["view", "--port", "http"], "whole number"),
+    "port too high": (["view", "--port", "70000", "--no-browser"], "65535"),
     "json into nowhere": (["gait", "--json", "no/where/report.json"], "can't write"),
 }
 
@@ -179,11 +185,9 @@ BAD = {
 def test_bad_input_is_one_clear_message_exit_2_and_no_file(name, tmp_path):
     arguments, says = BAD[name]
     out = (
-        []
-        if "ik" in arguments or "dance" in arguments or "--out" in arguments
-        else ["--out", "made"]
+        [] if arguments[0] in ("ik", "dance", "view") or "--out" in arguments else ["--out", "made"]
     )
-    if name == "json into nowhere":
+    if name.endswith("into nowhere"):
         out = []
     done = scout_pin(*arguments, *out, cwd=tmp_path)
     assert done.returncode == 2, done.stdout + done.stderr
@@ -242,7 +246,7 @@ def test_help_imports_nothing_heavy():
     )
     done = scout_pin("--help", code=probe)
     assert done.stderr.strip() == "[]"
-    for verb in ("gait", "ik", "info", "urdf"):
+    for verb in ("gait", "view", "ik", "info", "urdf"):
         assert verb in done.stdout
         assert "Example: scout-pin" in scout_pin(verb, "--help").stdout
 
@@ -262,3 +266,32 @@ def test_a_closed_pipe_is_no_error():
     )
     assert done.stdout.startswith("<?xml")
     assert "Traceback" not in done.stderr
+
+
+def test_view_writes_one_page_and_serves_for_as_long_as_asked(tmp_path):
+    done = scout_pin("view", "--html", "walk.html", "--gait", EXAMPLES / "walk.toml", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (0, "")
+    assert done.stderr == "wrote walk.html\n"
+    assert (tmp_path / "walk.html").read_bytes().startswith(b"<!doctype html>")
+    done = scout_pin("view", "--no-browser", "--port", "0", "--hold", "0.2")
+    assert (done.returncode, done.stdout) == (0, "")
+    assert "showing Scout, gait thesis at http://127.0.0.1:" in done.stderr
+
+
+def test_view_on_a_busy_port_says_so(tmp_path):
+    import socket
+
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        done = scout_pin("view", "--no-browser", "--port", port)
+    assert done.returncode == 2
+    assert f"port {port}: the port is in use" in done.stderr
+    assert "Choose another with --port" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_gait_writes_its_report_as_a_page_beside_the_table(tmp_path):
+    done = scout_pin("gait", "--html", "report.html", cwd=tmp_path)
+    assert done.returncode == 0
+    assert "Scout can't walk this gait" in done.stdout
+    assert b"Scout can&#39;t walk this gait" in (tmp_path / "report.html").read_bytes()
