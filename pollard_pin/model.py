@@ -207,7 +207,7 @@ class Pollard(ClosedRobot):
         """Condition and determinants of the six motors' Jacobian at ``(..., 12)``."""
         posture = self.posture(q)
         rates.check_regular(posture)
-        return singularity.actuation(posture, self.pose(q))
+        return singularity.actuation(posture)
 
     def mobility(self, q: Any) -> loops.Mobility:
         """Degrees of freedom by rank at one configuration ``(12,)``."""

@@ -281,11 +281,11 @@ def trajectory_report(
     motion = path.sample(samples)
     joints, solutions = joint_trajectory(robot, motion, branch, path)
     posture = solutions.posture
-    holding = actuation(posture, motion.pose)
+    holding = actuation(posture)
 
     def determinant(time: float) -> float:
         there = robot.inverse_kinematics(path.at(time).pose, branch)
-        return float(actuation(there.posture, there.pose).base_determinant[0])
+        return float(actuation(there.posture).base_determinant[0])
 
     require_one_sign(determinant, motion.time, holding.base_determinant)
     dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a, posture)

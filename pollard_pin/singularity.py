@@ -1,6 +1,8 @@
 """Where the six motors lose the tool: actuation Jacobian, condition, sign changes.
 
-θ̇_motors = J q̇. The inverse kinematics breaks down where J is infinite (the
+θ̇_motors = J (v, ω), with the tool's velocity and angular velocity: the rates of
+ψ, θ, φ would add a singularity of the angles, cos ψ = 0, that the robot hasn't.
+The inverse kinematics breaks down where J is infinite (the
 serial sets of :attr:`Posture.serial_sines`, on the boundary between branches);
 the motors lose the tool where det J = 0, inside a branch. A wrist of three
 revolute joints is regular away from sin θ1716 = 0, so det J has the sign of the
@@ -14,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pollard_pin.posture import Posture
+from pollard_pin.posture import Posture, cross
 from pollard_pin.rates import joint_rates, tool_twist
 from pollard_pin.specification import ACTUATORS
 from thesis_pin.errors import SingularPose
@@ -35,6 +37,16 @@ def rate_jacobian(posture: Posture, pose: np.ndarray) -> np.ndarray:
     wrist, omega = tool_twist(posture, flat[:, 3:5].T, units)
     rates = joint_rates(posture, wrist, omega)
     return np.ascontiguousarray(rates.transpose(2, 0, 1)).reshape(*pose.shape[:-1], 12, 6)
+
+
+def twist_jacobian(posture: Posture) -> np.ndarray:
+    """Rates of the twelve joints over the tool's twist (v of the tip, ω), ``(..., 12, 6)``."""
+    count = posture.angles.shape[1]
+    units = np.broadcast_to(np.eye(6)[:, :, None], (6, 6, count))
+    arm = posture.geometry.x_1918 * posture.tool_axes[0]
+    wrist = units[:3] - cross(units[3:], arm)
+    rates = joint_rates(posture, wrist, units[3:])
+    return np.ascontiguousarray(rates.transpose(2, 0, 1)).reshape(*posture.shape, 12, 6)
 
 
 def base_rows(posture: Posture) -> np.ndarray:
@@ -66,10 +78,10 @@ class Actuation:
     base_determinant: np.ndarray
 
 
-def actuation(posture: Posture, pose: np.ndarray, length: float = LENGTH) -> Actuation:
+def actuation(posture: Posture, length: float = LENGTH) -> Actuation:
     """Condition and determinants of the actuation Jacobian at closed postures."""
     scale = np.array([length] * 3 + [1.0] * 3)
-    matrix = rate_jacobian(posture, pose)[..., list(ACTUATORS), :] * scale
+    matrix = twist_jacobian(posture)[..., list(ACTUATORS), :] * scale
     return Actuation(
         condition=np.linalg.cond(matrix),
         determinant=np.linalg.det(matrix),

@@ -175,6 +175,6 @@ def _evaluate(robot: Pollard, pose: np.ndarray, branch: Branch) -> np.ndarray:
         some = some[regular]
     if some.size:
         posture = Posture.of(robot.geometry, solution.angles[some])
-        holding = actuation(posture, pose[some])
+        holding = actuation(posture)
         result[1, some], result[2, some] = holding.condition, holding.base_determinant
     return result

@@ -301,6 +301,7 @@ def _ik(arguments: argparse.Namespace) -> int:
     import numpy as np
 
     from scout_pin.model import load
+    from thesis_pin.errors import Unreachable
     from thesis_pin.rotations import euler_placement, transform
 
     robot = load(arguments.specification, inertia=arguments.inertia)
@@ -309,13 +310,15 @@ def _ik(arguments: argparse.Namespace) -> int:
     rotation = euler_placement("xyz", angles, zero, zero)[0]
     pose = transform(rotation, np.array(arguments.position))
     solutions = robot.leg_inverse_kinematics(arguments.side, pose)
+    if not solutions.reachable.any():
+        raise Unreachable(solutions.explain(), where=f"{arguments.side} foot")
     if arguments.json:
         from thesis_pin.report import json_bytes
 
         write_file(arguments.json, json_bytes(_ik_document(solutions)))
     if arguments.json != "-":
         _print_branches(solutions)
-    return OK if solutions.valid.any() else LIMIT_VIOLATED
+    return OK
 
 
 def _ik_document(solutions: LegSolutions) -> dict[str, Any]:

@@ -46,6 +46,7 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
     """
     parsed = parser.parse_args(arguments)
     try:
+        check_targets(parsed)
         return parsed.run(parsed)
     except ThesisPinError as error:
         print(f"{parser.prog}: error: {error}", file=sys.stderr)
@@ -57,6 +58,28 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
     except KeyboardInterrupt:
         print(f"{parser.prog}: interrupted", file=sys.stderr)
         return 130
+
+
+def check_targets(parsed: argparse.Namespace) -> None:
+    """Refuse outputs that can't be written before anything is worked out or written.
+
+    Raises:
+        BadInput: A file option has no folder, is a folder or is empty; ``--out`` is a file.
+    """
+    for option in ("json", "html", "markdown"):
+        target = getattr(parsed, option, None)
+        if target is None or target == "-":
+            continue
+        path = Path(target)
+        if not target or path.is_dir():
+            raise BadInput(
+                f"can't write it: {target!r} isn't the name of a file", where=f"--{option}"
+            )
+        if not path.parent.is_dir():
+            raise BadInput(f"can't write it: no folder {path.parent}", where=str(path))
+    out = getattr(parsed, "out", None)
+    if out is not None and (not out or (Path(out).exists() and not Path(out).is_dir())):
+        raise BadInput(f"can't make the folder: {out!r} isn't a folder", where="--out")
 
 
 def number(name: str, *, positive: bool = False) -> Callable[[str], float]:
@@ -171,6 +194,8 @@ def write_folder(folder: str | Path, files: Mapping[str, bytes]) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name in files:
+            if (folder / name).is_dir():
+                raise BadInput("can't write it: there is a folder", where=str(folder / name))
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise BadInput(f"can't make the folder: {error.strerror}", where=str(folder)) from None

@@ -39,6 +39,9 @@ DEFAULT_PORT = 7000
 """The port meshcat's users know; others follow if it is taken."""
 
 
+_INSTALL = "pip install 'thesis-pin[viewer]'"
+
+
 def html(scene: Scene, *, speed: float = 1.0) -> bytes:
     """A scene as one self-contained, animated page.
 
@@ -110,7 +113,12 @@ def player_parts(scene: Scene) -> dict[str, Any]:
 
 def render(template: str, **values: Any) -> bytes:
     """A page from a template of ``thesis_pin/web``; every value is escaped by default."""
-    import jinja2
+    try:
+        import jinja2
+    except ImportError:
+        raise BadInput(
+            "pages need jinja2, which isn't installed", remedy=f"Install it: {_INSTALL}"
+        ) from None
 
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(web_file),
@@ -142,9 +150,7 @@ def package_file(package: str, path: str) -> bytes:
     for folder in (found.submodule_search_locations or ()) if found else ():
         if (file := Path(folder, path)).is_file():
             return file.read_bytes()
-    raise BadInput(
-        f"{path} is missing", where=package, remedy=f"Reinstall it: python -m pip install {package}"
-    )
+    raise BadInput(f"{path} is missing", where=package, remedy=f"Install it: {_INSTALL}")
 
 
 def _meshcat_bundle() -> bytes:

@@ -87,8 +87,19 @@ def test_actuation_determinants_have_one_sign_as_long_as_the_wrist_is_regular(ro
     product = np.sign(found.determinant) * np.sign(found.base_determinant)
     # The wrist's own determinant has the sign of sin θ1716, and ψ's of cos ψ > 0.
     assert (product * np.sign(np.sin(q[:, 4])) == product[0] * np.sign(np.sin(q[0, 4]))).all()
-    matrix = robot.rate_jacobian(q)[:, list(ACTUATORS)] * ([0.1] * 3 + [1.0] * 3)
+    # With respect to the tool's twist: ω = E (ψ̇, θ̇, φ̇).
+    matrix = robot.rate_jacobian(q)[:, list(ACTUATORS)]
+    angular = np.stack([angular_rate_matrix(pose) for pose in robot.pose(q)])
+    matrix[..., 3:] = matrix[..., 3:] @ np.linalg.inv(angular)
+    matrix *= [0.1] * 3 + [1.0] * 3
     np.testing.assert_allclose(found.condition, np.linalg.cond(matrix), rtol=1e-9)
+
+
+def test_singular_angles_of_the_tool_are_no_singularity_of_the_robot(pollard):
+    near = pollard.inverse_kinematics([0.4, 0.0, 0.0, np.pi / 2 - 1e-7, 0.1, 0.2], branch="useful")
+    q = near.angles[near.valid][0]
+    assert pollard.actuation(q).condition < 1e3
+    assert np.linalg.cond(pollard.rate_jacobian(q)[list(ACTUATORS)]) > 1e5
 
 
 def test_rates_at_an_unreachable_pose_are_refused(pollard):

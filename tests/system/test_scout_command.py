@@ -213,8 +213,8 @@ def test_ik_lists_branches_and_explains():
     assert done.stdout.count("valid") >= 1
     assert max(map(len, done.stdout.splitlines())) <= 80
     far = scout_pin("ik", "right", "--position", "0", "0", "-1")
-    assert far.returncode == 1
-    assert "Unreachable" in far.stdout
+    assert far.returncode == 2
+    assert "right foot: unreachable" in far.stderr
     document = json.loads(
         scout_pin("ik", "left", "--position", "-0.0445", "-0.02", "-0.22", "--json", "-").stdout
     )
