@@ -133,6 +133,7 @@ def inverse_dynamics(
             remedy="Use angles from inverse_kinematics or forward_kinematics",
         )
     flat = [np.broadcast_to(x, q.shape).reshape(-1, 12) for x in (q, v, a)]
+    _refuse_opening_rates(posture, flat[1])
     tau = tree_torques(pool, *flat)
     rows = np.ascontiguousarray(tau.T)
     one, two, sine = loop_forces(posture, rows)
@@ -144,6 +145,32 @@ def inverse_dynamics(
         tau.reshape(*shape, 12),
         sine.reshape(shape),
     )
+
+
+def _refuse_opening_rates(posture: Posture, v: np.ndarray) -> None:
+    """Rates ``(n, 12)`` must move both sides of a ball joint alike."""
+    k = v.T
+    ey = np.zeros_like(posture.upper_arm)
+    ey[1] = 1.0
+    elbow = cross(k[0] * ey, posture.upper_arm)
+    omega = (k[0] + k[1]) * ey + k[2] * posture.forearm_axes[2]
+    limit = TOLERANCES.loop_motion * (1.0 + np.abs(k).max(axis=0))
+    for i in (0, 1):
+        k_21, k_65, k_76 = k[6 + 3 * i : 9 + 3 * i]
+        arm, rod = posture.arms[i], posture.rods[i]
+        ez = np.zeros_like(arm)
+        ez[2] = k_21
+        turn = ez + k_65 * posture.pitch_axes[i] + k_76 * posture.yaw_axes[i]
+        gap = elbow + cross(omega, posture.levers[i]) - cross(ez, arm) - cross(turn, rod)
+        size = np.sqrt(dot(gap, gap))
+        if (size > limit).any():
+            sample = int(np.argmax(size > limit))
+            raise BadInput(
+                f"the rates open ball joint {i + 1} at {size[sample]:.2e} m/s",
+                where=f"sample {sample}",
+                allowed=f"{limit[sample]:.1e} m/s",
+                remedy="Use the rates of joint_motion",
+            )
 
 
 @dataclass(frozen=True)

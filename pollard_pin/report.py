@@ -136,10 +136,12 @@ class TrajectoryReport:
         return reading, np.abs(found.torque).max(axis=0)
 
     def assumptions(self) -> list[dict[str, Any]]:
-        """Numbers the thesis leaves open, with their reasons."""
+        """Numbers the thesis leaves open and this report rests on, with their reasons."""
         result: list[dict[str, Any]] = []
         entries = self.robot.specification.assumptions.model_dump(mode="json")
         for name, entry in entries.items():
+            if name in ("motion", "placement") and self.path.name != "appendix B":
+                continue  # a path of one's own has its own time and place
             if name == "replaced_inertias":
                 if self.robot.inertia == "physical":
                     result += [{"name": f"inertia of {e['link']}", **e} for e in entry]

@@ -66,8 +66,21 @@ def print_report(report: TrajectoryReport) -> None:
         f"{', '.join(f'{value:.3f}' for value in reading['peak_torque'][:3])} N·m.",
         "",
         "These numbers rest on assumptions:",
-        *(f"- {one['name'].replace('_', ' ')}: {one['why']}" for one in report.assumptions()),
+        *(
+            f"- {one['name'].replace('_', ' ')}{_values(one)}: {one['why']}"
+            for one in report.assumptions()
+        ),
     )
+
+
+def _values(assumption: dict[str, Any]) -> str:
+    """The numbers of an assumption in brackets, if they are few."""
+    parts = [
+        f"{key.replace('_', ' ')} {value}"
+        for key, value in assumption.items()
+        if key not in ("name", "why", "link", "inertia", "inertia_convention")
+    ]
+    return f" ({', '.join(parts)})" if 0 < len(parts) <= 4 else ""
 
 
 def ik_document(solutions: Solutions) -> dict[str, Any]:

@@ -244,3 +244,11 @@ def test_forces_that_are_not_determined_are_refused(pollard, rng):
     }
     with pytest.raises(SingularPose, match="one direction"):
         loop_forces(replace(posture, **twins), np.ones((12, 1)))
+
+
+def test_rates_that_open_a_ball_joint_are_refused(robot, rng):
+    _, _, _, q, v, a = closed_motion(robot, rng, 20)
+    robot.inverse_dynamics(q, v, a)  # closed motions pass
+    v[7] += 1e-3 * rng.normal(size=12)
+    with pytest.raises(BadInput, match="sample 7: the rates open ball joint"):
+        robot.inverse_dynamics(q, v, a)
