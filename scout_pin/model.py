@@ -15,7 +15,7 @@ from scout_pin.geometry import LegGeometry
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.arrays import finite_array, pose_array
-from thesis_pin.errors import SingularPose, UnknownName
+from thesis_pin.errors import BadInput, SingularPose, UnknownName
 from thesis_pin.inertia import Reading
 from thesis_pin.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.rotations import euler_placement, euler_rate_matrix, invert
@@ -167,6 +167,8 @@ class Scout(LoadedRobot):
             SingularPose: φ_B = ±90°, where θ_B and ψ_B can't be told apart.
         """
         q = finite_array("q", q, 19)
+        if not np.linalg.norm(q[..., 3:7], axis=-1).all():
+            raise BadInput("a quaternion in q[3:7] is zero", allowed="unit quaternions")
         matrix = _rotation_matrix(q[..., 3:7])
         cosine = np.hypot(matrix[..., 0, 0], matrix[..., 0, 1])
         if (cosine < TOLERANCES.near_singular).any():
@@ -243,6 +245,13 @@ class Scout(LoadedRobot):
                 ("right_foot", right_foot),
             )
         ]
+        try:
+            np.broadcast_shapes(*(place.shape for place in placements))
+        except ValueError:
+            shapes = ", ".join(str(place.shape) for place in placements)
+            raise BadInput(
+                f"torso and feet have shapes {shapes}", allowed="equal stacks, or single poses"
+            ) from None
         given = None if reference is None else finite_array("reference", reference, 12)
         world_to_torso = invert(placements[0])
         sides = []

@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 import scout_pin
-from thesis_pin.errors import SingularPose, UnknownName, WrongShape
+from thesis_pin.errors import BadInput, SingularPose, UnknownName, WrongShape
 from thesis_pin.rotations import euler_placement
 
 
@@ -105,6 +105,12 @@ def test_unknown_choices_are_refused_with_the_known_ones(arguments):
 
 
 def test_wrong_shapes_are_refused(scout):
+    feet = scout.neutral_feet()
+    stacks = [np.broadcast_to(place, (n, 4, 4)) for place, n in ((np.eye(4), 3), (feet["left"], 2))]
+    with pytest.raises(BadInput, match="equal stacks"):
+        scout.inverse_kinematics(*stacks, feet["right"])
+    with pytest.raises(BadInput, match="quaternion"):
+        scout.to_thesis(np.zeros(19))
     with pytest.raises(WrongShape, match="18"):
         scout.to_free_flyer(np.zeros(19))
     with pytest.raises(UnknownName, match="side"):
