@@ -6,13 +6,15 @@ import argparse
 import difflib
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from thesis_pin.audit import Report
-from thesis_pin.equations import Catalogue, Equation
 from thesis_pin.errors import BadInput
 
-Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
+if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
+    from thesis_pin.audit import Report
+    from thesis_pin.equations import Catalogue, Equation
+
+    Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
 
 
 class Audit(Protocol):

@@ -57,11 +57,10 @@ def test_every_V_and_E_of_the_thesis_has_a_row(rows):
         assert {f"{letter}_{k}" for k in range(1, COEFFICIENTS[letter] + 1)} <= names
 
 
-def test_a_failure_without_a_mend_is_one_whose_brackets_do_not_balance(report):
-    for row in report.rows:
-        if row.verdict == "unexplained":
-            text = row.printed[-1]
-            assert text.count("(") != text.count(")"), row.id
+def test_only_these_failures_have_no_mend_yet(report):
+    """The list may only shrink: a new one is either mended or entered here with a reason."""
+    found = {row.id for row in report.rows if row.verdict == "unexplained"}
+    assert found == {f"pollard:{name}" for name in ("D:V_42", "D:V_71")}
 
 
 def test_corrections_are_given_only_where_the_print_fails(report):
@@ -116,6 +115,13 @@ def test_open_states_break_every_loop_and_closed_states_none():
         ("pollard:2.5.2:E_2", "holds"),
         ("pollard:2.5.3:E_10", "misprint"),
         ("pollard:2.8.4:E_54", "holds"),
+        ("pollard:2.5.1:2.49", "holds"),
+        ("pollard:2.5.1:dot_B_10", "holds"),
+        ("pollard:2.5.2:dot_X", "wrong"),
+        ("pollard:2.5.4:dot_b_13", "misprint"),
+        ("pollard:2.8.1:dot_A_1i", "misprint"),
+        ("pollard:2.8.2:dot_Z_i", "wrong"),
+        ("pollard:2.8.6:2.157", "holds"),
         ("pollard:D:V_1", "holds"),
         ("pollard:D:V_9", "wrong"),
         ("pollard:D:V_5", "misprint"),
@@ -135,6 +141,8 @@ def test_known_findings_come_out(rows, identity, verdict):
         ("pollard:2.7.1:C_1i", "+ 2", "- 2"),
         ("pollard:2.7.2:Z_i", r"z_{1312i}", r"z_{32i}"),
         ("pollard:2.8.2:E_40", "V_{50}", "V_{51}"),
+        ("pollard:2.5.5:2.66", r"\dot{b}_{13}", "b_{13}"),
+        ("pollard:2.8.4:dot_d_31", r"\dot{\theta}_{65i}", r"\dot{\theta}_{76i}"),
         ("pollard:D:V_6", r"\psi", r"\phi"),
         ("pollard:D:V_47", r"\theta_{54}", r"\theta_{43}"),
     ],
