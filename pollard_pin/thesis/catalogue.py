@@ -14,7 +14,14 @@ NOTATION = Notation(functions=FUNCTIONS, words=("signo", "Ec"))
 _FOLDER = Path(__file__).parent
 FILES = tuple(
     path
-    for name in ("section_2_4", "section_2_5", "section_2_7", "section_2_8", "appendix_d")
+    for name in (
+        "section_2_4",
+        "section_2_5",
+        "section_2_7",
+        "section_2_8",
+        "appendix_d",
+        "appendix_e",
+    )
     if (path := _FOLDER / f"{name}.toml").exists()
 )
 

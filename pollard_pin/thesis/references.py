@@ -159,6 +159,6 @@ _KINDS: tuple[tuple[str, _Answer], ...] = (
     (r"([ABC])_1([012])", _fourier),
     (r"([XYZ])(?:_([12]))?", _coordinate),
     (r"Ec_([1-4])", _side),
-    (r"([VE]_\d+)", _coefficient),
+    (r"([VEG]_\d+)", _coefficient),
     (r"r_(\d+)(?:\^0)?", _radius),
 )

@@ -127,6 +127,9 @@ def test_open_states_break_every_loop_and_closed_states_none():
         ("pollard:D:V_5", "misprint"),
         ("pollard:D:V_38", "holds"),
         ("pollard:D:V_50", "illegible"),
+        ("pollard:E:G_5", "holds"),
+        ("pollard:E:G_9", "wrong"),
+        ("pollard:E:G_28", "holds"),
     ],
 )
 def test_known_findings_come_out(rows, identity, verdict):
@@ -144,6 +147,7 @@ def test_known_findings_come_out(rows, identity, verdict):
         ("pollard:2.5.5:2.66", r"\dot{b}_{13}", "b_{13}"),
         ("pollard:2.8.4:dot_d_31", r"\dot{\theta}_{65i}", r"\dot{\theta}_{76i}"),
         ("pollard:D:V_6", r"\psi", r"\phi"),
+        ("pollard:E:G_36", r"\theta_{54}", r"\theta_{43}"),
         ("pollard:D:V_47", r"\theta_{54}", r"\theta_{43}"),
     ],
 )
