@@ -38,7 +38,6 @@ class References:
     def __init__(self, state: State) -> None:
         self.state = state
         self._values: dict[tuple[str, int, str], Value] = {}
-        self._moved: References | None = None
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
         """Value of a symbol; see :class:`thesis_pin.evaluation.Environment`."""

@@ -1,5 +1,6 @@
 """The audit of the Pollard thesis: computed, explained, current, honest about its gaps."""
 
+import json
 import math
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 
 from pollard_pin.audit import CAUSES, COEFFICIENTS, COMMAND, NUMBERS, audit, beyond, states
+from pollard_pin.cli import main
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.loops import opening
 from pollard_pin.thesis.rates import joint_rates
@@ -306,3 +308,26 @@ def test_illegible_lines_are_recorded_and_not_guessed():
         if equation.illegible:
             assert equation.printed == ()
             assert equation.mending == {}
+
+
+def test_the_command_explains_one_equation_by_its_short_id(capsys):
+    assert main(["audit", "--equation", "2.5.3:E_7"]) == 0
+    shown = capsys.readouterr().out
+    assert "misprint" in shown
+    assert "numbered one lower" in shown
+
+
+def test_the_command_writes_all_rows_as_json(tmp_path, capsys):
+    path = tmp_path / "audit.json"
+    assert main(["audit", "--json", str(path)]) == 0
+    data = json.loads(path.read_bytes())
+    assert len(data["rows"]) == len(catalogue().equations)
+    assert sum(data["counts"].values()) == len(data["rows"])
+    assert "not yet transcribed" in " ".join(capsys.readouterr().out.split())
+
+
+def test_an_unknown_equation_is_refused_with_names_that_exist(capsys):
+    assert main(["audit", "--equation", "D:V_99"]) == 2
+    message = capsys.readouterr().err
+    assert "D:V_99" in message
+    assert "pollard:D:V_9" in message
