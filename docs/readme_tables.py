@@ -72,7 +72,7 @@ def audits() -> Iterator[str]:
     """Verdict counts, from the generated documents (which have staleness tests of their own)."""
     yield "| thesis | equations | holds | misprint | wrong | illegible | not checkable |"
     yield "| --- | --- | --- | --- | --- | --- | --- |"
-    for name in ("scout",):
+    for name in ("scout", "pollard"):
         text = (ROOT / "docs" / "audit" / f"{name}.md").read_text(encoding="utf-8")
         line = re.search(r"^(\d+) equations of .*$", text, flags=re.MULTILINE)
         if line is None:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from thesis_pin import __version__
+from thesis_pin.audit_command import add_verb
 from thesis_pin.command_line import Parser, add_view_options, count, number, run
 
 
@@ -33,6 +34,7 @@ def parser() -> Parser:
     _add_info(verbs)
     _add_urdf(verbs)
     _add_check(verbs)
+    add_verb(verbs, "pollard-pin audit --equation 2.4.1:A_10", _later("audit"))
     return top
 
 

@@ -92,7 +92,7 @@ def _tiles(report: TrajectoryReport) -> list[Tile]:
 
 
 def _plots(report: TrajectoryReport) -> list[Plot]:
-    keep = thinned(len(report.joints.time), MOST_SAMPLES)
+    keep = thinned(report.joints.time, MOST_SAMPLES)
     return [
         _path_from_ahead(report, keep),
         *_singularity(report, keep),

@@ -257,3 +257,10 @@ def check(arguments: argparse.Namespace) -> int:
     if arguments.json != "-":
         print_check(document)
     return OK
+
+
+def audit(arguments: argparse.Namespace) -> int:
+    """A verdict on each printed equation of the thesis."""
+    from pollard_pin.audit import run
+
+    return run(arguments)

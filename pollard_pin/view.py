@@ -41,7 +41,7 @@ def path_scene(report: TrajectoryReport) -> Scene:
     Args:
         report: The report; at most :data:`MOST_SAMPLES` of its samples are shown.
     """
-    robot, keep = report.robot, thinned(len(report.joints.time), MOST_SAMPLES)
+    robot, keep = report.robot, thinned(report.joints.time, MOST_SAMPLES)
     q = report.joints.q[keep]
     zone = margin_zone(report)[keep]
     largest = (float(np.abs(report.torque[:, :3]).max()), float(np.abs(report.torque[:, 3:]).max()))
@@ -135,7 +135,7 @@ def _tool(
         Trace("trace", "trace", tip, 2e-3, PURPLE),
         Arrow("spray", "spray", tip, along, 0.08, 3e-3, PURPLE),
     ]
-    for k in thinned(len(keep), _HAIRS):
+    for k in thinned(keep, _HAIRS):
         where, there = np.tile(tip[k], (len(keep), 1)), np.tile(along[k], (len(keep), 1))
         items.append(Arrow(f"spray {k}", "spray", where, there, 0.03, 8e-4, PURPLE, head=False))
     return items

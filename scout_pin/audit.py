@@ -6,11 +6,9 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import functools
 import math
-import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cached_property
 
@@ -24,9 +22,9 @@ from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from scout_pin.thesis.symbols.forces import matrix_entry
 from thesis_pin.audit import Claims, Report, judge
+from thesis_pin.audit_command import run_verb
 from thesis_pin.editions import EditionEnvironment
 from thesis_pin.equations import Catalogue, Equation
-from thesis_pin.errors import BadInput
 from thesis_pin.evaluation import evaluate
 from thesis_pin.formula import FormulaError, Symbol
 
@@ -55,6 +53,10 @@ BEYOND = (
     ("B.1, B.2", "a parts list and lengths: data, checked where they are used"),
     ("formulas inside sentences", "they repeat displayed ones"),
     ("appendix D's drawing commands", "they show the robot and compute nothing about it"),
+)
+EFFECTS = (
+    "Effects say what a reader meets who follows that one line and is right elsewhere:",
+    "the change of D q̈ + V q̇ + C relative to its largest entry, and of the gait's torques.",
 )
 COMMAND = "scout-pin audit --markdown docs/audit/scout.md"
 _RANDOM, _SEED = 5, 31847
@@ -233,7 +235,7 @@ def audit(
         f"inertia readings, two with unequal legs), 36 of them single-axis; the law of motion "
         f"at {law_states} more."
     )
-    return Report(THESIS, tuple(rows), NUMBERS, described, CAUSES, BEYOND)
+    return Report(THESIS, tuple(rows), NUMBERS, described, CAUSES, BEYOND, EFFECTS)
 
 
 def _once(claims: Claims) -> Claims:
@@ -246,62 +248,4 @@ def _once(claims: Claims) -> Claims:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the verb; returns the exit code."""
-    from thesis_pin import audit_report as faces
-    from thesis_pin.audit_page import page
-    from thesis_pin.command_line import OK, print_table, print_text, write_file
-    from thesis_pin.report import json_bytes
-
-    only = [_known(arguments.equation)] if arguments.equation else None
-    report = audit(only=only, progress=_progress)
-    if arguments.html:
-        write_file(arguments.html, page(report).encode())
-    if arguments.markdown:
-        write_file(arguments.markdown, faces.markdown(report, COMMAND).encode())
-    if arguments.json:
-        write_file(arguments.json, json_bytes(faces.document(report)))
-    if arguments.json == "-":
-        return OK
-    if only:
-        print_text(*faces.explain(report.rows[0]))
-        return OK
-    lines = list(faces.summary_lines(report))
-    print_text(*lines[:1])
-    columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
-    print_table(columns, faces.failure_rows(report, every=arguments.every))
-    print_text(
-        "Effect: the largest number of a row or group; blocked: the line can't be computed, or "
-        "following it leaves nothing to compute.",
-        *lines[1:],
-        "Without a verdict:",
-    )
-    for section in report.sections:
-        for reason in dict.fromkeys(reason for _, reason in section.gaps):
-            count = sum(one == reason for _, one in section.gaps)
-            print_text(f"  {section.name}, {count}: {reason}")
-    print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
-    return OK
-
-
-def _known(identity: str) -> str:
-    known = list(catalogue().by_id)
-    full = identity if identity.startswith("scout:") else f"scout:{identity}"
-    if full in known:
-        return full
-    near = difflib.get_close_matches(full, known, n=5, cutoff=0.5)
-    raise BadInput(
-        f"no equation is called {identity!r}",
-        where="--equation",
-        allowed=f"an id such as {', '.join(near) or known[0]}",
-        remedy="scout-pin audit --json - lists all ids",
-    )
-
-
-def _progress(equations: Iterable[Equation], total: int) -> Iterator[Equation]:
-    """A bar on standard error, on a terminal only."""
-    from rich.console import Console
-    from rich.progress import track
-
-    console = Console(stderr=True)
-    yield from track(
-        equations, "auditing", total=total, console=console, disable=not sys.stderr.isatty()
-    )
+    return run_verb(arguments, audit, catalogue(), "scout", COMMAND)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from thesis_pin import __version__
+from thesis_pin.audit_command import add_verb
 from thesis_pin.command_line import (
     LIMIT_VIOLATED,
     OK,
@@ -176,18 +177,7 @@ def _add_urdf(verbs: Any) -> None:
 
 
 def _add_audit(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "audit",
-        help="is this printed equation of the thesis right?",
-        description="A computed verdict on every printed equation of the thesis.",
-        epilog="Example: scout-pin audit --equation 4.3.3:dot_e_9i",
-    )
-    verb.add_argument("--equation", metavar="ID", help="explain one equation")
-    verb.add_argument("--every", action="store_true", help="list every failing line")
-    verb.add_argument("--json", metavar="FILE|-", help="write all rows as JSON")
-    verb.add_argument("--html", metavar="FILE", help="write a page with rendered formulas")
-    verb.add_argument("--markdown", metavar="FILE", help="write the audit as a document")
-    verb.set_defaults(run=_audit)
+    add_verb(verbs, "scout-pin audit --equation 4.3.3:dot_e_9i", _audit)
 
 
 def _audit(arguments: argparse.Namespace) -> int:

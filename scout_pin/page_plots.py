@@ -22,7 +22,7 @@ MOST_SAMPLES = 1201
 
 def report_plots(report: GaitReport) -> list[Plot]:
     """Every plot of a report, of at most :data:`MOST_SAMPLES` samples."""
-    keep = thinned(len(report.joints.time), MOST_SAMPLES)
+    keep = thinned(report.joints.time, MOST_SAMPLES)
     return [
         _plan(report, keep),
         *_balance(report, keep),

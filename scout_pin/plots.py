@@ -69,7 +69,7 @@ def joint_angles(report: GaitReport) -> Any:
 
 def stick_figures(report: GaitReport, frames: int = 8) -> Any:
     """The robot as a stick figure at moments of the gait, from the side and from the front: 5.3."""
-    some = thinned(len(report.joints.time), frames)
+    some = thinned(report.joints.time, frames)
     lines = _skeleton(report, some)
     figure, axes = new_figure(1.35 * len(some), 4.2, rows=2, columns=len(some))
     top = max(points[..., 2].max() for points in lines.values()) * 1e3 + 15

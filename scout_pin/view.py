@@ -47,7 +47,7 @@ def gait_scene(report: GaitReport) -> Scene:
     Args:
         report: The report; at most :data:`MOST_SAMPLES` of its samples are shown.
     """
-    robot, keep = report.robot, thinned(len(report.joints.time), MOST_SAMPLES)
+    robot, keep = report.robot, thinned(report.joints.time, MOST_SAMPLES)
     q = free_flyer_state(report.motion.torso, report.joints)[0][keep]
     height = float(report.com[:, 2].mean())
     size = height / 0.11  # overlays fit the thesis's robot, whose CoM is 0.11 m high

@@ -287,6 +287,7 @@ class Report:
         states: The states it was made at, in words.
         causes: Title of each shared slip.
         beyond: What lies outside the audit, and why.
+        effects: What the rows' effects are, as lines for the document.
     """
 
     thesis: str
@@ -295,6 +296,7 @@ class Report:
     states: str
     causes: Mapping[str, str]
     beyond: tuple[tuple[str, str], ...] = ()
+    effects: tuple[str, ...] = ()
 
     @property
     def counts(self) -> dict[str, int]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from thesis_pin.audit import HOLDS, VERDICTS, Report, Row
@@ -100,6 +101,18 @@ def grouped(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
     return list(groups.items())
 
 
+def ranges(names: Sequence[str]) -> str:
+    """Names in words, runs of consecutive numbers shortened: 2.1, 2.2, 2.3 → 2.1 … 2.3."""
+    runs: list[list[str]] = []
+    for name in names:
+        before = re.fullmatch(r"(.*?)(\d+)", runs[-1][-1]) if runs else None
+        if before and name == f"{before[1]}{int(before[2]) + 1}":
+            runs[-1].append(name)
+        else:
+            runs.append([name])
+    return ", ".join(f"{run[0]} … {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs)
+
+
 # -- terminal ---------------------------------------------------------------------
 
 
@@ -108,7 +121,7 @@ def summary_lines(report: Report) -> Iterator[str]:
     counts = ", ".join(f"{report.counts[v]} {v}" for v in VERDICTS if report.counts[v])
     yield f"{len(report.rows)} equations of the {report.thesis}: {counts}."
     covered = len(report.numbers) - len(report.missing_numbers)
-    missing = f"; missing: {', '.join(report.missing_numbers)}" if report.missing_numbers else ""
+    missing = f"; missing: {ranges(report.missing_numbers)}" if report.missing_numbers else ""
     yield f"Numbered equations covered: {covered} of {len(report.numbers)}{missing}."
     checked = sum(section.checked for section in report.sections)
     yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
@@ -181,8 +194,7 @@ def markdown(report: Report, command: str) -> str:
         "A *misprint* fails as printed and holds corrected; *wrong* is a physically wrong",
         "statement whose right form holds. Verdicts are computed from residuals: the largest",
         f"difference over all states, relative to the larger side; below {HOLDS:.0e} it holds.",
-        "Effects say what a reader meets who follows that one line and is right elsewhere:",
-        "the change of D q̈ + V q̇ + C relative to its largest entry, and of the gait's torques.",
+        *report.effects,
         "",
         "## Coverage",
         "",

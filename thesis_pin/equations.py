@@ -59,6 +59,7 @@ class Equation(Strict):
         cause: Name of the slip that several equations share.
         illegible: What is missing in the text, if it can't be read.
         not_checkable: Why nothing can be computed, if so.
+        closed: Whether it holds only where the mechanism's loops are closed.
         defines: Symbol that stands for the first factor of the member before the last, as
             J in ``ḃ = [i j k …] q̇ = J q̇``.
     """
@@ -78,6 +79,7 @@ class Equation(Strict):
     cause: str = ""
     illegible: str = ""
     not_checkable: str = ""
+    closed: bool = False
     defines: str = ""
 
     @property
@@ -206,7 +208,7 @@ class Catalogue:
         return found
 
 
-_LETTERS = re.compile(r"theta|phi|psi|tau|ZMP")
+_LETTERS = re.compile(r"theta|phi|psi|tau|ZMP|LDn")
 
 
 def free_indices(*nodes: Node) -> set[str]:

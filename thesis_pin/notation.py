@@ -148,7 +148,7 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         if isinstance(node, Symbol):
             if font in _PREFIX:
                 return replace(node, base=f"{_PREFIX[font]}:{node.base}")
-            return replace(node, bold=True)
+            return replace(node, bold=font not in ("\\text", "\\mathrm"))
         return node
 
     def accent(self, parts: list[Any]) -> Node:
@@ -214,6 +214,8 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             raise ValueError("a subscript on something that isn't a symbol")
         transposed = text.endswith("T")
         label = text.removesuffix("T") if transposed else text
+        if isinstance(node, _Group) and label.isdigit() and not transposed:
+            return Power(node, int(label))  # still an argument: c(α + β)^2 is a squared cosine
         if not isinstance(node, _Mark):
             node = _open(node)
         if label == "-1":
@@ -260,6 +262,12 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
                 raise ValueError(f"nothing follows {node.name or 'the derivative'}")
             return self._apply(node, self._next_factor(waiting))
         following = waiting[0] if waiting else None
+        if isinstance(node, Power) and isinstance(following, _Group):
+            # T^{-1}(θ) is the inverse of T(θ)
+            inner = node.base
+            if isinstance(inner, Symbol) and inner.name in self.notation.functions:
+                waiting.pop(0)
+                return Power(Call(inner.name, following.inside, inner.dots), node.exponent)
         if (
             isinstance(node, Symbol)
             and isinstance(following, Transpose)
@@ -328,4 +336,6 @@ def _open(node: Node) -> Node:
     """The node inside a bracket."""
     while isinstance(node, _Group):
         node = node.inside
+    if isinstance(node, Power) and isinstance(node.base, _Group):
+        return Power(_open(node.base), node.exponent)
     return node

@@ -302,9 +302,18 @@ class Scene:
                 )
 
 
-def thinned(count: int, most: int) -> np.ndarray:
-    """Indices of at most ``most`` evenly spread samples of ``count``, both ends included."""
-    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+def thinned(time: np.ndarray, most: int) -> np.ndarray:
+    """Indices of at most ``most`` evenly spread samples, both ends included.
+
+    Samples closer than a millionth of the whole, the two sides of one instant, count
+    as one: a page can't tell them apart.
+    """
+    moment = np.round((time - time[0]) / (time[-1] - time[0]) * 1e6)
+    apart = np.unique(moment, return_index=True)[1]
+    apart[-1] = len(time) - 1
+    return apart[
+        np.unique(np.linspace(0, len(apart) - 1, min(len(apart), most)).round().astype(int))
+    ]
 
 
 def frames(duration: float) -> int:

@@ -46,6 +46,11 @@ def test_what_no_page_could_show_is_refused_with_item_and_array(changes, error, 
 
 
 def test_thinning_keeps_both_ends_and_short_motions_whole():
-    assert scene.thinned(5, 10).tolist() == [0, 1, 2, 3, 4]
-    some = scene.thinned(10001, 1201)
+    assert scene.thinned(np.arange(5.0), 10).tolist() == [0, 1, 2, 3, 4]
+    some = scene.thinned(np.linspace(0, 4, 10001), 1201)
     assert (some[0], some[-1], len(some)) == (0, 10000, 1201)
+
+
+def test_both_sides_of_an_instant_are_one_moment_to_a_page():
+    time = np.array([0.0, 1e-9, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 2.0 - 1e-9, 2.0])
+    assert scene.thinned(time, 10).tolist() == [0, 2, 6]

@@ -1,0 +1,32 @@
+"""How the Pollard thesis writes, and the files with its equations."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+
+from thesis_pin.equations import Catalogue
+from thesis_pin.evaluation import FUNCTIONS
+from thesis_pin.notation import Notation
+
+NOTATION = Notation(functions=FUNCTIONS, words=("signo", "Ec"))
+
+_FOLDER = Path(__file__).parent
+FILES = tuple(
+    path
+    for name in (
+        "section_2_4",
+        "section_2_5",
+        "section_2_7",
+        "section_2_8",
+        "appendix_d",
+        "appendix_e",
+    )
+    if (path := _FOLDER / f"{name}.toml").exists()
+)
+
+
+@functools.cache
+def catalogue() -> Catalogue:
+    """All equations of the thesis that the audit knows."""
+    return Catalogue.read(FILES, NOTATION)

@@ -1,0 +1,130 @@
+"""The two sides of each loop and what the thesis calls their parts.
+
+Source: Pollard thesis, (2.1) – (2.7), (2.24) – (2.44), (2.89) – (2.131).
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from pollard_pin.thesis.state import State, elementary, inverse
+
+
+def frame(state: State, name: str) -> np.ndarray | None:
+    """The transforms that rename a side of a loop (2.25 – 2.110)."""
+    t = state.transform
+    if name == "T_LDn":
+        return t("pose")
+    if name == "T_LDn2":
+        return inverse(t("T_03") @ t("T_315")) @ t("pose") @ t("nozzle")
+    if name == "T_LI":
+        return _product(state, "Rx", "theta_1615", "Rz", "theta_1716", "Rx", "theta_1817")
+    if name == "T_LDn3":
+        back = _product(state, "Rz", "theta_1716", "Rx", "theta_1817")
+        second = frame(state, "T_LDn2")
+        assert second is not None
+        return second @ inverse(back)
+    match = re.fullmatch(r"T_L(D|l|I)([12])([23]?)", name)
+    if match is None or (match[1] != "D" and match[3]):
+        return None
+    i = match[2]
+    if match[1] != "D":
+        return t("ball_i", i)
+    side_chain = t("T_02i", i) @ t("T_24i", i) @ t("T_48i", i)
+    found = inverse(side_chain) @ t("T_03") @ t("T_311i", i)
+    if match[3]:
+        found = found @ inverse(_product(state, "Rz", f"theta_1110{i}"))
+    if match[3] == "3":
+        found = found @ inverse(_product(state, "Ry", f"theta_109{i}"))
+    return found
+
+
+def _product(state: State, *moves: str) -> np.ndarray:
+    result = np.eye(4)
+    for move, name in zip(moves[::2], moves[1::2], strict=True):
+        result = result @ elementary(move, state.number(name))
+    return result
+
+
+def side(state: State, k: int, i: str = "") -> np.ndarray:
+    """Ec_1 … Ec_4: last columns of both sides of (2.3) and (2.90), shape ``(n, 4)``.
+
+    Those of a side chain are seen from frame 5i, after β54, as (2.98) and (2.100) are.
+    """
+    t = state.transform
+    if k == 1:
+        return t("T_315")[..., 3]
+    if k == 2:
+        return (inverse(t("T_03")) @ t("T_LD0"))[..., 3]
+    tilt = inverse(elementary("Rx", state.number("beta_54i", i)))
+    if k == 3:
+        return (tilt @ t("T_48i", i))[..., 3]
+    back = tilt @ inverse(t("T_02i", i) @ t("T_24i", i))
+    return (back @ t("T_03") @ t("T_311i", i))[..., 3]
+
+
+def opening(state: State, i: str = "") -> np.ndarray:
+    """|Ec_1|² − |Ec_2|², or |Ec_3|² − |Ec_4|² of a side chain, shape ``(n,)``."""
+    first, second = (side(state, k, i)[..., :3] for k in ((3, 4) if i else (1, 2)))
+    return (first * first).sum(axis=-1) - (second * second).sum(axis=-1)
+
+
+def between(state: State, name: str, i: str = "") -> np.ndarray | None:
+    """Vector r_ab of a loop equation: from origin b to origin a, base frame [m], ``(n, 3)``.
+
+    Args:
+        state: States.
+        name: Frame numbers as printed, without comma: "10", "1918", "1451".
+        i: Chain, where the equation is a side chain's.
+    """
+    own = _SPANS_I.get(name.removesuffix(i)) if i and name.endswith(i) else None
+    spans = own or _SPANS_0.get(name)
+    if spans is None:
+        return None
+    ends = []
+    for path in spans:
+        placement = np.eye(4)
+        for move, number in path:
+            value = state.number(number, i)
+            value = -value if move[0] == "-" else value
+            placement = placement @ elementary(move.removeprefix("-"), value)
+        ends.append(placement[..., :3, 3])
+    return ends[1] - ends[0]
+
+
+_Path = tuple[tuple[str, str], ...]
+_TO_2: _Path = (("z", "z_10"), ("Ry", "theta_21"))
+_TO_3: _Path = (*_TO_2, ("x", "x_32"))
+_TO_5: _Path = (*_TO_3, ("Ry", "theta_43"), ("Rz", "theta_54"))
+_TO_14: _Path = (*_TO_5, ("x", "x_65"))
+_TO_15: _Path = (*_TO_14, ("x", "x_1514"))
+_TO_18: _Path = (*_TO_15, ("Rx", "theta_1615"), ("Rz", "theta_1716"), ("Rx", "theta_1817"))
+_TIP: _Path = (
+    *(("x", "x"), ("y", "y"), ("z", "z")),
+    *(("Rx", "theta"), ("Ry", "psi"), ("Rz", "phi")),
+)
+_TO_2I: _Path = (("y", "signed_y_10i"), ("Rz", "theta_21i"))
+_SPANS_0: dict[str, tuple[_Path, _Path]] = {
+    "10": ((), _TO_2),
+    "32": (_TO_2, _TO_3),
+    "145": (_TO_5, _TO_14),
+    "1514": (_TO_14, _TO_15),
+    "1918": (_TO_18, (*_TO_18, ("x", "x_1918"))),
+    "5": ((), _TIP),
+}
+_TO_3I: _Path = (*_TO_2I, ("-z", "z_32i"))
+_TO_4I: _Path = (*_TO_3I, ("x", "x_43i"))
+_TO_7I: _Path = (*_TO_4I, ("Rx", "beta_54i"), ("Ry", "theta_65i"), ("Rz", "theta_76i"))
+_TO_13I: _Path = (*_TO_14, ("-Rz", "beta_1413i"))
+_TO_12I: _Path = (*_TO_13I, ("-z", "z_1312i"))
+_SPANS_I: dict[str, tuple[_Path, _Path]] = {
+    "10": ((), _TO_2I),
+    "32": (_TO_2I, _TO_3I),
+    "43": (_TO_3I, _TO_4I),
+    "87": (_TO_7I, (*_TO_7I, ("x", "x_87i"))),
+    "145": (_TO_5, _TO_14),
+    "1312": (_TO_12I, _TO_13I),
+    "1211": ((*_TO_12I, ("-x", "x_1211i")), _TO_12I),
+}

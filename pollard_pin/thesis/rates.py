@@ -1,0 +1,287 @@
+"""Coefficients V, E and G: what multiplies each rate in the thesis's rate equations.
+
+Each rate equation comes from differentiating one relation of the positions; the
+relation's shape (which denominator it is brought to) is the thesis's, every
+derivative in it is a complex step through products of transforms:
+
+- V: coefficients of the relation, where every variable may move on its own;
+- G: the same for accelerations, without the terms that need only rates;
+- E: the joint's rate per rate of the pose on the *closed* mechanism, times the
+  same denominator. The rates solve the loops' linear equations.
+
+Source: Pollard thesis, 2.5 (2.49 – 2.74), 2.8 (2.132 – 2.160).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pollard_pin.thesis.loops import frame, opening, side
+from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, inverse, own_name
+from thesis_pin.values import STEP
+
+Along = Mapping[str, float]
+_Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarray]]]
+
+
+def derivative(
+    of: Callable[[State], np.ndarray], state: State, along: Mapping[str, float | np.ndarray]
+) -> np.ndarray:
+    """Exact derivative of a function of states along a direction."""
+    return np.asarray(np.imag(of(state.step(dict(along)))) / STEP)
+
+
+def _first(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
+    """(2.8), (2.95): opening(θ21, …) = 0."""
+
+    def numerator(along: Along) -> np.ndarray:
+        return -derivative(lambda s: opening(s, i), state, along)
+
+    return derivative(lambda s: opening(s, i), state, {f"theta_21{i}": 1.0}), numerator
+
+
+def _second(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
+    """(2.52), (2.137): from tan θ = −Z/X."""
+    which, angle = (4, f"theta_65{i}") if i else (2, "theta_43")
+    theta, at = state.variables[angle], side(state, which, i)
+
+    def numerator(along: Along) -> np.ndarray:
+        rate = derivative(lambda s: side(s, which, i), state, along)
+        return -rate[:, 2] * np.cos(theta) - rate[:, 0] * np.sin(theta)
+
+    return at[:, 0] * np.cos(theta) - at[:, 2] * np.sin(theta), numerator
+
+
+def _third(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
+    """(2.57), (2.142): from tan θ = Y cos θ' / X."""
+    which, angle, other = (4, "theta_76", "theta_65") if i else (2, "theta_54", "theta_43")
+    at, bend = side(state, which, i), state.variables[other + i]
+    x, y, square = at[:, 0], at[:, 1], np.cos(state.variables[angle + i]) ** 2
+
+    def numerator(along: Along) -> np.ndarray:
+        rate = derivative(lambda s: side(s, which, i), state, along)
+        turned = along.get(other + i, 0.0)
+        plain = (rate[:, 1] * x - rate[:, 0] * y) * np.cos(bend)
+        return square * (plain - turned * x * y * np.sin(bend))
+
+    return x**2, numerator
+
+
+def _element(state: State, name: str, row: int, column: int) -> np.ndarray:
+    found = frame(state, name)
+    assert found is not None
+    return np.asarray(found[:, row - 1, column - 1])
+
+
+def _quotient(
+    letter: str, angle: str, above: tuple[int, int], below: tuple[int, int], sign: int
+) -> _Relation:
+    """From tan θ = sign · above / below, two elements of one transform."""
+
+    def relation(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
+        name = {"b": "T_LDn2", "c": "T_LDn3", "d": f"T_LD{i}"}
+        name |= {"e": f"T_LD{i}2", "f": f"T_LD{i}3"}
+
+        def up(s: State) -> np.ndarray:
+            return _element(s, name[letter], *above)
+
+        def down(s: State) -> np.ndarray:
+            return _element(s, name[letter], *below)
+
+        first, second = up(state), down(state)
+        square = np.cos(state.variables[angle + i]) ** 2
+
+        def numerator(along: Along) -> np.ndarray:
+            change = derivative(up, state, along) * second - first * derivative(down, state, along)
+            return sign * square * change
+
+        return second**2, numerator
+
+    return relation
+
+
+def _yaw(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
+    """(2.66): from tan θ1716 = b13 csc θ1817 / b11."""
+    theta, last = state.variables["theta_1716"], state.variables["theta_1817"]
+    b_11, b_13 = (_element(state, "T_LDn2", 1, k) for k in (1, 3))
+
+    def numerator(along: Along) -> np.ndarray:
+        rate_11, rate_13 = (
+            derivative(lambda s, k=k: _element(s, "T_LDn2", 1, k), state, along)  # type: ignore[misc]
+            for k in (1, 3)
+        )
+        turned = along.get("theta_1817", 0.0) / np.tan(last)
+        change = b_13 * rate_11 - b_11 * rate_13 + b_11 * b_13 * turned
+        return -(np.cos(theta) ** 2) * change / np.sin(last)
+
+    return b_11**2, numerator
+
+
+@dataclass(frozen=True)
+class Row:
+    """One rate equation: θ̇ = (Σ V rate) / V_first = (Σ E pose rate) / V_first.
+
+    Attributes:
+        angle: Whose rate it gives; a side chain's without its number.
+        first: Number of the V that is the denominator.
+        variables: What the following V multiply; "i" stands for the chain.
+        pose: Number of the first of the six E; 0 where the V serve.
+        relation: Denominator and numerator as derived.
+    """
+
+    angle: str
+    first: int
+    variables: tuple[str, ...]
+    pose: int
+    relation: _Relation
+
+
+_ANGLES_0 = ("psi", "theta", "phi", "theta_21", "theta_54")
+_ANGLES_I = ("theta_21", "theta_43", "theta_54", "theta_21i", "theta_65i")
+ROWS = (
+    Row("theta_21", 1, POSE, 0, _first),
+    Row("theta_43", 8, ("x", "z", "psi", "theta", "phi", "theta_21"), 1, _second),
+    Row("theta_54", 15, ("x", "y", "psi", "theta", "phi", "theta_21", "theta_43"), 7, _third),
+    Row("theta_1817", 23, _ANGLES_0, 13, _quotient("b", "theta_1817", (1, 3), (1, 2), -1)),
+    Row("theta_1716", 29, (*_ANGLES_0, "theta_1817"), 19, _yaw),
+    Row(
+        "theta_1615",
+        36,
+        (*_ANGLES_0, "theta_1817", "theta_1716"),
+        25,
+        _quotient("c", "theta_1615", (3, 2), (2, 2), 1),
+    ),
+    Row("theta_21i", 44, ("theta_21", "theta_43", "theta_54"), 31, _first),
+    Row("theta_65i", 48, ("theta_21", "theta_43", "theta_54", "theta_21i"), 37, _second),
+    Row("theta_76i", 53, _ANGLES_I, 43, _third),
+    Row("theta_1110i", 59, _ANGLES_I, 49, _quotient("d", "theta_1110", (3, 2), (3, 1), -1)),
+    Row(
+        "theta_109i",
+        65,
+        ("theta_21", "theta_54", "theta_21i", "theta_65i", "theta_1110i"),
+        55,
+        _quotient("e", "theta_109", (3, 1), (3, 3), -1),
+    ),
+    Row(
+        "theta_98i",
+        71,
+        (*_ANGLES_I, "theta_76i", "theta_1110i", "theta_109i"),
+        61,
+        _quotient("f", "theta_98", (2, 1), (1, 1), 1),
+    ),
+)
+"""Rate equations (2.51), (2.54), … (2.156); in some, one V multiplies θ̇21 + θ̇43."""
+
+
+_ACCELERATIONS: dict[str, tuple[int, int]] = {
+    "theta_21": (0, 1),
+    "theta_43": (0, 8),
+    "theta_54": (15, 16),
+    "theta_1817": (23, 24),
+    "theta_1716": (31, 32),
+    "theta_1615": (39, 40),
+}
+"""Angle → number of G's denominator (0: that of V), number of the first of the pose's six."""
+
+
+def _acceleration(state: State, number: int) -> np.ndarray | None:
+    """G: what multiplies a pose's acceleration; the denominator is X³, b12³, … for X², b12², …
+
+    A rate's coefficient is its acceleration's as well; (2.81) – (2.87) only bring it to
+    the cube of the element whose square is the denominator of the V.
+    """
+    elements: dict[str, Callable[[State], np.ndarray]] = {
+        "theta_54": lambda s: side(s, 2)[:, 0],
+        "theta_1817": lambda s: _element(s, "T_LDn2", 1, 2),
+        "theta_1716": lambda s: _element(s, "T_LDn2", 1, 1),
+        "theta_1615": lambda s: _element(s, "T_LDn3", 2, 2),
+    }
+    for row in ROWS:
+        if row.angle not in _ACCELERATIONS:
+            continue
+        below, first = _ACCELERATIONS[row.angle]
+        scale = elements[row.angle](state) if below else np.ones(state.size)
+        square, numerator = row.relation(state, "")
+        if below and number == below:
+            return square * scale
+        if first <= number < first + 6:
+            return numerator({POSE[number - first]: 1.0}) * scale
+    return None
+
+
+def coefficient(state: State, name: str, i: str) -> np.ndarray | None:
+    """Value of "V_14", "E_3" or "G_8"; None if there is none, or it needs a chain and has none."""
+    letter, number = name[0], int(name[2:])
+    if letter == "G":
+        return _acceleration(state, number)
+    for row in ROWS:
+        chain = i if row.angle.endswith("i") else ""
+        if row.angle.endswith("i") and not i:
+            continue
+        if letter == "V" and row.first <= number <= row.first + len(row.variables):
+            below, numerator = row.relation(state, chain)
+            if number == row.first:
+                return below
+            return numerator({own_name(row.variables[number - row.first - 1], i): 1.0})
+        if letter == "E" and row.pose and row.pose <= number < row.pose + 6:
+            below, _ = row.relation(state, chain)
+            rate = joint_rates(state)[own_name(row.angle, i)]
+            return np.asarray(below * rate[:, number - row.pose])
+    return None
+
+
+def moving(state: State) -> State:
+    """A closed state whose joints move as its pose does."""
+    pose = np.stack([state.rates[name] for name in POSE], axis=-1)
+    joints = {name: (row * pose).sum(axis=-1) for name, row in joint_rates(state).items()}
+    return replace(state, rates={**state.rates, **joints})
+
+
+def joint_rates(state: State) -> dict[str, np.ndarray]:
+    """∂(angle)/∂(pose) of all angles on the closed mechanism, each ``(n, 6)``.
+
+    The gap of a loop is the placement of one end in the other's frame; its
+    derivative by the angles, times their rates, undoes its derivative by the pose.
+    """
+    state = State(state.constants, {k: np.real(v) for k, v in state.variables.items()}, state.rates)
+
+    def serial(s: State) -> np.ndarray:
+        chain = s.transform("T_03") @ s.transform("T_315") @ s.transform("T_1519")
+        return inverse(s.transform("pose")) @ chain
+
+    rates = _solve(serial, state, CHAIN_0, [{name: np.ones(1)} for name in POSE])
+    result = dict(zip(CHAIN_0, rates, strict=True))
+    for i in "12":
+
+        def loop(s: State, i: str = i) -> np.ndarray:
+            chain = s.transform("T_02i", i) @ s.transform("T_24i", i) @ s.transform("T_48i", i)
+            return inverse(s.transform("T_03") @ s.transform("T_311i", i)) @ (
+                chain @ s.transform("ball_i", i)
+            )
+
+        moving = [{name: result[name][:, k] for name in CHAIN_0} for k in range(6)]
+        names = [name + i for name in SIDE]
+        result |= dict(zip(names, _solve(loop, state, names, moving), strict=True))
+    return result
+
+
+def _solve(
+    gap: Callable[[State], np.ndarray],
+    state: State,
+    unknown: list[str] | tuple[str, ...],
+    given: list[dict[str, np.ndarray]],
+) -> list[np.ndarray]:
+    """Rates of unknown variables that keep a gap as it is while the given ones move."""
+
+    def twist(along: Mapping[str, float | np.ndarray]) -> np.ndarray:
+        rate = inverse(gap(state)) @ derivative(gap, state, along)
+        parts = [rate[:, 0, 3], rate[:, 1, 3], rate[:, 2, 3]]
+        return np.stack([*parts, rate[:, 2, 1], rate[:, 0, 2], rate[:, 1, 0]], axis=-1)
+
+    matrix = np.stack([twist({name: 1.0}) for name in unknown], axis=-1)
+    right = np.stack([twist(along) for along in given], axis=-1)
+    solved = np.linalg.solve(matrix, -right)
+    return [solved[:, k] for k in range(len(unknown))]

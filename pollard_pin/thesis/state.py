@@ -1,0 +1,189 @@
+"""A batch of states of the mechanism, closed or not, and its transforms.
+
+Every angle and every task coordinate is a variable of its own. On *open* states
+all of them are random, so that no identity of the closed loop hides a slip; on
+*closed* states the pose follows from chain 0 and the bases of the side chains
+are put where the loops close. Nothing of the thesis's derivations is used.
+
+Arrays are ``(n,)``, one number a state, and may be complex: a complex step
+differentiates exactly.
+
+Source: Pollard thesis, 2.4 and 2.7 (transformations).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from pollard_pin.geometry import pose_from_placement
+from thesis_pin.rotations import rotation, transform
+from thesis_pin.values import STEP
+
+POSE = ("x", "y", "z", "psi", "theta", "phi")
+"""Task coordinates (2.3)."""
+CHAIN_0 = ("theta_21", "theta_43", "theta_54", "theta_1615", "theta_1716", "theta_1817")
+SIDE = ("theta_21", "theta_65", "theta_76", "theta_98", "theta_109", "theta_1110")
+VARIABLES = (*POSE, *CHAIN_0, *(f"{name}{i}" for i in "12" for name in SIDE))
+"""All angles [rad] and task coordinates [m, rad]."""
+LENGTHS_0 = ("z_10", "x_32", "x_65", "x_1514", "x_1918")
+CONSTANTS_I = ("y_10", "z_32", "x_43", "x_87", "x_1211", "z_1312", "beta_54", "beta_1413")
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+# Factors of each transform: elementary move, sign, what it moves by.
+_FACTORS: dict[str, tuple[tuple[str, int, str], ...]] = {
+    "T_03": (("z", 1, "z_10"), ("Ry", 1, "theta_21"), ("x", 1, "x_32")),
+    "T_315": (
+        *(("Ry", 1, "theta_43"), ("Rz", 1, "theta_54"), ("x", 1, "x_65")),
+        ("x", 1, "x_1514"),
+    ),
+    "T_1519": (
+        *(("Rx", 1, "theta_1615"), ("Rz", 1, "theta_1716"), ("Rx", 1, "theta_1817")),
+        ("x", 1, "x_1918"),
+    ),
+    "pose": (
+        *(("x", 1, "x"), ("y", 1, "y"), ("z", 1, "z")),
+        *(("Rx", 1, "theta"), ("Ry", 1, "psi"), ("Rz", 1, "phi")),
+    ),
+    "nozzle": (("x", -1, "x_1918"),),
+    "T_02i": (("y", 1, "signed_y_10i"), ("Rz", 1, "theta_21i")),
+    "T_24i": (("z", -1, "z_32i"), ("x", 1, "x_43i")),
+    "T_48i": (
+        *(("Rx", 1, "beta_54i"), ("Ry", 1, "theta_65i"), ("Rz", 1, "theta_76i")),
+        ("x", 1, "x_87i"),
+    ),
+    "ball_i": (("Rz", 1, "theta_98i"), ("Ry", 1, "theta_109i"), ("Rz", 1, "theta_1110i")),
+    "T_311i": (
+        *(("Ry", 1, "theta_43"), ("Rz", 1, "theta_54"), ("x", 1, "x_65")),
+        *(("Rz", -1, "beta_1413i"), ("z", -1, "z_1312i"), ("x", -1, "x_1211i")),
+    ),
+}
+TRANSFORMS = tuple(_FACTORS)
+
+
+def own_name(name: str, i: str) -> str:
+    """A name with its trailing i replaced by the chain's number: "theta_21i" → "theta_211"."""
+    return name[:-1] + i if name.endswith("i") and name not in ("psi", "phi") else name
+
+
+@dataclass(frozen=True)
+class State:
+    """Constants, variables and their rates at a batch of states.
+
+    Attributes:
+        constants: Lengths [m] and constant angles [rad] by the thesis's names, with
+            "signo1", "signo2".
+        variables: :data:`VARIABLES`.
+        rates: Their time derivatives.
+    """
+
+    constants: dict[str, np.ndarray]
+    variables: dict[str, np.ndarray]
+    rates: dict[str, np.ndarray]
+
+    def with_(self, **changed: np.ndarray) -> State:
+        """The same states with other values of some variables."""
+        return replace(self, variables={**self.variables, **changed})
+
+    def step(self, direction: dict[str, np.ndarray | float]) -> State:
+        """One imaginary step along a direction in the space of variables."""
+        moved = {
+            name: self.variables[name] + 1j * STEP * np.asarray(by)
+            for name, by in direction.items()
+        }
+        return self.with_(**moved)
+
+    def number(self, name: str, i: str = "") -> np.ndarray:
+        """A constant or variable; ``i`` stands for a trailing i of its name."""
+        name = own_name(name, i)
+        if name.startswith("signed_y_10"):
+            return self.constants[f"signo{name[-1]}"] * self.constants[f"y_10{name[-1]}"]
+        return self.variables[name] if name in self.variables else self.constants[name]
+
+    def transform(self, name: str, i: str = "") -> np.ndarray:
+        """A homogeneous transform of the thesis, shape ``(n, 4, 4)``."""
+        if name == "T_LD0":
+            return self.transform("pose") @ self.transform("nozzle")
+        factors = [(move, sign * self.number(by, i)) for move, sign, by in _FACTORS[name]]
+        result = elementary(*factors[0])
+        for factor in factors[1:]:
+            result = result @ elementary(*factor)
+        return result
+
+    @cached_property
+    def size(self) -> int:
+        """Number of states."""
+        return len(self.variables["x"])
+
+
+def elementary(move: str, value: np.ndarray) -> np.ndarray:
+    """A translation "x", "y", "z" or rotation "Rx", "Ry", "Rz", shape ``(n, 4, 4)``."""
+    if move[0] == "R":
+        return transform(rotation(move[1], value), np.zeros(3))
+    shift = np.zeros((*value.shape, 3), dtype=value.dtype)
+    shift[..., _AXES[move]] = value
+    return transform(np.eye(3), shift)
+
+
+def inverse(matrix: np.ndarray) -> np.ndarray:
+    """Inverse of rigid placements, complex ones included."""
+    turned = np.swapaxes(matrix[..., :3, :3], -1, -2)
+    return transform(turned, -(turned @ matrix[..., :3, 3:])[..., 0])
+
+
+def random_state(generator: np.random.Generator, size: int, *, closed: bool) -> State:
+    """Random geometry and random angles on the whole circle.
+
+    Args:
+        generator: Seeded.
+        size: Number of states, each a robot of its own; its two side chains differ
+            in every length and angle.
+        closed: Whether the pose and the side chains' bases close the loops.
+    """
+
+    def uniform(low: float, high: float) -> np.ndarray:
+        return generator.uniform(low, high, size)
+
+    constants = {name: uniform(0.3, 1.5) for name in LENGTHS_0}
+    for i in "12":
+        constants |= {f"{name}{i}": uniform(0.3, 1.5) for name in CONSTANTS_I[:6]}
+        constants |= {f"{name}{i}": uniform(-3.0, 3.0) for name in CONSTANTS_I[6:]}
+    constants |= {"signo1": -np.ones(size), "signo2": np.ones(size)}
+    # 0.3 rad from every multiple of a right angle: the thesis divides by sines and cosines.
+    quarter = np.pi / 2
+    variables = {
+        name: quarter * generator.integers(-2, 2, size) + uniform(0.3, quarter - 0.3)
+        for name in VARIABLES
+    }
+    rates = {name: uniform(-2.0, 2.0) for name in VARIABLES}
+    state = State(constants, variables, rates)
+    return _closed(state) if closed else state
+
+
+def _closed(state: State) -> State:
+    """The states with pose, bases and ball joints that close all loops."""
+    chain_0 = state.transform("T_03") @ state.transform("T_315") @ state.transform("T_1519")
+    pose = pose_from_placement(chain_0[:, :3, 3], chain_0[:, :3, :3])
+    changed = dict(zip(POSE, pose.T, strict=True))
+    constants = dict(state.constants)
+    for i in "12":
+        goal = state.transform("T_03") @ state.transform("T_311i", i)
+        turned = elementary("Rz", state.number("theta_21i", i))
+        rod = (turned @ state.transform("T_48i", i))[:, :3, 3]
+        gap = goal[:, :3, 3] - rod
+        # gap = (x_43 c θ21i, signo y_10 + x_43 s θ21i, −z_32)
+        angle = state.number("theta_21i", i)
+        arm = gap[:, 0] / np.cos(angle)
+        constants[f"x_43{i}"] = arm
+        constants[f"y_10{i}"] = (gap[:, 1] - arm * np.sin(angle)) * constants[f"signo{i}"]
+        constants[f"z_32{i}"] = -gap[:, 2]
+        rod_frame = turned @ state.transform("T_48i", i)
+        ball = np.swapaxes(rod_frame[:, :3, :3], -1, -2) @ goal[:, :3, :3]
+        sign = np.where(state.variables[f"theta_109{i}"] < 0, -1.0, 1.0)
+        sine = sign * np.hypot(ball[:, 0, 2], ball[:, 1, 2])
+        changed[f"theta_98{i}"] = np.arctan2(sign * ball[:, 1, 2], sign * ball[:, 0, 2])
+        changed[f"theta_109{i}"] = np.arctan2(sine, ball[:, 2, 2])
+        changed[f"theta_1110{i}"] = np.arctan2(sign * ball[:, 2, 1], -sign * ball[:, 2, 0])
+    return replace(state, constants=constants).with_(**changed)

@@ -1,0 +1,333 @@
+"""The audit of the Pollard thesis: computed, explained, current, honest about its gaps."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pollard_pin.audit import CAUSES, COEFFICIENTS, COMMAND, NUMBERS, audit, beyond, states
+from pollard_pin.cli import main
+from pollard_pin.thesis import catalogue
+from pollard_pin.thesis.loops import opening
+from pollard_pin.thesis.rates import joint_rates
+from pollard_pin.thesis.references import References
+from pollard_pin.thesis.state import POSE, State
+from thesis_pin import audit_page, audit_report
+from thesis_pin.audit import residual
+from thesis_pin.values import STEP
+
+from .conftest import random_poses
+
+DOCUMENT = Path(__file__).parents[2] / "docs" / "audit" / "pollard.md"
+
+
+@pytest.fixture(scope="module")
+def report():
+    return audit()
+
+
+@pytest.fixture(scope="module")
+def rows(report):
+    return {row.id: row for row in report.rows}
+
+
+def judged(equation):
+    """The verdict on one equation, the catalogue otherwise unchanged."""
+    return audit(catalogue().with_equation(equation), only=[equation.id]).rows[0]
+
+
+def test_the_numbers_are_those_of_the_thesis():
+    assert len(NUMBERS) == 333
+    known = {number for equation in catalogue().equations for number in equation.number}
+    assert known <= set(NUMBERS)
+
+
+def test_what_is_not_transcribed_is_counted_and_has_no_verdict(report):
+    text = " ".join(f"{what} {why}" for what, why in beyond(catalogue()))
+    assert f"{len(report.missing_numbers)} numbered equations" in text
+    names = {row.id.split(":", 2)[2] for row in report.rows}
+    for letter, count in COEFFICIENTS.items():
+        lacking = sum(f"{letter}_{k}" not in names for k in range(1, count + 1))
+        assert (f"{lacking} of {count} coefficients {letter}" in text) == (lacking > 0)
+
+
+def test_every_V_and_E_of_the_thesis_has_a_row(rows):
+    names = {identity.split(":", 2)[2] for identity in rows}
+    for letter in "VE":
+        assert {f"{letter}_{k}" for k in range(1, COEFFICIENTS[letter] + 1)} <= names
+
+
+def test_only_these_failures_have_no_mend_yet(report):
+    """The list may only shrink: a new one is either mended or entered here with a reason."""
+    found = {row.id for row in report.rows if row.verdict == "unexplained"}
+    assert found == {f"pollard:{name}" for name in ("D:V_42", "D:V_71")}
+
+
+def test_corrections_are_given_only_where_the_print_fails(report):
+    assert [row.id for row in report.rows if row.verdict == "holds" and row.corrected] == []
+
+
+def test_every_mended_failure_names_its_place_its_author_and_a_known_cause(report):
+    for row in report.failures:
+        if row.verdict == "unexplained":
+            continue
+        assert row.attribution in ("thesis", "scan"), row.id
+        assert row.why, row.id
+        assert row.places or row.reason, row.id
+        assert row.cause in ("", *CAUSES), row.id
+
+
+def test_every_gap_has_its_reason(report):
+    assert all(reason for section in report.sections for _, reason in section.gaps)
+    assert sum(section.rows for section in report.sections) == len(report.rows)
+
+
+def test_states_have_unequal_side_chains_and_tilted_joints():
+    for closed in (False, True):
+        constants = states(closed=closed).constants
+        for name in ("x_43", "y_10", "z_32", "x_87", "x_1211", "z_1312"):
+            assert np.all(np.abs(constants[f"{name}1"]) != np.abs(constants[f"{name}2"]))
+        assert np.all(np.abs(np.sin(constants["beta_541"])) > 1e-3)
+
+
+def test_open_states_break_every_loop_and_closed_states_none():
+    for i in ("", "1", "2"):
+        assert np.abs(opening(states(closed=False), i)).min() > 1e-3
+        assert np.abs(opening(states(closed=True), i)).max() < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("identity", "verdict"),
+    [
+        ("pollard:2.4.1:2.2", "wrong"),
+        ("pollard:2.4.1:A_10", "misprint"),
+        ("pollard:2.4.1:B_10", "holds"),
+        ("pollard:2.4.1:2.10", "holds"),
+        ("pollard:2.4.2:X", "wrong"),
+        ("pollard:2.4.2:Y", "holds"),
+        ("pollard:2.4.2:2.19", "wrong"),
+        ("pollard:2.4.4:2.29", "holds"),
+        ("pollard:2.4.6:c_22", "holds"),
+        ("pollard:2.7.1:C_1i", "holds"),
+        ("pollard:2.7.2:Y_i", "holds"),
+        ("pollard:2.7.4:d_31", "misprint"),
+        ("pollard:2.5.2:E_1", "misprint"),
+        ("pollard:2.5.2:E_2", "holds"),
+        ("pollard:2.5.3:E_10", "misprint"),
+        ("pollard:2.8.4:E_54", "holds"),
+        ("pollard:2.5.1:2.49", "holds"),
+        ("pollard:2.5.1:dot_B_10", "holds"),
+        ("pollard:2.5.2:dot_X", "wrong"),
+        ("pollard:2.5.4:dot_b_13", "misprint"),
+        ("pollard:2.8.1:dot_A_1i", "misprint"),
+        ("pollard:2.8.2:dot_Z_i", "wrong"),
+        ("pollard:2.8.6:2.157", "holds"),
+        ("pollard:D:V_1", "holds"),
+        ("pollard:D:V_9", "wrong"),
+        ("pollard:D:V_5", "misprint"),
+        ("pollard:D:V_38", "holds"),
+        ("pollard:D:V_50", "illegible"),
+        ("pollard:E:G_5", "holds"),
+        ("pollard:E:G_9", "wrong"),
+        ("pollard:E:G_28", "holds"),
+    ],
+)
+def test_known_findings_come_out(rows, identity, verdict):
+    assert rows[identity].verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("identity", "old", "new"),
+    [
+        ("pollard:2.4.1:B_10", r"s\theta s\phi", r"c\theta s\phi"),
+        ("pollard:2.4.6:c_32", r"\theta_{1817}", r"\theta_{1716}"),
+        ("pollard:2.7.1:C_1i", "+ 2", "- 2"),
+        ("pollard:2.7.2:Z_i", r"z_{1312i}", r"z_{32i}"),
+        ("pollard:2.8.2:E_40", "V_{50}", "V_{51}"),
+        ("pollard:2.5.5:2.66", r"\dot{b}_{13}", "b_{13}"),
+        ("pollard:2.8.4:dot_d_31", r"\dot{\theta}_{65i}", r"\dot{\theta}_{76i}"),
+        ("pollard:D:V_6", r"\psi", r"\phi"),
+        ("pollard:E:G_36", r"\theta_{54}", r"\theta_{43}"),
+        ("pollard:D:V_47", r"\theta_{54}", r"\theta_{43}"),
+    ],
+)
+def test_an_error_put_into_a_formula_that_holds_changes_its_verdict(rows, identity, old, new):
+    equation = catalogue()[identity]
+    assert rows[identity].verdict == "holds"
+    (text,) = equation.printed
+    assert old in text
+    broken = equation.model_copy(update={"printed": (text.replace(old, new, 1),)})
+    assert judged(broken).verdict == "unexplained"
+
+
+def test_every_swapped_sine_and_cosine_is_noticed(rows):
+    """In formulas of one line that hold, the first two and the last factors c θ or s θ."""
+    noticed = 0
+    for equation in catalogue().equations:
+        if rows[equation.id].check != "identity" or rows[equation.id].verdict != "holds":
+            continue
+        (text, *more) = equation.printed
+        places = [k for k in range(len(text) - 2) if text[k] in "cs" and text[k + 1] in " \\"]
+        places = [k for k in places if text[k + 1 :].lstrip().startswith(r"\theta")]
+        if more or not places:
+            continue
+        environment = References(states(closed=equation.closed))
+        for k in {places[0], places[len(places) // 2], places[-1]}:
+            swapped = text[:k] + ("s" if text[k] == "c" else "c") + text[k + 1 :]
+            found = residual(catalogue(), equation, (swapped,), environment, equation.left)
+            assert found.value > 1e-6, (equation.id, k)
+            noticed += 1
+    assert noticed > 100
+
+
+@pytest.mark.parametrize("identity", ["2.4.1:A_10", "2.5.3:E_7", "2.7.4:d_32", "D:V_5", "D:V_44"])
+def test_mending_a_formula_that_fails_makes_it_pass(rows, identity):
+    equation = catalogue()[f"pollard:{identity}"]
+    assert rows[equation.id].verdict == "misprint"
+    mended = equation.model_copy(update={"printed": equation.members("corrected"), "corrected": {}})
+    assert judged(mended).verdict == "holds"
+
+
+def test_the_coefficients_of_theta43_and_theta54_fail_because_220_is_in_the_base_frame(rows):
+    """With X and Z as (2.20) prints them, V_9 … V_14, V_16 and V_18 … V_21 are right."""
+    state = states(closed=False)
+
+    def printed(s):
+        wrist = s.transform("T_LD0")[:, :3, 3]
+        theta = s.variables["theta_21"]
+        x = wrist[:, 0] - s.constants["x_32"] * np.cos(theta)
+        z = wrist[:, 2] - s.constants["z_10"] + s.constants["x_32"] * np.sin(theta)
+        return np.stack([x, wrist[:, 1], z])
+
+    references = References(state)
+    look = catalogue().notation.symbol
+    x, y, _ = (references.lookup(look(name), {}).array for name in "XYZ")
+    pitch, yaw = state.variables["theta_43"], state.variables["theta_54"]
+
+    def rate(name):
+        return np.imag(printed(state.step({name: 1.0}))) / STEP
+
+    def second(name):
+        return -rate(name)[2] * np.cos(pitch) - rate(name)[0] * np.sin(pitch)
+
+    def third(name):
+        change = rate(name)[1] * x - rate(name)[0] * y
+        return np.cos(yaw) ** 2 * np.cos(pitch) * change
+
+    expected = {f"V_{k}": second for k in range(9, 15)} | {f"V_{k}": third for k in (16, 18)}
+    expected |= {f"V_{k}": third for k in (19, 20, 21)}
+    along = ("x", "z", "psi", "theta", "phi", "theta_21")
+    names = dict(zip([f"V_{k}" for k in range(9, 15)], along, strict=True))
+    names |= {"V_16": "x", "V_18": "psi", "V_19": "theta", "V_20": "phi", "V_21": "theta_21"}
+    from thesis_pin.evaluation import evaluate
+
+    for name, form in expected.items():
+        equation = catalogue()[f"pollard:D:{name}"]
+        assert rows[equation.id].cause == "base-frame"
+        value = evaluate(catalogue().parse(equation.printed[0]), references, {}).array
+        np.testing.assert_allclose(value, form(names[name]), atol=1e-12)
+
+
+def test_references_on_the_closed_mechanism_give_the_models_rates(robot, rng):
+    """The package's rate Jacobian is held against Pinocchio's; so E rests on both."""
+    poses = random_poses(rng, 40)
+    found = robot.inverse_kinematics(poses)
+    poses, q = poses[found.valid], found.angles[found.valid]
+    state = as_state(robot.specification, poses, q)
+    rates = joint_rates(with_balls(state))
+    names = ["theta_21", "theta_43", "theta_54", "theta_1615", "theta_1716", "theta_1817"]
+    names += [f"{name}{i}" for i in "12" for name in ("theta_21", "theta_65", "theta_76")]
+    expected = robot.rate_jacobian(q)
+    scale = np.abs(expected).max(axis=(1, 2), keepdims=True)
+    actual = np.stack([rates[name] for name in names], axis=1)
+    np.testing.assert_allclose(actual / scale, expected / scale, atol=1e-11)
+
+
+def as_state(specification, poses, q):
+    """Closed states of a robot of the package."""
+    count = len(q)
+    chain = specification.chain_0
+    names_0 = ("z_10", "x_32", "x_65", "x_1514", "x_1918")
+    constants = {name: np.full(count, getattr(chain, name)) for name in names_0}
+    signs = specification.assumptions.signs.value
+    for i, (side, sign) in enumerate(zip(specification.side_chains, signs, strict=True), start=1):
+        for name in ("y_10", "z_32", "x_43", "x_87", "x_1211", "z_1312"):
+            constants[f"{name}{i}"] = np.full(count, getattr(side, name))
+        for name in ("beta_54", "beta_1413"):
+            constants[f"{name}{i}"] = np.full(count, np.radians(getattr(side, f"{name}_deg")))
+        constants[f"signo{i}"] = np.full(count, float(sign))
+    variables = dict(zip(POSE, poses.T, strict=True))
+    order = ("theta_21", "theta_43", "theta_54", "theta_1615", "theta_1716", "theta_1817")
+    variables |= dict(zip(order, q.T, strict=False))
+    for i in (1, 2):
+        for k, name in enumerate(("theta_21", "theta_65", "theta_76")):
+            variables[f"{name}{i}"] = q[:, 3 + 3 * i + k]
+    return State(constants, variables, {})
+
+
+def with_balls(state):
+    """The states with the ball joints' angles that (2.107) gives."""
+    angles = {}
+    for i in "12":
+        side = state.transform("T_02i", i) @ state.transform("T_24i", i)
+        rod = (side @ state.transform("T_48i", i))[:, :3, :3]
+        goal = (state.transform("T_03") @ state.transform("T_311i", i))[:, :3, :3]
+        m = np.swapaxes(rod, -1, -2) @ goal
+        angles[f"theta_98{i}"] = np.arctan2(m[:, 1, 2], m[:, 0, 2])
+        angles[f"theta_109{i}"] = np.arctan2(np.hypot(m[:, 0, 2], m[:, 1, 2]), m[:, 2, 2])
+        angles[f"theta_1110{i}"] = np.arctan2(m[:, 2, 1], -m[:, 2, 0])
+    return state.with_(**angles)
+
+
+def test_residuals_leave_no_doubt_between_right_and_wrong(report):
+    printed = [row.residual_printed for row in report.rows if row.residual_printed is not None]
+    assert max(x for x in printed if x < 1e-9) < 1e-10
+    assert min(x for x in printed if x >= 1e-9) > 1e-2
+    corrected = [r.residual_corrected for r in report.failures if r.residual_corrected is not None]
+    assert max(corrected) < 1e-10
+    assert any(math.isinf(x) for x in printed)
+
+
+def test_the_document_is_current(report):
+    assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(report, COMMAND), (
+        f"stale: run {COMMAND}"
+    )
+
+
+def test_the_page_renders_every_formula_and_stays_small(report):
+    page = audit_page.page(report)
+    assert page.count("<article") == len(report.rows)
+    assert len(page.encode()) < 3_000_000
+    assert "http://" not in page
+
+
+def test_illegible_lines_are_recorded_and_not_guessed():
+    for equation in catalogue().equations:
+        if equation.illegible:
+            assert equation.printed == ()
+            assert equation.mending == {}
+
+
+def test_the_command_explains_one_equation_by_its_short_id(capsys):
+    assert main(["audit", "--equation", "2.5.3:E_7"]) == 0
+    shown = capsys.readouterr().out
+    assert "misprint" in shown
+    assert "numbered one lower" in shown
+
+
+def test_the_command_writes_all_rows_as_json(tmp_path, capsys):
+    path = tmp_path / "audit.json"
+    assert main(["audit", "--json", str(path)]) == 0
+    data = json.loads(path.read_bytes())
+    assert len(data["rows"]) == len(catalogue().equations)
+    assert sum(data["counts"].values()) == len(data["rows"])
+    assert "not yet transcribed" in " ".join(capsys.readouterr().out.split())
+
+
+def test_an_unknown_equation_is_refused_with_names_that_exist(capsys):
+    assert main(["audit", "--equation", "D:V_99"]) == 2
+    message = capsys.readouterr().err
+    assert "D:V_99" in message
+    assert "pollard:D:V_9" in message

@@ -1,0 +1,118 @@
+"""The verb ``audit`` of both commands: run, explain one equation, write documents."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Protocol
+
+from thesis_pin.errors import BadInput
+
+if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
+    from thesis_pin.audit import Report
+    from thesis_pin.equations import Catalogue, Equation
+
+    Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
+
+
+class Audit(Protocol):
+    """A robot's audit, of some equations or of all."""
+
+    def __call__(self, *, only: Iterable[str] | None, progress: Progress) -> Report:
+        """The report on the equations of these ids; None for all."""
+
+
+def add_verb(verbs: Any, example: str, run: Callable[[argparse.Namespace], int]) -> None:
+    """Add the verb to a command's parser; ``example`` is an invocation for its help."""
+    verb = verbs.add_parser(
+        "audit",
+        help="is this printed equation of the thesis right?",
+        description="A computed verdict on every printed equation of the thesis.",
+        epilog=f"Example: {example}",
+    )
+    verb.add_argument("--equation", metavar="ID", help="explain one equation")
+    verb.add_argument("--every", action="store_true", help="list every failing line")
+    verb.add_argument("--json", metavar="FILE|-", help="write all rows as JSON")
+    verb.add_argument("--html", metavar="FILE", help="write a page with rendered formulas")
+    verb.add_argument("--markdown", metavar="FILE", help="write the audit as a document")
+    verb.set_defaults(run=run)
+
+
+def run_verb(
+    arguments: argparse.Namespace, audit: Audit, catalogue: Catalogue, robot: str, command: str
+) -> int:
+    """Run the verb; returns the exit code.
+
+    Args:
+        arguments: As :func:`add_verb` reads them.
+        audit: The robot's audit.
+        catalogue: Its equations.
+        robot: First part of their ids, "scout" or "pollard".
+        command: What regenerates the document.
+    """
+    from thesis_pin import audit_report as faces
+    from thesis_pin.audit_page import page
+    from thesis_pin.command_line import OK, print_table, print_text, write_file
+    from thesis_pin.report import json_bytes
+
+    only = [known(arguments.equation, catalogue, robot)] if arguments.equation else None
+    report = audit(only=only, progress=progress_bar)
+    if arguments.html:
+        write_file(arguments.html, page(report).encode())
+    if arguments.markdown:
+        write_file(arguments.markdown, faces.markdown(report, command).encode())
+    if arguments.json:
+        write_file(arguments.json, json_bytes(faces.document(report)))
+    if arguments.json == "-":
+        return OK
+    if only:
+        print_text(*faces.explain(report.rows[0]))
+        return OK
+    lines = list(faces.summary_lines(report))
+    print_text(*lines[:1])
+    columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
+    print_table(columns, faces.failure_rows(report, every=arguments.every))
+    print_text(
+        "Effect: the largest number of a row or group; blocked: the line can't be computed, or "
+        "following it leaves nothing to compute.",
+        *lines[1:],
+        "Without a verdict:",
+    )
+    for section in report.sections:
+        for reason in dict.fromkeys(reason for _, reason in section.gaps):
+            count = sum(one == reason for _, one in section.gaps)
+            print_text(f"  {section.name}, {count}: {reason}")
+    print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
+    return OK
+
+
+def known(identity: str, catalogue: Catalogue, robot: str) -> str:
+    """The full id of an equation.
+
+    Raises:
+        BadInput: There is none; names the nearest.
+    """
+    listed = list(catalogue.by_id)
+    full = identity if identity.startswith(f"{robot}:") else f"{robot}:{identity}"
+    if full in listed:
+        return full
+    near = difflib.get_close_matches(full, listed, n=5, cutoff=0.5)
+    raise BadInput(
+        f"no equation is called {identity!r}",
+        where="--equation",
+        allowed=f"an id such as {', '.join(near) or listed[0]}",
+        remedy=f"{robot}-pin audit --json - lists all ids",
+    )
+
+
+def progress_bar(equations: Iterable[Equation], total: int) -> Iterator[Equation]:
+    """A bar on standard error, on a terminal only."""
+    from rich.console import Console
+    from rich.progress import track
+
+    console = Console(stderr=True)
+    yield from track(
+        equations, "auditing", total=total, console=console, disable=not sys.stderr.isatty()
+    )
