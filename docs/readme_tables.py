@@ -70,16 +70,18 @@ def paths() -> Iterator[str]:
 
 def audits() -> Iterator[str]:
     """Verdict counts, from the generated documents (which have staleness tests of their own)."""
-    yield "| thesis | equations | holds | misprint | wrong | illegible | not checkable |"
-    yield "| --- | --- | --- | --- | --- | --- | --- |"
+    verdicts = ("holds", "misprint", "wrong", "illegible", "not checkable", "unexplained")
+    yield f"| thesis | equations | {' | '.join(verdicts)} | numbered ones covered |"
+    yield "| --- " * 9 + "|"
     for name in ("scout", "pollard"):
         text = (ROOT / "docs" / "audit" / f"{name}.md").read_text(encoding="utf-8")
         line = re.search(r"^(\d+) equations of .*$", text, flags=re.MULTILINE)
         if line is None:
             raise SystemExit(f"docs/audit/{name}.md doesn't count its equations")
-        verdicts = ("holds", "misprint", "wrong", "illegible", "not checkable")
         counts = [re.search(rf"(\d+) {verdict}", line[0]) for verdict in verdicts]
+        covered = re.search(r"covered: (\d+ of \d+)", text)
         cells = [line[1], *(count[1] if count else "0" for count in counts)]
+        cells.append(covered[1] if covered else "")
         yield f"| [{name}](docs/audit/{name}.md) | {' | '.join(cells)} |"
 
 
