@@ -47,6 +47,7 @@ def _path(arguments: argparse.Namespace, specification: Any) -> Path:
 
 
 def trajectory(arguments: argparse.Namespace) -> int:
+    """Work out a path and write or print its report."""
     from pollard_pin.model import load
     from pollard_pin.report import trajectory_report
 
@@ -86,6 +87,7 @@ def trajectory(arguments: argparse.Namespace) -> int:
 
 
 def view(arguments: argparse.Namespace) -> int:
+    """Show a path in the browser, or write it as a page."""
     from pollard_pin.model import load
     from pollard_pin.report import trajectory_report
     from pollard_pin.view import path_scene
@@ -105,6 +107,7 @@ def view(arguments: argparse.Namespace) -> int:
 
 
 def ik(arguments: argparse.Namespace) -> int:
+    """Print or write the branches of one tool pose."""
     import numpy as np
 
     from pollard_pin.geometry import USEFUL_BRANCHES
@@ -127,6 +130,7 @@ def ik(arguments: argparse.Namespace) -> int:
 
 
 def fk(arguments: argparse.Namespace) -> int:
+    """Print or write the assembly modes of six motor angles."""
     import numpy as np
 
     from pollard_pin.model import load
@@ -145,6 +149,7 @@ def fk(arguments: argparse.Namespace) -> int:
 
 
 def workspace(arguments: argparse.Namespace) -> int:
+    """Map reach and conditioning over a slice or a volume."""
     import numpy as np
 
     from pollard_pin.model import load
@@ -214,6 +219,7 @@ class _Bar:
 
 
 def info(arguments: argparse.Namespace) -> int:
+    """Say what a specification describes."""
     from pollard_pin.info import document, print_info
     from pollard_pin.model import load
 
@@ -228,6 +234,7 @@ def info(arguments: argparse.Namespace) -> int:
 
 
 def urdf(arguments: argparse.Namespace) -> int:
+    """Print the URDF, or write every generated file."""
     from pollard_pin.specification import Specification
     from pollard_pin.urdf import files
     from pollard_pin.urdf import urdf as generate
@@ -246,6 +253,7 @@ def urdf(arguments: argparse.Namespace) -> int:
 
 
 def check(arguments: argparse.Namespace) -> int:
+    """Say whether a URDF and its closure file are sound."""
     from pollard_pin.tables import check_document, print_check
     from thesis_pin.closures import load
 

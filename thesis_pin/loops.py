@@ -198,6 +198,7 @@ def constraints(
 def constraint_drift(
     robot: ClosedRobot, data: pin.Data, q: np.ndarray, v: np.ndarray
 ) -> np.ndarray:
+    """Ȧ v at one closed configuration ``(nq,)``, shape ``(equations,)``."""
     pin.forwardKinematics(robot.model, data, q, v, np.zeros(robot.model.nv))
     pin.updateFramePlacements(robot.model, data)
     parts = [np.empty(0)]
@@ -213,6 +214,7 @@ def constraint_drift(
 
 
 def newton_close(robot: ClosedRobot, q: np.ndarray, movable: Any, iterations: int) -> np.ndarray:
+    """Newton steps of the movable joints from q ``(nq,)`` until the loops are closed."""
     data, best, size = robot.model.createData(), q, math.inf
     for _ in range(iterations):
         gap, matrix, _ = constraints(robot, data, q)
