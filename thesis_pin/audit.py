@@ -15,6 +15,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from thesis_pin.causes import Cause
 from thesis_pin.equations import Catalogue, Equation, index_values
 from thesis_pin.evaluation import Environment, evaluate
 from thesis_pin.formula import FormulaError
@@ -285,7 +286,7 @@ class Report:
         rows: One a printed equation.
         numbers: All equation numbers of the thesis.
         states: The states it was made at, in words.
-        causes: Title of each shared slip.
+        causes: Each shared slip, by its name in the rows.
         beyond: What lies outside the audit, and why.
         effects: What the rows' effects are, as lines for the document.
     """
@@ -294,7 +295,7 @@ class Report:
     rows: tuple[Row, ...]
     numbers: tuple[str, ...]
     states: str
-    causes: Mapping[str, str]
+    causes: Mapping[str, Cause]
     beyond: tuple[tuple[str, str], ...] = ()
     effects: tuple[str, ...] = ()
 

@@ -8,8 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from thesis_pin.audit import HOLDS, VERDICTS, Report, Row
+from thesis_pin.causes import Cause
 
-SCHEMA, VERSION = "thesis-pin/audit", 1
+SCHEMA, VERSION = "thesis-pin/audit", 2
 
 
 def document(report: Report) -> dict[str, Any]:
@@ -39,7 +40,15 @@ def document(report: Report) -> dict[str, Any]:
             ],
             "beyond": [{"what": what, "why": why} for what, why in report.beyond],
         },
-        "causes": dict(report.causes),
+        "causes": {
+            name: {
+                "title": cause.title,
+                "enters": cause.enters,
+                "explanation": cause.explanation,
+                "rows": [row.id for row in report.rows if row.cause == name],
+            }
+            for name, cause in report.causes.items()
+        },
         "rows": [row_document(row) for row in report.rows],
     }
 
@@ -133,7 +142,8 @@ def failure_rows(report: Report, *, every: bool = False) -> list[tuple[str, ...]
     groups = [(row.id, [row]) for row in report.failures] if every else grouped(report.failures)
     for name, rows in groups:
         worst = rows[0]
-        title = name.split(":", 1)[-1] if len(rows) == 1 else report.causes.get(name, name)
+        shared = report.causes.get(name) if len(rows) > 1 else None
+        title = shared.title if shared else name.split(":", 1)[-1]
         verdicts = "/".join(dict.fromkeys(row.verdict for row in rows))
         who = "/".join(dict.fromkeys(row.attribution for row in rows))
         effect = _worst_effect(worst)
@@ -157,27 +167,35 @@ def _short(text: str, width: int) -> str:
     return text if len(text) <= width else text[: width - 1] + "…"
 
 
-def explain(row: Row) -> Iterator[str]:
-    """Everything about one equation, line by line."""
-    yield f"{row.id}   {row.source}"
-    yield f"verdict    {row.verdict}" + (f", by the {row.attribution}" if row.attribution else "")
-    yield f"printed    {row.left}"
+def explain(row: Row, cause: Cause | None = None) -> Iterator[tuple[str, str]]:
+    """Everything about one equation: labels and what belongs to them.
+
+    Args:
+        row: The audit's answer.
+        cause: The slip it shares with other equations.
+    """
+    yield "equation", f"{row.id} ({row.source})"
+    yield "verdict", row.verdict + (f", by the {row.attribution}" if row.attribution else "")
+    yield "printed", row.left
     for member in row.printed:
-        yield f"             = {member}"
+        yield "", f"= {member}"
     for number, text in sorted(row.corrected.items()):
         label = "left side" if number == 0 else f"member {number}"
-        yield f"corrected  {label}: {text or '(nothing)'}"
+        yield "corrected", f"{label}: {text or '(nothing)'}"
     if row.residual_printed is not None:
-        yield f"residual   as printed {residual_text(row.residual_printed)}"
+        yield "residual", f"as printed {residual_text(row.residual_printed)}"
     if row.residual_corrected is not None:
-        yield f"           corrected {residual_text(row.residual_corrected)}"
+        yield "", f"corrected {residual_text(row.residual_corrected)}"
     for place in row.places:
-        yield f"where      {place}"
-    if row.effect:
-        yield f"effect     {effect_text(row)}"
-    for label, text in (("because", row.reason), ("guess", row.why), ("note", row.note)):
-        if text:
-            yield f"{label:<10} {text}"
+        yield "where", place
+    texts = (
+        *(("effect", effect_text(row)), ("because", row.reason)),
+        *(("guess", row.why), ("note", row.note)),
+    )
+    yield from ((label, text) for label, text in texts if text)
+    if cause:
+        yield "cause", f"{cause.title}; enters in {cause.enters}"
+        yield "", cause.explanation
 
 
 # -- Markdown -----------------------------------------------------------------------
@@ -209,10 +227,36 @@ def markdown(report: Report, command: str) -> str:
     lines += ["", "## Failures by cause", ""]
     lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
     lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
-    lines += ["", "## Failures", ""]
+    lines += ["", "## Root causes", "", "Slips that several lines share, and where they enter.", ""]
+    for name, cause in used_causes(report):
+        lines += _markdown_cause(cause, [row for row in report.failures if row.cause == name])
+    lines += ["## Failures", ""]
     for row in report.failures:
         lines += _markdown_row(row)
     return "\n".join(lines) + "\n"
+
+
+def used_causes(report: Report) -> Iterator[tuple[str, Cause]]:
+    """Slips that failing rows of a report share, in the order of its causes."""
+    used = {row.cause for row in report.failures}
+    return ((name, cause) for name, cause in report.causes.items() if name in used)
+
+
+def _markdown_cause(cause: Cause, rows: Sequence[Row]) -> Iterator[str]:
+    names = sorted((row.id.split(":", 1)[1] for row in rows), key=_natural)
+    yield f"### {cause.title}"
+    yield ""
+    yield f"Enters in: {cause.enters}."
+    yield ""
+    yield cause.explanation
+    yield ""
+    yield f"Lines ({len(names)}): {ranges(names)}."
+    yield ""
+
+
+def _natural(name: str) -> list[str]:
+    """Sorts V_9 before V_10."""
+    return [part.zfill(4) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
 
 
 def _gaps(gaps: tuple[tuple[str, str], ...]) -> str:
