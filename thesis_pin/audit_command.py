@@ -73,6 +73,9 @@ def run_verb(
         return OK
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])
+    print_table(*faces.chapter_table(report), title="verdicts by chapter")
+    print_table(*faces.kind_table(report), title="mended lines by kind of slip")
+    print_text(faces.KIND_NOTE, "")
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
     print_table(columns, faces.failure_rows(report, every=arguments.every))
     print_text(

@@ -9,6 +9,7 @@ from typing import Any
 
 from thesis_pin.audit import HOLDS, VERDICTS, Report, Row
 from thesis_pin.causes import Cause
+from thesis_pin.kinds import KINDS
 
 SCHEMA, VERSION = "thesis-pin/audit", 2
 
@@ -25,6 +26,8 @@ def document(report: Report) -> dict[str, Any]:
         "states": report.states,
         "holds_below": HOLDS,
         "counts": report.counts,
+        "chapters": report.by_chapter,
+        "kinds": {kind: {"is": KINDS[kind], **counts} for kind, counts in report.by_kind.items()},
         "coverage": {
             "numbered": len(report.numbers) - len(report.missing_numbers),
             "numbers": len(report.numbers),
@@ -68,6 +71,7 @@ def row_document(row: Row) -> dict[str, Any]:
         "residual_printed": _finite(row.residual_printed),
         "residual_corrected": _finite(row.residual_corrected),
         "places": list(row.places),
+        "kinds": list(row.kinds),
         "reason": row.reason or None,
         "effect": row.effect or None,
         "note": row.note or None,
@@ -136,6 +140,28 @@ def summary_lines(report: Report) -> Iterator[str]:
     yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
 
 
+def chapter_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Verdicts by chapter: headings and rows; a verdict that nowhere occurs has no column."""
+    verdicts = [v for v in VERDICTS if report.counts[v]]
+    rows = [
+        (chapter, str(sum(counts.values())), *(str(counts[v] or "-") for v in verdicts))
+        for chapter, counts in report.by_chapter.items()
+    ]
+    total = ("all", str(len(report.rows)), *(str(report.counts[v]) for v in verdicts))
+    return ("chapter", "lines", *verdicts), [*rows, total]
+
+
+def kind_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Mended lines by kind of slip: headings and rows, without the definitions."""
+    rows = [
+        (kind, *(str(n or "-") for n in counts.values())) for kind, counts in report.by_kind.items()
+    ]
+    return ("kind of slip", "misprint", "wrong"), rows
+
+
+KIND_NOTE = "A line with slips of several kinds counts under each."
+
+
 def failure_rows(report: Report, *, every: bool = False) -> list[tuple[str, ...]]:
     """Rows of the failure table: what, lines, verdict, who, residual, worst effect."""
     found: list[tuple[str, ...]] = []
@@ -188,6 +214,8 @@ def explain(row: Row, cause: Cause | None = None) -> Iterator[tuple[str, str]]:
         yield "", f"corrected {residual_text(row.residual_corrected)}"
     for place in row.places:
         yield "where", place
+    if row.kinds:
+        yield "kind", ", ".join(f"{kind} ({KINDS[kind]})" for kind in row.kinds)
     texts = (
         *(("effect", effect_text(row)), ("because", row.reason)),
         *(("guess", row.why), ("note", row.note)),
@@ -224,7 +252,12 @@ def markdown(report: Report, command: str) -> str:
         lines.append(f"| {section.name} | {section.rows} | {section.checked} | {gaps} |")
     lines += ["", "Outside the audit:", ""]
     lines += [f"- {what}: {why}." for what, why in report.beyond]
-    lines += ["", "## Failures by cause", ""]
+    lines += ["", "## Verdicts by chapter", ""]
+    lines += _markdown_table(*chapter_table(report))
+    lines += ["", "## Mended lines by kind of slip", ""]
+    headings, rows = kind_table(report)
+    lines += _markdown_table((*headings, "what it is"), [(*row, KINDS[row[0]]) for row in rows])
+    lines += ["", KIND_NOTE, "", "## Failures by cause", ""]
     lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
     lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
     lines += ["", "## Root causes", "", "Slips that several lines share, and where they enter.", ""]
@@ -234,6 +267,15 @@ def markdown(report: Report, command: str) -> str:
     for row in report.failures:
         lines += _markdown_row(row)
     return "\n".join(lines) + "\n"
+
+
+def _markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+    """A table whose columns of numbers are set to the right."""
+    listed = [tuple(row) for row in rows]
+    numbers = [all(re.fullmatch(r"\d+|-", row[k]) for row in listed) for k in range(len(headings))]
+    yield "| " + " | ".join(headings) + " |"
+    yield "| " + " | ".join("---:" if right else "---" for right in numbers) + " |"
+    yield from ("| " + " | ".join(_cell(cell) for cell in row) + " |" for row in listed)
 
 
 def used_causes(report: Report) -> Iterator[tuple[str, Cause]]:
@@ -283,6 +325,8 @@ def _markdown_row(row: Row) -> Iterator[str]:
         yield f"- finding: {row.reason}"
     for place in row.places:
         yield f"- {place}"
+    if row.kinds:
+        yield f"- kind: {', '.join(row.kinds)}"
     if row.effect:
         yield f"- effect: {effect_text(row)}"
     yield ""
