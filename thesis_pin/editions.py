@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from thesis_pin import formula as nt
 from thesis_pin.equations import Catalogue, Edition, Equation
 from thesis_pin.evaluation import Movable, evaluate
@@ -71,10 +73,7 @@ class EditionEnvironment:
         if found is not None:
             return found
         if symbol.dots and ("", symbol.name, symbol.dots - 1) in self.catalogue.definitions:
-            below = Symbol(
-                symbol.base, symbol.sub, symbol.sup, symbol.dots - 1, symbol.primes, symbol.bold
-            )
-            return self.partial(below, None, indices)
+            return self.partial(replace(symbol, dots=symbol.dots - 1), None, indices)
         return self.references.lookup(symbol, indices)
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
@@ -84,10 +83,7 @@ class EditionEnvironment:
             if found is not None:
                 return found
         if by is None and isinstance(of, Symbol):
-            dotted = of.bound(indices)
-            dotted = Symbol(
-                dotted.base, dotted.sub, dotted.sup, dotted.dots + 1, dotted.primes, dotted.bold
-            )
+            dotted = replace(of.bound(indices), dots=of.dots + 1)
             found = self._defined("", dotted, indices)
             if found is not None:
                 return found

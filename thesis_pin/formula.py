@@ -34,6 +34,8 @@ class Symbol(Node):
         dots: Number of dots.
         primes: Number of primes.
         bold: Whether it is printed bold.
+        kept: Index letters that stay in its name when others are replaced; see
+            :class:`thesis_pin.notation.Notation`.
     """
 
     base: str
@@ -42,6 +44,7 @@ class Symbol(Node):
     dots: int = 0
     primes: int = 0
     bold: bool = False
+    kept: str = ""
 
     @property
     def name(self) -> str:
@@ -56,7 +59,7 @@ class Symbol(Node):
 
 @functools.lru_cache(maxsize=65536)
 def _bound(symbol: Symbol, pairs: tuple[tuple[str, str], ...]) -> Symbol:
-    indices = dict(pairs)
+    indices = {letter: value for letter, value in pairs if letter not in symbol.kept}
 
     def put(text: str) -> str:
         # A Greek name inside a subscript ("thetaB") isn't a run of indices.

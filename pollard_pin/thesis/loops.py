@@ -9,10 +9,10 @@ import re
 
 import numpy as np
 
-from pollard_pin.thesis.state import State, elementary, inverse
+from pollard_pin.thesis.state import Matrices, State, elementary, inverse
 
 
-def frame(state: State, name: str) -> np.ndarray | None:
+def frame(state: State, name: str) -> Matrices | None:
     """The transforms that rename a side of a loop (2.25 – 2.110)."""
     t = state.transform
     if name == "T_LDn":
@@ -41,14 +41,14 @@ def frame(state: State, name: str) -> np.ndarray | None:
     return found
 
 
-def _product(state: State, *moves: str) -> np.ndarray:
-    result = np.eye(4)
+def _product(state: State, *moves: str) -> Matrices:
+    result: Matrices = np.eye(4)
     for move, name in zip(moves[::2], moves[1::2], strict=True):
-        result = result @ elementary(move, state.number(name))
+        result = result @ state.elementary(move, name)
     return result
 
 
-def side(state: State, k: int, i: str = "") -> np.ndarray:
+def side(state: State, k: int, i: str = "") -> Matrices:
     """Ec_1 … Ec_4: last columns of both sides of (2.3) and (2.90), shape ``(n, 4)``.
 
     Those of a side chain are seen from frame 5i, after β54, as (2.98) and (2.100) are.
@@ -58,14 +58,14 @@ def side(state: State, k: int, i: str = "") -> np.ndarray:
         return t("T_315")[..., 3]
     if k == 2:
         return (inverse(t("T_03")) @ t("T_LD0"))[..., 3]
-    tilt = inverse(elementary("Rx", state.number("beta_54i", i)))
+    tilt = inverse(state.elementary("Rx", "beta_54i", i))
     if k == 3:
         return (tilt @ t("T_48i", i))[..., 3]
     back = tilt @ inverse(t("T_02i", i) @ t("T_24i", i))
     return (back @ t("T_03") @ t("T_311i", i))[..., 3]
 
 
-def opening(state: State, i: str = "") -> np.ndarray:
+def opening(state: State, i: str = "") -> Matrices:
     """|Ec_1|² − |Ec_2|², or |Ec_3|² − |Ec_4|² of a side chain, shape ``(n,)``."""
     first, second = (side(state, k, i)[..., :3] for k in ((3, 4) if i else (1, 2)))
     return (first * first).sum(axis=-1) - (second * second).sum(axis=-1)

@@ -118,14 +118,14 @@ def _element(state: State, i: str, letter: str, row: str, column: str) -> Value 
     found = frame(state, renamed[letter])
     if found is None:  # an element of a side chain where no chain is meant
         return None
-    return scalar(found[:, int(row) - 1, int(column) - 1])
+    return scalar(found[..., int(row) - 1, int(column) - 1])
 
 
 def _fourier(state: State, _: str, letter: str, kind: str) -> Value:
     """A, B, C with opening = C + A cos θ + B sin θ."""
     i = "" if kind == "0" else kind
     at = {
-        turn: opening(state.with_(**{f"theta_21{i}": np.full(state.size, turn * np.pi / 2)}), i)
+        turn: opening(state.with_(**{f"theta_21{i}": np.full(state.shape, turn * np.pi / 2)}), i)
         for turn in (-1, 0, 1, 2)
     }
     values = {"A": at[0] - at[2], "B": at[1] - at[-1], "C": at[0] + at[2]}

@@ -5,7 +5,7 @@ all of them are random, so that no identity of the closed loop hides a slip; on
 *closed* states the pose follows from chain 0 and the bases of the side chains
 are put where the loops close. Nothing of the thesis's derivations is used.
 
-Arrays are ``(n,)``, one number a state, and may be complex: a complex step
+Arrays are ``(..., n)``, one number a state, and may be complex: a complex step
 differentiates exactly.
 
 Source: Pollard thesis, 2.4 and 2.7 (transformations).
@@ -13,14 +13,19 @@ Source: Pollard thesis, 2.4 and 2.7 (transformations).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from pollard_pin.geometry import pose_from_placement
-from thesis_pin.rotations import rotation, transform
+from pollard_pin.thesis.dual import Dual
+from thesis_pin.rotations import rotation, rotation_derivative, transform
 from thesis_pin.values import STEP
+
+Matrices = Any
+"""An array, or a :class:`Dual` where the state has a direction."""
 
 POSE = ("x", "y", "z", "psi", "theta", "phi")
 """Task coordinates (2.3)."""
@@ -77,17 +82,20 @@ class State:
             "signo1", "signo2".
         variables: :data:`VARIABLES`.
         rates: Their time derivatives.
+        along: A direction in the space of variables: transforms then are
+            :class:`Dual` and carry their derivative along it. None: plain arrays.
     """
 
     constants: dict[str, np.ndarray]
     variables: dict[str, np.ndarray]
     rates: dict[str, np.ndarray]
+    along: Mapping[str, float | np.ndarray] | None = None
 
     def with_(self, **changed: np.ndarray) -> State:
         """The same states with other values of some variables."""
         return replace(self, variables={**self.variables, **changed})
 
-    def step(self, direction: dict[str, np.ndarray | float]) -> State:
+    def step(self, direction: Mapping[str, np.ndarray | float]) -> State:
         """One imaginary step along a direction in the space of variables."""
         moved = {
             name: self.variables[name] + 1j * STEP * np.asarray(by)
@@ -102,24 +110,32 @@ class State:
             return self.constants[f"signo{name[-1]}"] * self.constants[f"y_10{name[-1]}"]
         return self.variables[name] if name in self.variables else self.constants[name]
 
-    def transform(self, name: str, i: str = "") -> np.ndarray:
-        """A homogeneous transform of the thesis, shape ``(n, 4, 4)``."""
+    def elementary(self, move: str, by: str, i: str = "", sign: int = 1) -> Matrices:
+        """A translation or rotation by ``sign`` times a constant or variable."""
+        value = sign * self.number(by, i)
+        if self.along is None:
+            return elementary(move, value)
+        speed = sign * np.asarray(self.along.get(own_name(by, i), 0.0))
+        return Dual(elementary(move, value), slope(move, value) * speed[..., None, None])
+
+    def transform(self, name: str, i: str = "") -> Matrices:
+        """A homogeneous transform of the thesis, shape ``(..., 4, 4)``."""
         if name == "T_LD0":
             return self.transform("pose") @ self.transform("nozzle")
-        factors = [(move, sign * self.number(by, i)) for move, sign, by in _FACTORS[name]]
-        result = elementary(*factors[0])
+        factors = [self.elementary(move, by, i, sign) for move, sign, by in _FACTORS[name]]
+        result = factors[0]
         for factor in factors[1:]:
-            result = result @ elementary(*factor)
+            result = result @ factor
         return result
 
-    @cached_property
-    def size(self) -> int:
-        """Number of states."""
-        return len(self.variables["x"])
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of every variable."""
+        return self.variables["x"].shape
 
 
 def elementary(move: str, value: np.ndarray) -> np.ndarray:
-    """A translation "x", "y", "z" or rotation "Rx", "Ry", "Rz", shape ``(n, 4, 4)``."""
+    """A translation "x", "y", "z" or rotation "Rx", "Ry", "Rz", shape ``(..., 4, 4)``."""
     if move[0] == "R":
         return transform(rotation(move[1], value), np.zeros(3))
     shift = np.zeros((*value.shape, 3), dtype=value.dtype)
@@ -127,8 +143,21 @@ def elementary(move: str, value: np.ndarray) -> np.ndarray:
     return transform(np.eye(3), shift)
 
 
-def inverse(matrix: np.ndarray) -> np.ndarray:
+def slope(move: str, value: np.ndarray) -> np.ndarray:
+    """Derivative of :func:`elementary` by its value, shape ``(..., 4, 4)``."""
+    result = np.zeros((*value.shape, 4, 4), dtype=value.dtype)
+    if move[0] == "R":
+        result[..., :3, :3] = rotation_derivative(move[1], value)
+    else:
+        result[..., _AXES[move], 3] = 1.0
+    return result
+
+
+def inverse(matrix: Matrices) -> Matrices:
     """Inverse of rigid placements, complex ones included."""
+    if isinstance(matrix, Dual):
+        turned = inverse(matrix.value)
+        return Dual(turned, -(turned @ matrix.slope @ turned))
     turned = np.swapaxes(matrix[..., :3, :3], -1, -2)
     return transform(turned, -(turned @ matrix[..., :3, 3:])[..., 0])
 
