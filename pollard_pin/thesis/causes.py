@@ -9,6 +9,13 @@ from __future__ import annotations
 from thesis_pin.causes import Cause
 
 CAUSES = {
+    "axis-index": Cause(
+        "2.1: θ with an axis for its index, left only",
+        "2.1",
+        "The three rotations are introduced as functions of θ_x, θ_y, θ_z, and their matrices are "
+        "those of θ. The index only says about which axis one turns; the rest of the thesis puts "
+        "its angles in without it.",
+    ),
     "base-frame": Cause(
         "(2.20): X, Z in the base frame, used in frame 3",
         "(2.12), kept by (2.20); for the side chains (2.138)",
