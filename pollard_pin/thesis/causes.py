@@ -1,6 +1,6 @@
 """Slips that several printed lines share: what they are and where they enter.
 
-Each explanation that can be computed is: ``tests/pollard_pin/test_causes.py``
+Each explanation that can be computed is: ``tests/pollard_pin/test_thesis_causes.py``
 follows the slip by an independent route and finds the printed lines.
 """
 
