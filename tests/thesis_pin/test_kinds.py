@@ -6,6 +6,8 @@ from pollard_pin.thesis import catalogue as pollard
 from scout_pin.thesis import catalogue as scout
 from thesis_pin import audit_report
 from thesis_pin.audit import Report, Row
+from thesis_pin.audit_command import _NARROW
+from thesis_pin.command_line import print_table
 from thesis_pin.equations import Equation
 from thesis_pin.kinds import KINDS, kinds, of_equation
 
@@ -97,3 +99,15 @@ def test_documents_and_json_show_both_tables(report):
     assert document["chapters"]["2"]["holds"] == 1
     assert document["kinds"]["dot"] == {"is": KINDS["dot"], "misprint": 2, "wrong": 0}
     assert document["rows"][1]["kinds"] == ["dot", "bracket"]
+
+
+def test_all_verdicts_fit_eighty_columns(monkeypatch, capsys):
+    monkeypatch.setenv("COLUMNS", "80")
+    verdicts = ("holds", "misprint", "wrong", "illegible", "not checkable", "unexplained")
+    rows = tuple(Row(f"robot:{v}:a", "", (), "a", ("b",), {}, v) for v in verdicts for _ in "12")
+    headings, chapters = audit_report.chapter_table(Report("Thesis", rows, (), "", {}))
+    print_table([_NARROW.get(heading, heading) for heading in headings], chapters[-1:])
+    shown = capsys.readouterr().out
+    assert "…" not in shown
+    for word in ("chapter", "misprint", "checkable", "explained"):
+        assert word in shown
