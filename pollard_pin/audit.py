@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from pollard_pin.thesis.catalogue import catalogue
+from pollard_pin.thesis.causes import CAUSES
 from pollard_pin.thesis.claims import claims
 from pollard_pin.thesis.rates import moving
 from pollard_pin.thesis.references import References
@@ -28,17 +29,6 @@ NUMBERS = (
     *(f"3.{k}" for k in range(1, 155)),
     *(f"A.{k}" for k in range(1, 8)),
 )
-CAUSES = {
-    "base-frame": "(2.20): X, Z in the base frame, used in frame 3",
-    "half-circle": "arctan keeps half the circle",
-    "stray-index": "a side chain's index left on chain 0",
-    "whole-matrices": "loops without ball or wrist joint, as matrices",
-    "one-for-i": "2.7.4: θ21i written for θ21",
-    "shifted-V": "(2.60): V numbered one too low",
-    "lost-arguments": "2.8: c and s of a sum without its bracket",
-    "lost-dots": "2.5: rates without their dots",
-    "scanned-brackets": "brackets lost or added in long lines",
-}
 COEFFICIENTS = {"V": 79, "E": 66, "G": 92}
 """Coefficients the thesis names: appendix D, chapter 2, appendix E."""
 COMMAND = "pollard-pin audit --markdown docs/audit/pollard.md"

@@ -54,7 +54,7 @@ def run_verb(
     """
     from thesis_pin import audit_report as faces
     from thesis_pin.audit_page import page
-    from thesis_pin.command_line import OK, print_table, print_text, write_file
+    from thesis_pin.command_line import OK, print_entries, print_table, print_text, write_file
     from thesis_pin.report import json_bytes
 
     only = [known(arguments.equation, catalogue, robot)] if arguments.equation else None
@@ -68,10 +68,14 @@ def run_verb(
     if arguments.json == "-":
         return OK
     if only:
-        print_text(*faces.explain(report.rows[0]))
+        row = report.rows[0]
+        print_entries(faces.explain(row, report.causes.get(row.cause)))
         return OK
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])
+    print_table(*faces.chapter_table(report), title="verdicts by chapter")
+    print_table(*faces.kind_table(report), title="mended lines by kind of slip")
+    print_text(faces.KIND_NOTE, "")
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
     print_table(columns, faces.failure_rows(report, every=arguments.every))
     print_text(

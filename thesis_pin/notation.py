@@ -167,7 +167,7 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
 
     def function(self, parts: list[Token]) -> Node:
         name = re.sub(r"\\(text|operatorname|mathrm)|[\\{}\s]", "", str(parts[0])).lower()
-        return _Mark("function", name)
+        return _Mark("function", "sin" if name == "sen" else name)
 
     def group(self, parts: list[Node]) -> Node:
         return _Group(_open(parts[0]))

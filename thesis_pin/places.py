@@ -15,7 +15,7 @@ _LAYOUT = re.compile(
 )
 
 
-def _pieces(formula: str) -> tuple[list[str], str]:
+def pieces(formula: str) -> tuple[list[str], str]:
     """A formula cut for comparison: into columns if it is a row, else into symbols.
 
     Fonts and layout are left out; what a piece is called comes with them.
@@ -33,7 +33,7 @@ def _pieces(formula: str) -> tuple[list[str], str]:
 
 def places(before: str, after: str) -> list[str]:
     """Where two formulas differ, symbol by symbol, each place in words."""
-    (first, unit), (second, _) = _pieces(before), _pieces(after)
+    (first, unit), (second, _) = pieces(before), pieces(after)
     found = []
     matcher = difflib.SequenceMatcher(None, first, second, autojunk=False)
     for kind, a, b, c, d in matcher.get_opcodes():

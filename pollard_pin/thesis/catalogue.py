@@ -22,10 +22,13 @@ _FOLDER = Path(__file__).parent
 FILES = tuple(
     path
     for name in (
+        "section_2_1",
         "section_2_4",
         "section_2_5",
         "section_2_7",
         "section_2_8",
+        "chapter_4",
+        "appendix_b",
         "appendix_d",
         "appendix_e",
         "section_3_1",
