@@ -151,7 +151,8 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         node = self.name([inside]) if isinstance(inside, Token) else _open(inside)
         if isinstance(node, Symbol):
             if font in _PREFIX:
-                return replace(node, base=f"{_PREFIX[font]}:{node.base}")
+                named = self._letter(f"{_PREFIX[font]}:{node.base}")
+                return replace(node, base=named.base, kept=named.kept)
             return replace(node, bold=font not in ("\\text", "\\mathrm"))
         return node
 
@@ -226,8 +227,10 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             return Power(node, int(label))  # still an argument: c(α + β)^2 is a squared cosine
         if not isinstance(node, _Mark):
             node = _open(node)
-        if label == "-1":
-            node = Power(node, -1)
+        if label == "-":  # J^{-T}
+            label = "-1"
+        if re.fullmatch(r"-\d", label):
+            node = Power(node, int(label))
         elif label:
             if isinstance(node, _Mark):
                 node = replace(node, exponent=int(label))

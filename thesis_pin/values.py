@@ -125,6 +125,8 @@ def power(value: Value, exponent: int | str) -> Value:
         raise FormulaError(f"the exponent {exponent} has no value")
     if value.rank == 0:
         return scalar(value.array ** float(exponent))
+    if value.rank == 2 and exponent == -1 and value.tail[0] != value.tail[1]:
+        raise FormulaError(f"inverts {value.describe()}, which has no inverse")
     if value.rank == 2 and exponent == -1:
         return matrix(np.linalg.inv(value.array))
     raise FormulaError(f"raises {value.describe()} to the power {exponent}")
@@ -163,4 +165,6 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
             array = array[..., None] if cell.rank == 1 else array
             parts.append(np.broadcast_to(array, (*batch, *array.shape[-2:])))
         lines.append(np.concatenate(parts, axis=-1))
+    if len({line.shape[-1] for line in lines}) > 1:
+        raise FormulaError("puts rows of different length one below the other")
     return matrix(np.concatenate(lines, axis=-2))

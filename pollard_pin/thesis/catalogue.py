@@ -9,7 +9,14 @@ from thesis_pin.equations import Catalogue
 from thesis_pin.evaluation import FUNCTIONS
 from thesis_pin.notation import Notation
 
-NOTATION = Notation(functions=FUNCTIONS, words=("signo", "Ec"))
+NOTATION = Notation(
+    functions=FUNCTIONS,
+    words=("signo", "Ec"),
+    # A number above these is a frame, bold or not.
+    labelled=frozenset("ijkrJ"),
+    # What chapter 3 numbers anew for the side chains.
+    chains=frozenset({*"kmJKLMNUVE", "omega", "bb:D", "bb:V", "bb:C"}),
+)
 
 _FOLDER = Path(__file__).parent
 FILES = tuple(
@@ -24,6 +31,14 @@ FILES = tuple(
         "appendix_b",
         "appendix_d",
         "appendix_e",
+        "section_3_1",
+        "section_3_2",
+        "section_3_3_1",
+        "section_3_3_2",
+        "section_3_4",
+        "section_3_5",
+        "section_3_6",
+        "section_3_7",
     )
     if (path := _FOLDER / f"{name}.toml").exists()
 )

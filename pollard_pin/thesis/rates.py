@@ -266,6 +266,25 @@ def joint_rates(state: State) -> dict[str, np.ndarray]:
     return result
 
 
+def explicit_rates(state: State) -> dict[str, np.ndarray]:
+    """∂(angle)/∂(pose) as formulas in pose and angles, each ``(..., 6)``.
+
+    Joint after joint, each rate equation takes the rates found before it, as 2.5 and
+    2.8 do. On closed states these are :func:`joint_rates`; off them, what the
+    thesis's k are as functions, which a derivative by one angle alone needs.
+    """
+    result: dict[str, np.ndarray] = {}
+    for row in ROWS:
+        for i in ("1", "2") if row.angle.endswith("i") else ("",):
+            below, numerator = row.relation(state, i)
+            found = [
+                numerator({POSE[k]: 1.0, **{name: one[..., k] for name, one in result.items()}})
+                for k in range(6)
+            ]
+            result[own_name(row.angle, i)] = np.stack(found, axis=-1) / below[..., None]
+    return result
+
+
 def _solve(
     gap: Callable[[State], Any],
     state: State,

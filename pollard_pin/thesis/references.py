@@ -33,7 +33,7 @@ _LAST = np.array([0.0, 0.0, 0.0, 1.0])
 class References:
     """The reference environment: every symbol at a batch of states."""
 
-    columns = 6
+    columns = 0  # a row that ends in 0 isn't filled up
 
     def __init__(self, state: State) -> None:
         self.state = state
@@ -42,7 +42,7 @@ class References:
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
         """Value of a symbol; see :class:`thesis_pin.evaluation.Environment`."""
         i = indices.get("i", "")
-        key = (symbol.name, symbol.dots, i)
+        key = (symbol.name + "*" * symbol.bold, symbol.dots, i)
         if key not in self._values:
             value = self._find(symbol, i)
             if value is None:

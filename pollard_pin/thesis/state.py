@@ -95,12 +95,12 @@ class State:
         """The same states with other values of some variables."""
         return replace(self, variables={**self.variables, **changed})
 
-    def step(self, direction: Mapping[str, np.ndarray | float]) -> State:
-        """One imaginary step along a direction in the space of variables."""
-        moved = {
-            name: self.variables[name] + 1j * STEP * np.asarray(by)
-            for name, by in direction.items()
-        }
+    def step(self, direction: Mapping[str, np.ndarray | float], *, rates: bool = False) -> State:
+        """One imaginary step along a direction in the space of variables, or of their rates."""
+        start = self.rates if rates else self.variables
+        moved = {name: start[name] + 1j * STEP * np.asarray(by) for name, by in direction.items()}
+        if rates:
+            return replace(self, rates={**self.rates, **moved})
         return self.with_(**moved)
 
     def number(self, name: str, i: str = "") -> np.ndarray:
