@@ -15,6 +15,7 @@ import numpy as np
 from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.causes import CAUSES
 from pollard_pin.thesis.claims import claims
+from pollard_pin.thesis.loop_symbols import loop_symbols
 from pollard_pin.thesis.rates import moving
 from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import State, random_state
@@ -60,10 +61,12 @@ def audit(
     equations = equations or catalogue()
     chosen = equations.equations if only is None else [equations[name] for name in only]
     environments = {closed: References(states(closed=closed)) for closed in (False, True)}
+    loops = loop_symbols(states(closed=True))
     checks = claims(equations, environments[True])
     rows = []
     for equation in progress(chosen, len(chosen)) if progress else chosen:
-        row = judge(equations, equation, environments[equation.closed], checks, THESIS)
+        environment = loops if equation.section == "A" else environments[equation.closed]
+        row = judge(equations, equation, environment, checks, THESIS)
         if row.failed and row.residual_printed == math.inf:
             row = replace(row, effect={"this line": "can't be computed"})
         rows.append(row)
@@ -88,10 +91,7 @@ def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:
             found.append((what, "not yet transcribed"))
     return (
         *found,
-        (
-            "appendix C, Grübler's formula, appendix B's reachability, chapter 4's inertias",
-            "not yet transcribed",
-        ),
+        ("appendix C", "not yet transcribed"),
         (
             "what following a misprint does to generalized force and torques",
             "not yet computed: it needs chapter 3",

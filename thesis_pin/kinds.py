@@ -12,7 +12,7 @@ from thesis_pin.places import pieces
 
 KINDS = {
     "bracket": "a bracket missing, added or misplaced",
-    "dot": "a dot of a derivative missing, added or misplaced",
+    "dot": "a dot or ∂ of a derivative missing, added or misplaced",
     "sign": "plus for minus, or the reverse",
     "index": "the right letter with a wrong sub- or superscript",
     "symbol": "another letter, function or number",
@@ -117,9 +117,14 @@ def _replaced(old: str, new: str) -> Iterator[str]:
     if old in _SIGNS and new in _SIGNS:
         yield "sign"
         return
-    if _dots(old) != _dots(new):
+    (of, by), (other, along) = _differential(old), _differential(new)
+    if by and along:
+        yield from _replaced(of, other)
+        yield from _replaced(by, along)
+        return
+    if _dots(of) + bool(by) != _dots(other) + bool(along):
         yield "dot"
-    one, two = _undotted(old), _undotted(new)
+    one, two = _undotted(of), _undotted(other)
     if _base(one) != _base(two):
         yield "symbol"
     elif one != two:
@@ -141,6 +146,12 @@ def _moved(gone: Counter[str], come: Counter[str]) -> Iterator[str]:
     signs = all(piece in _SIGNS for piece in (*left, *right))
     if left or right:
         yield "sign" if signs else "term"
+
+
+def _differential(piece: str) -> tuple[str, str]:
+    """x and y of "∂x/∂y"; a piece itself and nothing if it is none."""
+    match = re.fullmatch(r"∂(.+)/∂(.+)", piece)
+    return (match[1], match[2]) if match else (piece, "")
 
 
 def _dots(piece: str) -> int:

@@ -87,5 +87,29 @@ CAUSES = {
         "derivation is wrong; a reader who types them in meets an error, or a sum where a product "
         "is meant.",
     ),
+    "ball-frame": Cause(
+        "A: base 11i turned the wrong way",
+        "R_11i after (A.4)",
+        "(2.89) goes from the forearm to a ball joint by turning −β1413i; appendix A writes the "
+        "same bases with +β1413i. It also gives the last vector its components in base 5 (the "
+        "superscript) and turns them on by β1413i as if they were those in base 11i. The anchors "
+        "come out on the other side of the forearm, and so does all that is differentiated from "
+        "them.",
+    ),
+    "minus-twice": Cause(
+        "A: vectors taken off twice",
+        "the components after (A.1) and (A.4)",
+        "The loop equations (A.1) and (A.4) subtract the nozzle and the two anchor vectors. Their "
+        "components are then printed negative as well, so that the way back becomes a way on: "
+        "with them the loops don't close. The derivation goes on with the vectors' names and "
+        "isn't touched by it.",
+    ),
+    "one-letter": Cause(
+        "A: columns I, J, K, L mistaken for each other",
+        "the line before (A.6)",
+        "The six columns of the side chain's loop are called r_G to r_L. Capital I and small l "
+        "look alike, so the column of θ76i carries the name of that of θ54, and the definitions "
+        "have small letters that nothing else uses. Named in order, the lines are exact.",
+    ),
 }
 """Name of each shared slip, as the data give it → what it is."""
