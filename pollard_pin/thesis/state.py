@@ -208,11 +208,19 @@ def _closed(state: State) -> State:
         constants[f"x_43{i}"] = arm
         constants[f"y_10{i}"] = (gap[:, 1] - arm * np.sin(angle)) * constants[f"signo{i}"]
         constants[f"z_32{i}"] = -gap[:, 2]
-        rod_frame = turned @ state.transform("T_48i", i)
-        ball = np.swapaxes(rod_frame[:, :3, :3], -1, -2) @ goal[:, :3, :3]
         sign = np.where(state.variables[f"theta_109{i}"] < 0, -1.0, 1.0)
-        sine = sign * np.hypot(ball[:, 0, 2], ball[:, 1, 2])
-        changed[f"theta_98{i}"] = np.arctan2(sign * ball[:, 1, 2], sign * ball[:, 0, 2])
-        changed[f"theta_109{i}"] = np.arctan2(sine, ball[:, 2, 2])
-        changed[f"theta_1110{i}"] = np.arctan2(sign * ball[:, 2, 1], -sign * ball[:, 2, 0])
+        changed |= ball_angles(state, i, sign)
     return replace(state, constants=constants).with_(**changed)
+
+
+def ball_angles(state: State, i: str, sign: np.ndarray | float = 1.0) -> dict[str, np.ndarray]:
+    """Angles of a ball joint whose rod and forearm are in place; ``sign`` is that of sin θ109i."""
+    rod = state.transform("T_02i", i) @ state.transform("T_24i", i) @ state.transform("T_48i", i)
+    goal = state.transform("T_03") @ state.transform("T_311i", i)
+    ball = np.swapaxes(rod[:, :3, :3], -1, -2) @ goal[:, :3, :3]
+    sine = sign * np.hypot(ball[:, 0, 2], ball[:, 1, 2])
+    return {
+        f"theta_98{i}": np.arctan2(sign * ball[:, 1, 2], sign * ball[:, 0, 2]),
+        f"theta_109{i}": np.arctan2(sine, ball[:, 2, 2]),
+        f"theta_1110{i}": np.arctan2(sign * ball[:, 2, 1], -sign * ball[:, 2, 0]),
+    }
