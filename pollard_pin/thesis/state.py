@@ -13,7 +13,7 @@ Source: Pollard thesis, 2.4 and 2.7 (transformations).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -77,11 +77,13 @@ class State:
             "signo1", "signo2".
         variables: :data:`VARIABLES`.
         rates: Their time derivatives.
+        accelerations: Their second time derivatives.
     """
 
     constants: dict[str, np.ndarray]
     variables: dict[str, np.ndarray]
     rates: dict[str, np.ndarray]
+    accelerations: dict[str, np.ndarray] = field(default_factory=dict)
 
     def with_(self, **changed: np.ndarray) -> State:
         """The same states with other values of some variables."""
@@ -158,7 +160,8 @@ def random_state(generator: np.random.Generator, size: int, *, closed: bool) -> 
         for name in VARIABLES
     }
     rates = {name: uniform(-2.0, 2.0) for name in VARIABLES}
-    state = State(constants, variables, rates)
+    accelerations = {name: uniform(-2.0, 2.0) for name in VARIABLES}
+    state = State(constants, variables, rates, accelerations)
     return _closed(state) if closed else state
 
 
