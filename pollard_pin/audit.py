@@ -36,8 +36,8 @@ CAUSES = {
     "whole-matrices": "loops without ball or wrist joint, as matrices",
     "one-for-i": "2.7.4: θ21i written for θ21",
     "shifted-V": "(2.60): V numbered one too low",
-    "lost-arguments": "2.8: c and s of a sum without its bracket",
-    "lost-dots": "2.5: rates without their dots",
+    "lost-arguments": "2.8, 2.9: c and s of a sum without its bracket",
+    "lost-dots": "dots of rates and accelerations lost",
     "scanned-brackets": "brackets lost or added in long lines",
 }
 COEFFICIENTS = {"V": 79, "E": 66, "G": 92}

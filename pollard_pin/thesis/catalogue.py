@@ -17,8 +17,10 @@ FILES = tuple(
     for name in (
         "section_2_4",
         "section_2_5",
+        "section_2_6",
         "section_2_7",
         "section_2_8",
+        "section_2_9",
         "appendix_d",
         "appendix_e",
     )
