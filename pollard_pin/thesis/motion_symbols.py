@@ -328,7 +328,8 @@ class MotionSymbols(References):
         own = symbol.sub.removesuffix("i")
         if symbol.dots or symbol.primes or not own.isdigit():
             return None
-        found = coefficient(self.state, f"{symbol.base}_{own}", i)
+        rates = self.rows if symbol.base == "E" else None
+        found = coefficient(self.state, f"{symbol.base}_{own}", i, rates)
         return None if found is None else scalar(found)
 
     _of_E = _coefficient

@@ -14,7 +14,7 @@ Source: Pollard thesis, 2.4 and 2.7 (transformations).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -82,6 +82,7 @@ class State:
             "signo1", "signo2".
         variables: :data:`VARIABLES`.
         rates: Their time derivatives.
+        accelerations: Their second time derivatives.
         along: A direction in the space of variables: transforms then are
             :class:`Dual` and carry their derivative along it. None: plain arrays.
     """
@@ -89,6 +90,7 @@ class State:
     constants: dict[str, np.ndarray]
     variables: dict[str, np.ndarray]
     rates: dict[str, np.ndarray]
+    accelerations: dict[str, np.ndarray] = field(default_factory=dict)
     along: Mapping[str, float | np.ndarray] | None = None
 
     def with_(self, **changed: np.ndarray) -> State:
@@ -132,6 +134,11 @@ class State:
     def shape(self) -> tuple[int, ...]:
         """Shape of every variable."""
         return self.variables["x"].shape
+
+    @property
+    def size(self) -> int:
+        """Number of states."""
+        return self.shape[-1]
 
 
 def elementary(move: str, value: np.ndarray) -> np.ndarray:
@@ -187,7 +194,8 @@ def random_state(generator: np.random.Generator, size: int, *, closed: bool) -> 
         for name in VARIABLES
     }
     rates = {name: uniform(-2.0, 2.0) for name in VARIABLES}
-    state = State(constants, variables, rates)
+    accelerations = {name: uniform(-2.0, 2.0) for name in VARIABLES}
+    state = State(constants, variables, rates, accelerations)
     return _closed(state) if closed else state
 
 
