@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from pollard_pin.thesis.accelerations import accelerating
 from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.causes import CAUSES
 from pollard_pin.thesis.claims import claims
@@ -39,7 +40,7 @@ _STATES, _SEED = 32, 20172
 def states(*, closed: bool) -> State:
     """Seeded states, each on a robot of its own; closed or with nothing in place."""
     state = random_state(np.random.default_rng(_SEED + closed), _STATES, closed=closed)
-    return moving(state) if closed else state
+    return accelerating(moving(state)) if closed else state
 
 
 def audit(

@@ -8,7 +8,7 @@ from thesis_pin import formula as nt
 from thesis_pin.equations import Catalogue, Edition, Equation
 from thesis_pin.evaluation import Movable, evaluate
 from thesis_pin.formula import FormulaError, Node, Symbol
-from thesis_pin.values import Value, imaginary
+from thesis_pin.values import Value, imaginary, transpose
 
 Slot = tuple[str, str, int, str]
 """A symbol's place in a cache: "" or "∂", name, dots, leg."""
@@ -25,8 +25,8 @@ class EditionEnvironment:
         substituted: Where to note the lines that had to be replaced.
 
     Attributes:
-        substituted: Ids of printed lines that can't be evaluated, with the reason;
-            their corrected form stood in.
+        substituted: Ids of lines that can't be evaluated, with the reason; their
+            corrected form stood in, or the reference where there is none.
     """
 
     def __init__(
@@ -65,6 +65,7 @@ class EditionEnvironment:
             self.catalogue, self.references, self.edition, frozenset({identity})
         )
         other._values = {k: v for k, v in self._values.items() if k not in changed}
+        other._moved = {key: moved.following_print(identity) for key, moved in self._moved.items()}
         return other
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
@@ -117,12 +118,16 @@ class EditionEnvironment:
             inner = {**{k: v for k, v in indices.items() if k in "ij"}, **bound}
             if "j" in inner and kind == "∂":
                 inner.pop("j")
-            self._values[key] = self._evaluate(equation, symbol, inner)
+            value = self._evaluate(equation, symbol, inner)
         finally:
             self._busy.pop()
-        return self._values[key]
+        if value is not None:
+            self._values[key] = value
+        return value
 
-    def _evaluate(self, equation: Equation, symbol: Symbol, indices: dict[str, str]) -> Value:
+    def _evaluate(
+        self, equation: Equation, symbol: Symbol, indices: dict[str, str]
+    ) -> Value | None:
         literal = self.edition == "printed" or equation.id in self.printed_only
         if literal:
             try:
@@ -135,11 +140,19 @@ class EditionEnvironment:
                 if equation.id in self.printed_only:
                     raise
                 self.substituted[equation.id] = error.what
-        return self._last(equation, equation.members("corrected"), symbol, indices)
+        try:
+            return self._last(equation, equation.members("corrected"), symbol, indices)
+        except FormulaError as error:
+            if equation.mending:
+                raise
+            self.substituted[equation.id] = f"{error.what}; the exact value stands in"
+            return None
 
     def _check_shape(self, equation: Equation, value: Value, indices: dict[str, str]) -> None:
         node = self.catalogue.parse(equation.defines or equation.left)
         expected = evaluate(node, self.references, indices)
+        if self._gives_transpose(equation):
+            expected = transpose(expected)
         if min(value.rank, expected.rank) >= 0 and value.tail != expected.tail:
             raise FormulaError(f"is {value.describe()} where {expected.describe()} belongs")
 
@@ -156,4 +169,10 @@ class EditionEnvironment:
             node = self.catalogue.parse(members[-2])
             if isinstance(node, nt.Product):
                 node = node.factors[0]
-        return evaluate(node, self, indices)
+        value = evaluate(node, self, indices)
+        return transpose(value) if self._gives_transpose(equation) else value
+
+    def _gives_transpose(self, equation: Equation) -> bool:
+        """Whether an equation defines kᵀ, not k."""
+        left = self.catalogue.parse(equation.left)
+        return isinstance(left.of if isinstance(left, nt.Derivative) else left, nt.Transpose)

@@ -205,11 +205,14 @@ class Catalogue:
                 kind, symbol = "", node
                 if isinstance(node, nt.Derivative) and node.by == Symbol("q", "j"):
                     kind, symbol = "∂", node.of
+                if isinstance(symbol, nt.Transpose):
+                    symbol = symbol.of
                 if not isinstance(symbol, Symbol):
                     continue
                 for indices in index_values(node):
                     key = (kind, symbol.bound(indices).name, symbol.dots)
-                    found.setdefault(key, (equation, indices))
+                    own = {k: v for k, v in indices.items() if k not in symbol.kept}
+                    found.setdefault(key, (equation, own))
         return found
 
 

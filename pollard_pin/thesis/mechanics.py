@@ -10,10 +10,12 @@ Source: Pollard thesis, 3.1, 3.3, 3.5 – 3.7.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
+from pollard_pin.thesis.accelerations import accelerating
 from pollard_pin.thesis.bodies import BODIES, bodies, inertia, own_frame, random_constants
 from pollard_pin.thesis.motion_symbols import Drive, MotionSymbols
 from pollard_pin.thesis.rates import joint_rates
@@ -277,13 +279,12 @@ class Mechanics(MotionSymbols):
 def driven(state: State, generator: np.random.Generator) -> Mechanics:
     """Closed states with random bodies, moved by random torques of the three base motors."""
     (size,) = state.shape
-    state = State(
-        {**state.constants, **random_constants(generator, size)}, state.variables, state.rates
-    )
+    state = replace(state, constants={**state.constants, **random_constants(generator, size)})
     torque, virtual = generator.uniform(-500, 500, (size, 3)), generator.uniform(-1, 1, (size, 6))
     still = Mechanics(state, Drive(np.zeros((size, 6)), torque, virtual))
     rows = joint_rates(state)
     force = sum(torque[:, k, None] * rows[name] for k, name in enumerate(MOTORS))
     rest = force - still.generalized_force
     acceleration = np.linalg.solve(still.terms.mass, rest[..., None])[..., 0]
-    return Mechanics(state, Drive(acceleration, torque, virtual))
+    bent = replace(state, accelerations=dict(zip(POSE, acceleration.T, strict=True)))
+    return Mechanics(accelerating(bent), Drive(acceleration, torque, virtual))

@@ -187,6 +187,7 @@ class MotionSymbols(References):
         if sub.startswith("G") and body in BODIES:
             frame = own_frame(body)
             return lambda s: centre(s, body) - origin(s, *frame)
+        sub = sub if i else sub.removesuffix("i")  # r_14,5i is the same for every chain
         if between(self.state, sub, i) is None:
             return None
         return lambda s: between(s, sub, i)
@@ -244,7 +245,7 @@ class MotionSymbols(References):
             local = self.state.constants[f"centre {centred[1]}"]
             return scalar(local[..., "xyz".index(symbol.base)])
         names = {"145": "x_65", "1514": "x_1514"}
-        own = symbol.sub.removesuffix(i) if i else symbol.sub
+        own = symbol.sub.removesuffix(i or "i")
         if symbol.base == "x" and own in names and not symbol.dots:
             return scalar(self.state.number(names[own]))
         return None
@@ -327,7 +328,8 @@ class MotionSymbols(References):
         own = symbol.sub.removesuffix("i")
         if symbol.dots or symbol.primes or not own.isdigit():
             return None
-        found = coefficient(self.state, f"{symbol.base}_{own}", i)
+        rates = self.rows if symbol.base == "E" else None
+        found = coefficient(self.state, f"{symbol.base}_{own}", i, rates)
         return None if found is None else scalar(found)
 
     _of_E = _coefficient

@@ -1,11 +1,10 @@
-"""Coefficients V, E and G: what multiplies each rate in the thesis's rate equations.
+"""Coefficients V and E: what multiplies each rate in the thesis's rate equations.
 
 Each rate equation comes from differentiating one relation of the positions; the
 relation's shape (which denominator it is brought to) is the thesis's, every
 derivative in it is a complex step through products of transforms:
 
 - V: coefficients of the relation, where every variable may move on its own;
-- G: the same for accelerations, without the terms that need only rates;
 - E: the joint's rate per rate of the pose on the *closed* mechanism, times the
   same denominator. The rates solve the loops' linear equations.
 
@@ -174,47 +173,18 @@ ROWS = (
 """Rate equations (2.51), (2.54), … (2.156); in some, one V multiplies θ̇21 + θ̇43."""
 
 
-_ACCELERATIONS: dict[str, tuple[int, int]] = {
-    "theta_21": (0, 1),
-    "theta_43": (0, 8),
-    "theta_54": (15, 16),
-    "theta_1817": (23, 24),
-    "theta_1716": (31, 32),
-    "theta_1615": (39, 40),
-}
-"""Angle → number of G's denominator (0: that of V), number of the first of the pose's six."""
+def coefficient(
+    state: State, name: str, i: str, rates: Mapping[str, np.ndarray] | None = None
+) -> np.ndarray | None:
+    """Value of "V_14" or "E_3"; None if there is none, or it needs a chain and has none.
 
-
-def _acceleration(state: State, number: int) -> np.ndarray | None:
-    """G: what multiplies a pose's acceleration; the denominator is X³, b12³, … for X², b12², …
-
-    A rate's coefficient is its acceleration's as well; (2.81) – (2.87) only bring it to
-    the cube of the element whose square is the denominator of the V.
+    Args:
+        state: States.
+        name: The coefficient.
+        i: Side chain, or "".
+        rates: :func:`joint_rates` at the states, if they are known.
     """
-    elements: dict[str, Callable[[State], np.ndarray]] = {
-        "theta_54": lambda s: side(s, 2)[..., 0],
-        "theta_1817": lambda s: _element(s, "T_LDn2", 1, 2),
-        "theta_1716": lambda s: _element(s, "T_LDn2", 1, 1),
-        "theta_1615": lambda s: _element(s, "T_LDn3", 2, 2),
-    }
-    for row in ROWS:
-        if row.angle not in _ACCELERATIONS:
-            continue
-        below, first = _ACCELERATIONS[row.angle]
-        scale = elements[row.angle](state) if below else np.ones(state.shape)
-        square, numerator = row.relation(state, "")
-        if below and number == below:
-            return square * scale
-        if first <= number < first + 6:
-            return numerator({POSE[number - first]: 1.0}) * scale
-    return None
-
-
-def coefficient(state: State, name: str, i: str) -> np.ndarray | None:
-    """Value of "V_14", "E_3" or "G_8"; None if there is none, or it needs a chain and has none."""
     letter, number = name[0], int(name[2:])
-    if letter == "G":
-        return _acceleration(state, number)
     for row in ROWS:
         chain = i if row.angle.endswith("i") else ""
         if row.angle.endswith("i") and not i:
@@ -226,7 +196,7 @@ def coefficient(state: State, name: str, i: str) -> np.ndarray | None:
             return numerator({own_name(row.variables[number - row.first - 1], i): 1.0})
         if letter == "E" and row.pose and row.pose <= number < row.pose + 6:
             below, _ = row.relation(state, chain)
-            rate = joint_rates(state)[own_name(row.angle, i)]
+            rate = (rates or joint_rates(state))[own_name(row.angle, i)]
             return np.asarray(below * rate[..., number - row.pose])
     return None
 

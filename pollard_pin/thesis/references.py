@@ -10,7 +10,10 @@ A, B, C                   Fourier coefficients of |Ec_1|² − |Ec_2|² in θ21,
                           |Ec_3|² − |Ec_4|² in θ21i
 V                         coefficients of the rates, :mod:`pollard_pin.thesis.rates`
 E                         denominators times the closed mechanism's joint rates
+G                         coefficients of the accelerations,
+                          :mod:`pollard_pin.thesis.accelerations`
 a dot                     complex step along the rates
+two dots                  Taylor coefficient along rates and accelerations
 ========================  ====================================================
 """
 
@@ -21,6 +24,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from pollard_pin.thesis import accelerations
 from pollard_pin.thesis.loops import between, frame, opening, side
 from pollard_pin.thesis.rates import coefficient
 from pollard_pin.thesis.state import TRANSFORMS, VARIABLES, State
@@ -58,6 +62,8 @@ class References:
     def _find(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots == 1:
             return self._rate(symbol, i)
+        if symbol.dots == 2:
+            return self._acceleration(symbol, i)
         if symbol.dots:
             return None
         return both_chains(self.state, symbol.name, i)
@@ -69,6 +75,17 @@ class References:
         if moved is None:
             return None
         return Value(np.imag(moved.array) / STEP, moved.rank)
+
+    def _acceleration(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.name in VARIABLES:
+            return scalar(self.state.accelerations[symbol.name])
+        if re.match("[VEG]_", symbol.name):  # themselves derivatives
+            return None
+        circle = accelerations.Circle(self.state, i)
+        moved = find(circle.state, symbol.name, i)
+        if moved is None:
+            return None
+        return Value(circle.derivative(moved.array, 2, -1 - moved.rank), moved.rank)
 
 
 def both_chains(state: State, name: str, i: str) -> Value | None:
@@ -141,7 +158,8 @@ def _side(state: State, i: str, k: str) -> Value | None:
 
 
 def _coefficient(state: State, i: str, name: str) -> Value | None:
-    found = coefficient(state, name, i)
+    of = accelerations.coefficient if name.startswith("G") else coefficient
+    found = of(state, name, i)
     return None if found is None else scalar(found)
 
 

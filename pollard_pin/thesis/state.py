@@ -14,7 +14,7 @@ Source: Pollard thesis, 2.4 and 2.7 (transformations).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -82,6 +82,7 @@ class State:
             "signo1", "signo2".
         variables: :data:`VARIABLES`.
         rates: Their time derivatives.
+        accelerations: Their second time derivatives.
         along: A direction in the space of variables: transforms then are
             :class:`Dual` and carry their derivative along it. None: plain arrays.
     """
@@ -89,6 +90,7 @@ class State:
     constants: dict[str, np.ndarray]
     variables: dict[str, np.ndarray]
     rates: dict[str, np.ndarray]
+    accelerations: dict[str, np.ndarray] = field(default_factory=dict)
     along: Mapping[str, float | np.ndarray] | None = None
 
     def with_(self, **changed: np.ndarray) -> State:
@@ -132,6 +134,11 @@ class State:
     def shape(self) -> tuple[int, ...]:
         """Shape of every variable."""
         return self.variables["x"].shape
+
+    @property
+    def size(self) -> int:
+        """Number of states."""
+        return self.shape[-1]
 
 
 def elementary(move: str, value: np.ndarray) -> np.ndarray:
@@ -187,7 +194,8 @@ def random_state(generator: np.random.Generator, size: int, *, closed: bool) -> 
         for name in VARIABLES
     }
     rates = {name: uniform(-2.0, 2.0) for name in VARIABLES}
-    state = State(constants, variables, rates)
+    accelerations = {name: uniform(-2.0, 2.0) for name in VARIABLES}
+    state = State(constants, variables, rates, accelerations)
     return _closed(state) if closed else state
 
 
@@ -208,11 +216,19 @@ def _closed(state: State) -> State:
         constants[f"x_43{i}"] = arm
         constants[f"y_10{i}"] = (gap[:, 1] - arm * np.sin(angle)) * constants[f"signo{i}"]
         constants[f"z_32{i}"] = -gap[:, 2]
-        rod_frame = turned @ state.transform("T_48i", i)
-        ball = np.swapaxes(rod_frame[:, :3, :3], -1, -2) @ goal[:, :3, :3]
         sign = np.where(state.variables[f"theta_109{i}"] < 0, -1.0, 1.0)
-        sine = sign * np.hypot(ball[:, 0, 2], ball[:, 1, 2])
-        changed[f"theta_98{i}"] = np.arctan2(sign * ball[:, 1, 2], sign * ball[:, 0, 2])
-        changed[f"theta_109{i}"] = np.arctan2(sine, ball[:, 2, 2])
-        changed[f"theta_1110{i}"] = np.arctan2(sign * ball[:, 2, 1], -sign * ball[:, 2, 0])
+        changed |= ball_angles(state, i, sign)
     return replace(state, constants=constants).with_(**changed)
+
+
+def ball_angles(state: State, i: str, sign: np.ndarray | float = 1.0) -> dict[str, np.ndarray]:
+    """Angles of a ball joint whose rod and forearm are in place; ``sign`` is that of sin θ109i."""
+    rod = state.transform("T_02i", i) @ state.transform("T_24i", i) @ state.transform("T_48i", i)
+    goal = state.transform("T_03") @ state.transform("T_311i", i)
+    ball = np.swapaxes(rod[:, :3, :3], -1, -2) @ goal[:, :3, :3]
+    sine = sign * np.hypot(ball[:, 0, 2], ball[:, 1, 2])
+    return {
+        f"theta_98{i}": np.arctan2(sign * ball[:, 1, 2], sign * ball[:, 0, 2]),
+        f"theta_109{i}": np.arctan2(sine, ball[:, 2, 2]),
+        f"theta_1110{i}": np.arctan2(sign * ball[:, 2, 1], -sign * ball[:, 2, 0]),
+    }
