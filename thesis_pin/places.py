@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 _SCRIPT = r"(?:\s*[_^]\s*(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\?\w))"
 _LETTER = r"(?:\\d?dot\{[^{}]*\}|\\[a-zA-Z]+|[A-Za-z]\d?|\d+(?:\.\d+)?)"
-_PIECE = re.compile(rf"∂[^ ]+/∂[^ ]+|{_LETTER}'*{_SCRIPT}*|\\\\|\S")
+_PIECE = re.compile(rf"∂[^ ]+/∂[^ ()]+|{_LETTER}'*{_SCRIPT}*|\\\\|\S")
 _LAYOUT = re.compile(
     r"\\(?:begin|end)\{\w+\}(?:\{[clr| ]*\})?|\\(?:left|right|[bB]igg?[lr]?|c?l?dots)\b\.?"
 )

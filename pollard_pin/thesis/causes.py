@@ -6,6 +6,7 @@ follows the slip by an independent route and finds the printed lines.
 
 from __future__ import annotations
 
+from pollard_pin.thesis.causes_dynamics import DYNAMICS
 from thesis_pin.causes import Cause
 
 CAUSES = {
@@ -111,5 +112,6 @@ CAUSES = {
         "look alike, so the column of θ76i carries the name of that of θ54, and the definitions "
         "have small letters that nothing else uses. Named in order, the lines are exact.",
     ),
+    **DYNAMICS,
 }
 """Name of each shared slip, as the data give it → what it is."""
