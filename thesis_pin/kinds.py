@@ -24,7 +24,7 @@ KINDS = {
 """Kinds of slips. The last two can't be seen from the formulas' difference: ``frame``
 is given by the data, ``statement`` is every other correction of what isn't a misprint."""
 
-_BRACKETS, _SIGNS = frozenset("()[]{}"), frozenset("+-")
+_BRACKETS, _SIGNS, _SCRIPTS = frozenset("()[]{}"), frozenset("+-"), frozenset("^_T")
 _DOT = re.compile(r"\\d?dot(?:\s*\{([^{}]*)\}|(?![a-zA-Z]))")
 
 
@@ -143,9 +143,9 @@ def _moved(gone: Counter[str], come: Counter[str]) -> Iterator[str]:
             left.remove(old)
             right.remove(alike[0])
             yield from _replaced(old, alike[0])
-    signs = all(piece in _SIGNS for piece in (*left, *right))
-    if left or right:
-        yield "sign" if signs else "term"
+    rest = {*left, *right}
+    if rest:
+        yield "sign" if rest <= _SIGNS else "index" if rest <= _SCRIPTS else "term"
 
 
 def _differential(piece: str) -> tuple[str, str]:

@@ -10,6 +10,7 @@ from thesis_pin.audit_command import _NARROW
 from thesis_pin.command_line import print_table
 from thesis_pin.equations import Equation
 from thesis_pin.kinds import KINDS, kinds, of_equation
+from thesis_pin.places import places
 
 
 @pytest.mark.parametrize(
@@ -35,6 +36,8 @@ from thesis_pin.kinds import KINDS, kinds, of_equation
         (r"V_{17} - \frac{V_{20}V_5}{V_1}", r"V_{18} + \frac{V_5V_{21}}{V_1}", ("sign", "index")),
         (r"c\theta_{43} x", r"s\theta_{43} x", ("symbol",)),
         (r"x_{3} a", r"z_{3} a", ("symbol",)),
+        (r"- \mathbb{V}'_{1j} a", r"- \mathbb{V}'_{2j} a", ("index",)),
+        (r"(J a)", r"(J a)^T", ("index",)),
         (r"j_{B}^T W", r"\dot{J}_{B}^T W", ("dot", "symbol")),
         (r"R(\theta_2) a", r"R(\theta_2 + \beta_2) a", ("term",)),
         (r"a b + c d", r"b + a c d", ("term",)),
@@ -46,6 +49,10 @@ from thesis_pin.kinds import KINDS, kinds, of_equation
 )
 def test_a_difference_has_the_kind_a_reader_would_name(before, after, expected):
     assert kinds(before, after) == expected
+
+
+def test_a_letter_that_should_be_bold_is_named_as_the_place():
+    assert places(r"J \theta", r"J \boldsymbol{\theta}") == [r"\theta should be bold"]
 
 
 def equation(**fields):
