@@ -160,3 +160,23 @@ def test_but_for_brackets_and_dots_the_print_is_the_correction(cause):
 def test_the_axis_is_only_an_index_of_the_angle():
     for equation in lines("axis-index"):
         assert re.sub(r"\\theta_[xyz]", r"\\theta", equation.left_printed) == equation.left
+
+
+@pytest.mark.parametrize(
+    ("cause", "pattern"),
+    [
+        ("offset-along-x", r"z_\{32i\}"),
+        ("lost-centre", r"\+ .*(G3'|R_x|B_x).* is missing"),
+        ("dotted-J", r"should be \\dot\{J\}"),
+        ("both-dotted", r"\\dot\{r\}\S* should be r"),
+        ("dotted-axis", r"\\dot\{j\}_[13]\^0 should be j"),
+        ("R-for-B", r"R_y should be B_y"),
+        ("turned-twice", r"k_\{\w+\}\^0 should be k_\{(\w+)\}\^\{\1\}"),
+        ("twice-V1", r"1j\} should be 𝕍'_\{2j\}"),
+        ("chain-rule", r"\+.* is missing after ∂|is missing after \+"),
+    ],
+)
+def test_chapter_3s_causes_name_what_every_one_of_their_lines_needs(cause, pattern):
+    for equation in lines(cause):
+        places = [place for pair in texts(equation) for place in catalogue().places(*pair)]
+        assert any(re.search(pattern, place) for place in places), (equation.id, places)
