@@ -14,6 +14,10 @@ Slot = tuple[str, str, int, str]
 """A symbol's place in a cache: "" or "∂", name, dots, leg."""
 
 
+class UnusablePrint(FormulaError):
+    """The one line that is to be followed as printed can't be evaluated."""
+
+
 class EditionEnvironment:
     """Symbols as the thesis defines them, all the way down.
 
@@ -107,8 +111,9 @@ class EditionEnvironment:
             return None
         equation, bound = definition
         key = (kind, symbol.name, symbol.dots, indices.get("i", "") if not bound else "")
+        users = self._users.setdefault(key, set())
         if self._busy:
-            self._users.setdefault(key, set()).add(self._busy[-1])
+            users.add(self._busy[-1])
         if key in self._values:
             return self._values[key]
         if key in self._busy:  # defined by itself somewhere down the line
@@ -138,12 +143,12 @@ class EditionEnvironment:
                 return value
             except FormulaError as error:
                 if equation.id in self.printed_only:
-                    raise
+                    raise UnusablePrint(error.what) from error
                 self.substituted[equation.id] = error.what
         try:
             return self._last(equation, equation.members("corrected"), symbol, indices)
         except FormulaError as error:
-            if equation.mending:
+            if equation.mending or isinstance(error, UnusablePrint):
                 raise
             self.substituted[equation.id] = f"{error.what}; the exact value stands in"
             return None
