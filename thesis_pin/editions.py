@@ -58,7 +58,8 @@ class EditionEnvironment:
     def following_print(self, identity: str) -> EditionEnvironment:
         """The same symbols with one equation as printed; what doesn't depend on it is kept."""
         definitions = self.catalogue.definitions
-        waiting = [slot for slot in self._values if definitions[slot[:3]][0].id == identity]
+        # Not only the values kept here: a derivative's states keep their own.
+        waiting = [slot for slot in self._users if definitions[slot[:3]][0].id == identity]
         changed: set[Slot] = set()
         while waiting:
             slot = waiting.pop()
