@@ -18,6 +18,7 @@ from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.causes import CAUSES
 from pollard_pin.thesis.claims import claims
 from pollard_pin.thesis.effects import Effects
+from pollard_pin.thesis.loop_symbols import loop_symbols
 from pollard_pin.thesis.mechanics import Mechanics, driven
 from pollard_pin.thesis.rates import moving
 from pollard_pin.thesis.references import References
@@ -69,12 +70,14 @@ def audit(
     equations = equations or catalogue()
     chosen = equations.equations if only is None else [equations[name] for name in only]
     open_, closed = References(states(closed=False)), mechanics()
+    loops = loop_symbols(states(closed=True))
     checks, effects = _once(claims(equations, closed)), Effects(equations, closed)
     rows = []
     for equation in progress(chosen, len(chosen)) if progress else chosen:
+        environment = closed if equation.closed or equation.section.startswith("3") else open_
         # From chapter 3 on the coordinates are the pose's six, the loops closed.
-        held_closed = equation.closed or equation.section.startswith("3")
-        row = judge(equations, equation, closed if held_closed else open_, checks, THESIS)
+        environment = loops if equation.section == "A" else environment
+        row = judge(equations, equation, environment, checks, THESIS)
         if row.failed and not row.effect:
             effect = effects.of(equation)
             if not effect and row.residual_printed == math.inf:
@@ -112,9 +115,7 @@ def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:
             found.append((what, "not yet transcribed"))
     return (
         *found,
-        (
-            "appendix C, Grübler's formula, appendix B's reachability, chapter 4's inertias",
-            "not yet transcribed",
+        ("appendix C", "not yet transcribed"),
         ),
         ("figures", "drawings"),
     )

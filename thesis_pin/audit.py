@@ -338,9 +338,10 @@ class Report:
 
     @property
     def by_chapter(self) -> dict[str, dict[str, int]]:
-        """Number of rows by chapter, in the rows' order, and verdict."""
+        """Number of rows by chapter, chapters before appendices, and verdict."""
         zeros: dict[str, int] = {verdict: 0 for verdict in VERDICTS}
-        table = {row.chapter: zeros.copy() for row in self.rows}
+        names = sorted({row.chapter for row in self.rows}, key=lambda name: (name.isalpha(), name))
+        table = {name: zeros.copy() for name in names}
         for row in self.rows:
             table[row.chapter][row.verdict] += 1
         return table

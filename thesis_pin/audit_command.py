@@ -17,6 +17,10 @@ if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
     Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
 
 
+_NARROW = {"not checkable": "not\ncheckable", "unexplained": "un-\nexplained"}
+"""Headings on two lines: all verdicts fit 80 columns."""
+
+
 class Audit(Protocol):
     """A robot's audit, of some equations or of all."""
 
@@ -73,7 +77,8 @@ def run_verb(
         return OK
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])
-    print_table(*faces.chapter_table(report), title="verdicts by chapter")
+    headings, chapters = faces.chapter_table(report)
+    print_table([_NARROW.get(h, h) for h in headings], chapters, title="verdicts by chapter")
     print_table(*faces.kind_table(report), title="mended lines by kind of slip")
     print_text(faces.KIND_NOTE, "")
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")

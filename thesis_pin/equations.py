@@ -216,7 +216,7 @@ class Catalogue:
         return found
 
 
-_LETTERS = re.compile(r"theta|phi|psi|tau|ZMP|LDn")
+_LETTERS = re.compile(r"theta|phi|psi|tau|times|ZMP|LDn")
 
 
 def free_indices(*nodes: Node) -> set[str]:

@@ -62,8 +62,8 @@ def _bound(symbol: Symbol, pairs: tuple[tuple[str, str], ...]) -> Symbol:
     indices = {letter: value for letter, value in pairs if letter not in symbol.kept}
 
     def put(text: str) -> str:
-        # A Greek name inside a subscript ("thetaB") isn't a run of indices.
-        parts = re.split(r"(theta|phi|psi)", text)
+        # A name inside a subscript ("thetaB", "3times3") isn't a run of indices.
+        parts = re.split(r"(theta|phi|psi|times)", text)
         return "".join(
             part if k % 2 else "".join(indices.get(letter, letter) for letter in part)
             for k, part in enumerate(parts)

@@ -12,7 +12,7 @@ from thesis_pin.places import pieces
 
 KINDS = {
     "bracket": "a bracket missing, added or misplaced",
-    "dot": "a dot of a derivative missing, added or misplaced",
+    "dot": "a dot or ∂ of a derivative missing, added or misplaced",
     "sign": "plus for minus, or the reverse",
     "index": "the right letter with a wrong sub- or superscript",
     "symbol": "another letter, function or number",
@@ -24,7 +24,7 @@ KINDS = {
 """Kinds of slips. The last two can't be seen from the formulas' difference: ``frame``
 is given by the data, ``statement`` is every other correction of what isn't a misprint."""
 
-_BRACKETS, _SIGNS = frozenset("()[]{}"), frozenset("+-")
+_BRACKETS, _SIGNS, _SCRIPTS = frozenset("()[]{}"), frozenset("+-"), frozenset("^_T")
 _DOT = re.compile(r"\\d?dot(?:\s*\{([^{}]*)\}|(?![a-zA-Z]))")
 
 
@@ -117,9 +117,14 @@ def _replaced(old: str, new: str) -> Iterator[str]:
     if old in _SIGNS and new in _SIGNS:
         yield "sign"
         return
-    if _dots(old) != _dots(new):
+    (of, by), (other, along) = _differential(old), _differential(new)
+    if by and along:
+        yield from _replaced(of, other)
+        yield from _replaced(by, along)
+        return
+    if _dots(of) + bool(by) != _dots(other) + bool(along):
         yield "dot"
-    one, two = _undotted(old), _undotted(new)
+    one, two = _undotted(of), _undotted(other)
     if _base(one) != _base(two):
         yield "symbol"
     elif one != two:
@@ -138,9 +143,15 @@ def _moved(gone: Counter[str], come: Counter[str]) -> Iterator[str]:
             left.remove(old)
             right.remove(alike[0])
             yield from _replaced(old, alike[0])
-    signs = all(piece in _SIGNS for piece in (*left, *right))
-    if left or right:
-        yield "sign" if signs else "term"
+    rest = {*left, *right}
+    if rest:
+        yield "sign" if rest <= _SIGNS else "index" if rest <= _SCRIPTS else "term"
+
+
+def _differential(piece: str) -> tuple[str, str]:
+    """x and y of "∂x/∂y"; a piece itself and nothing if it is none."""
+    match = re.fullmatch(r"∂(.+)/∂(.+)", piece)
+    return (match[1], match[2]) if match else (piece, "")
 
 
 def _dots(piece: str) -> int:

@@ -5,11 +5,14 @@ from __future__ import annotations
 import difflib
 import itertools
 import re
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 
+_BOLD = re.compile(r"\\(?:mathbf|boldsymbol)\s*\{((?:[^{}]|\{[^{}]*\})*)\}")
+_DOUBLE = {"C": "ℂ", "D": "𝔻", "V": "𝕍"}
 _SCRIPT = r"(?:\s*[_^]\s*(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\?\w))"
-_LETTER = r"(?:\\d?dot\{[^{}]*\}|\\[a-zA-Z]+|[A-Za-z]\d?|\d+(?:\.\d+)?)"
-_PIECE = re.compile(rf"∂[^ ]+/∂[^ ]+|{_LETTER}'*{_SCRIPT}*|\\\\|\S")
+_LETTER = r"(?:[ℂ𝔻𝕍]|\\d?dot\{[^{}]*\}|\\[a-zA-Z]+|[A-Za-z]\d?|\d+(?:\.\d+)?)"
+_PIECE = re.compile(rf"∂[^ ]+/∂[^ ()]+|{_LETTER}'*{_SCRIPT}*|\\\\|\S")
 _LAYOUT = re.compile(
     r"\\(?:begin|end)\{\w+\}(?:\{[clr| ]*\})?|\\(?:left|right|[bB]igg?[lr]?|c?l?dots)\b\.?"
 )
@@ -20,7 +23,8 @@ def pieces(formula: str) -> tuple[list[str], str]:
 
     Fonts and layout are left out; what a piece is called comes with them.
     """
-    text = re.sub(r"\\(?:mathbf|boldsymbol)\s*\{((?:[^{}]|\{[^{}]*\})*)\}", r"\1", formula)
+    text = _BOLD.sub(r"\1", formula)
+    text = re.sub(r"\\mathbb\s*\{([CDV])\}", lambda match: _DOUBLE[match[1]], text)
     simple = (
         r"\\frac\{\\partial ([^{} ]*(?:\{[^{}]*\}[^{} ]*)*)\}\{\\partial ([^{} ]*(?:\{[^{}]*\})?)\}"
     )
@@ -49,7 +53,14 @@ def places(before: str, after: str) -> list[str]:
             found.append(f"{where}: {old} should not be there")
         else:
             found.append(f"{where}: {old} should be {new}")
-    return found
+    return found or list(_fonts(before, after))
+
+
+def _fonts(before: str, after: str) -> Iterator[str]:
+    """What differs in nothing but being bold."""
+    thin, bold = Counter(_BOLD.findall(before)), Counter(_BOLD.findall(after))
+    yield from (f"{letter} should be bold" for letter in bold - thin)
+    yield from (f"{letter} should not be bold" for letter in thin - bold)
 
 
 def _counted(cells: Sequence[str]) -> str:

@@ -133,7 +133,7 @@ def power(value: Value, exponent: int | str) -> Value:
 
 
 def blocks(rows: list[list[Value]], columns: int) -> Value:
-    """Matrix from its cells: numbers, or vectors as columns.
+    """Matrix from its cells: numbers, or vectors as columns; a column of both is one vector.
 
     A row of vectors that ends in 0 and is too short stands for one whose last 0
     fills the missing columns: the notation the Scout thesis uses for J_B.
@@ -146,6 +146,8 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
         spread = [[np.broadcast_to(cell.array, batch) for cell in row] for row in rows]
         array = np.stack([np.stack(row, axis=-1) for row in spread], axis=-2)
         return vector(array[..., 0]) if len(rows[0]) == 1 < len(rows) else matrix(array)
+    if len(rows[0]) == 1 < len(rows) and {cell.rank for cell in cells} == {0, 1}:
+        return _stacked(cells)
     height = next(cell.tail[0] for cell in cells if cell.rank > 0)
     filled = []
     for row in rows:
@@ -168,3 +170,11 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
     if len({line.shape[-1] for line in lines}) > 1:
         raise FormulaError("puts rows of different length one below the other")
     return matrix(np.concatenate(lines, axis=-2))
+
+
+def _stacked(cells: list[Value]) -> Value:
+    """One vector from vectors and numbers below each other."""
+    arrays = [cell.array if cell.rank else cell.array[..., None] for cell in cells]
+    batch = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
+    spread = [np.broadcast_to(array, (*batch, array.shape[-1])) for array in arrays]
+    return vector(np.concatenate(spread, axis=-1))

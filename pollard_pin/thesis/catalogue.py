@@ -29,8 +29,6 @@ FILES = tuple(
         "section_2_7",
         "section_2_8",
         "section_2_9",
-        "chapter_4",
-        "appendix_b",
         "appendix_d",
         "appendix_e",
         "section_3_1",
@@ -41,6 +39,9 @@ FILES = tuple(
         "section_3_5",
         "section_3_6",
         "section_3_7",
+        "chapter_4",
+        "appendix_a",
+        "appendix_b",
     )
     if (path := _FOLDER / f"{name}.toml").exists()
 )

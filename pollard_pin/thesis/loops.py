@@ -126,9 +126,10 @@ PATHS: dict[str, Path] = {
     **{"1": _TO_1, "2": _TO_2, "3": _TO_3, "4": _TO_4, "5": _TO_5, "14": _TO_14, "15": _TO_15},
     **{"16": _TO_16, "17": _TO_17, "18": _TO_18},
     **{"1i": _TO_1I, "2i": _TO_2I, "3i": _TO_3I, "4i": _TO_4I, "5i": _TO_5I},
-    **{"6i": _TO_6I, "7i": _TO_7I},
+    **{"6i": _TO_6I, "7i": _TO_7I, "8i": (*_TO_7I, ("x", "x_87i"))},
+    **{"11i": (*_TO_12I, ("-x", "x_1211i")), "12i": _TO_12I, "13i": _TO_13I, "p": _TIP},
 }
-"""Paths to the thesis's frames (2.4.1, 2.7.1)."""
+"""Paths to the thesis's frames (2.4.1, 2.7.1); p is the tool's, as the pose gives it (A.1)."""
 
 _SPANS_0: dict[str, tuple[Path, Path]] = {
     "10": ((), _TO_2),

@@ -145,7 +145,7 @@ def test_E_9_lacks_just_the_coefficient_of_z_that_258_lacks():
 def bare(text):
     """A formula without brackets, dots and spaces."""
     text = re.sub(r"\\dot\{((?:[^{}]|\{[^{}]*\})*)\}", r"\1", text)
-    return re.sub(r"\\left|\\right|[()\s]|\\,", "", text)
+    return re.sub(r"\\(?:left|right)\s*\.?|[()\s]|\\,", "", text)
 
 
 @pytest.mark.parametrize("cause", ["lost-arguments", "lost-dots", "scanned-brackets"])

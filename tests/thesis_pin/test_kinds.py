@@ -6,8 +6,11 @@ from pollard_pin.thesis import catalogue as pollard
 from scout_pin.thesis import catalogue as scout
 from thesis_pin import audit_report
 from thesis_pin.audit import Report, Row
+from thesis_pin.audit_command import _NARROW
+from thesis_pin.command_line import print_table
 from thesis_pin.equations import Equation
 from thesis_pin.kinds import KINDS, kinds, of_equation
+from thesis_pin.places import places
 
 
 @pytest.mark.parametrize(
@@ -18,6 +21,12 @@ from thesis_pin.kinds import KINDS, kinds, of_equation
         (r"\theta_{21} x_{32}", r"\dot{\theta}_{21} x_{32}", ("dot",)),
         (r"\ddot{q}^T N", r"\dot{q}^T N", ("dot",)),
         (r"\dot{a} \times b + a \times b", r"\dot{a} \times b + a \times \dot{b}", ("dot",)),
+        (r"R_2 r", r"\frac{\partial R_2}{\partial q_j} r", ("dot",)),
+        (
+            r"\frac{\partial R_2}{\partial \theta} r",
+            r"\frac{\partial R_2}{\partial \phi} r",
+            ("symbol",),
+        ),
         (r"a - b", r"a + b", ("sign",)),
         (r"b + c", r"-b + c", ("sign",)),
         (r"a + r_5", r"r_5 - a", ("sign",)),
@@ -27,6 +36,8 @@ from thesis_pin.kinds import KINDS, kinds, of_equation
         (r"V_{17} - \frac{V_{20}V_5}{V_1}", r"V_{18} + \frac{V_5V_{21}}{V_1}", ("sign", "index")),
         (r"c\theta_{43} x", r"s\theta_{43} x", ("symbol",)),
         (r"x_{3} a", r"z_{3} a", ("symbol",)),
+        (r"- \mathbb{V}'_{1j} a", r"- \mathbb{V}'_{2j} a", ("index",)),
+        (r"(J a)", r"(J a)^T", ("index",)),
         (r"j_{B}^T W", r"\dot{J}_{B}^T W", ("dot", "symbol")),
         (r"R(\theta_2) a", r"R(\theta_2 + \beta_2) a", ("term",)),
         (r"a b + c d", r"b + a c d", ("term",)),
@@ -38,6 +49,10 @@ from thesis_pin.kinds import KINDS, kinds, of_equation
 )
 def test_a_difference_has_the_kind_a_reader_would_name(before, after, expected):
     assert kinds(before, after) == expected
+
+
+def test_a_letter_that_should_be_bold_is_named_as_the_place():
+    assert places(r"J \theta", r"J \boldsymbol{\theta}") == [r"\theta should be bold"]
 
 
 def equation(**fields):
@@ -73,14 +88,15 @@ def report():
     rows = (
         row("robot:2.4.1:a", "holds"),
         row("robot:2.7:b", "misprint", "dot", "bracket"),
-        row("robot:D:c", "misprint", "dot"),
         row("robot:D:d", "wrong", "frame"),
     )
+    rows = (row("robot:D:c", "misprint", "dot"), *rows)
     return Report("Thesis", rows, (), "", {})
 
 
 def test_verdicts_are_counted_by_chapter_and_mended_lines_by_kind(report):
-    assert {k: sum(v.values()) for k, v in report.by_chapter.items()} == {"2": 2, "D": 2}
+    counts = [(chapter, sum(v.values())) for chapter, v in report.by_chapter.items()]
+    assert counts == [("2", 2), ("D", 2)]
     assert report.by_chapter["D"]["misprint"] == 1
     assert report.by_kind["dot"] == {"misprint": 2, "wrong": 0}
     assert report.by_kind["frame"] == {"misprint": 0, "wrong": 1}
@@ -96,4 +112,16 @@ def test_documents_and_json_show_both_tables(report):
     document = audit_report.document(report)
     assert document["chapters"]["2"]["holds"] == 1
     assert document["kinds"]["dot"] == {"is": KINDS["dot"], "misprint": 2, "wrong": 0}
-    assert document["rows"][1]["kinds"] == ["dot", "bracket"]
+    assert document["rows"][2]["kinds"] == ["dot", "bracket"]
+
+
+def test_all_verdicts_fit_eighty_columns(monkeypatch, capsys):
+    monkeypatch.setenv("COLUMNS", "80")
+    verdicts = ("holds", "misprint", "wrong", "illegible", "not checkable", "unexplained")
+    rows = tuple(Row(f"robot:{v}:a", "", (), "a", ("b",), {}, v) for v in verdicts for _ in "12")
+    headings, chapters = audit_report.chapter_table(Report("Thesis", rows, (), "", {}))
+    print_table([_NARROW.get(heading, heading) for heading in headings], chapters[-1:])
+    shown = capsys.readouterr().out
+    assert "…" not in shown
+    for word in ("chapter", "misprint", "checkable", "explained"):
+        assert word in shown
