@@ -14,6 +14,10 @@ Slot = tuple[str, str, int, str]
 """A symbol's place in a cache: "" or "∂", name, dots, leg."""
 
 
+class UnusablePrint(FormulaError):
+    """The one line that is to be followed as printed can't be evaluated."""
+
+
 class EditionEnvironment:
     """Symbols as the thesis defines them, all the way down.
 
@@ -54,7 +58,8 @@ class EditionEnvironment:
     def following_print(self, identity: str) -> EditionEnvironment:
         """The same symbols with one equation as printed; what doesn't depend on it is kept."""
         definitions = self.catalogue.definitions
-        waiting = [slot for slot in self._values if definitions[slot[:3]][0].id == identity]
+        # Not only the values kept here: a derivative's states keep their own.
+        waiting = [slot for slot in self._users if definitions[slot[:3]][0].id == identity]
         changed: set[Slot] = set()
         while waiting:
             slot = waiting.pop()
@@ -107,8 +112,9 @@ class EditionEnvironment:
             return None
         equation, bound = definition
         key = (kind, symbol.name, symbol.dots, indices.get("i", "") if not bound else "")
+        users = self._users.setdefault(key, set())
         if self._busy:
-            self._users.setdefault(key, set()).add(self._busy[-1])
+            users.add(self._busy[-1])
         if key in self._values:
             return self._values[key]
         if key in self._busy:  # defined by itself somewhere down the line
@@ -138,12 +144,12 @@ class EditionEnvironment:
                 return value
             except FormulaError as error:
                 if equation.id in self.printed_only:
-                    raise
+                    raise UnusablePrint(error.what) from error
                 self.substituted[equation.id] = error.what
         try:
             return self._last(equation, equation.members("corrected"), symbol, indices)
         except FormulaError as error:
-            if equation.mending:
+            if equation.mending or isinstance(error, UnusablePrint):
                 raise
             self.substituted[equation.id] = f"{error.what}; the exact value stands in"
             return None

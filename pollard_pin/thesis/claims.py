@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from pollard_pin.thesis import claims_path, claims_robot
+from pollard_pin.thesis import claims_dynamics, claims_path, claims_robot
 from pollard_pin.thesis.references import References
 from thesis_pin.arrays import wrap
 from thesis_pin.audit import ClaimResult, Claims
@@ -27,6 +27,7 @@ def claims(catalogue: Catalogue, closed: References) -> Claims:
         "half-angle": _half_angle,
         **claims_robot.CHECKS,
         **claims_path.CHECKS,
+        **claims_dynamics.CHECKS,
     }
     return {
         equation.claim: partial(kinds[equation.claim.split(":")[0]], catalogue, equation, closed)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -38,9 +39,10 @@ class Given:
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
         """Value of a symbol."""
-        if symbol.name not in self.values:
-            raise FormulaError(f"the symbol {symbol.name} isn't given")
-        return scalar(self.values[symbol.name])
+        name = replace(symbol, kept="").bound(indices).name
+        if name not in self.values:
+            raise FormulaError(f"the symbol {name} isn't given")
+        return scalar(self.values[name])
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """Nothing here moves."""

@@ -41,8 +41,11 @@ ROW_NAMES = ("k_2", "k_6", "k_7", "k_12", "k_18", "k_25")
 SIDE_ROW_NAMES = ("k_2i", "k_6i", "k_7i")
 """Rows of a side chain: θ21i, θ65i, θ76i."""
 
-_CHUNK = 128  # states whose ∂N/∂q_j stay below a few hundred MB
 _SIDE_ANGLES = ("theta_21", "theta_65", "theta_76")
+ANGLES = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in _SIDE_ANGLES))
+"""The thesis's symbols in the order of :data:`pollard_pin.specification.JOINT_NAMES`."""
+
+_CHUNK = 128  # states whose ∂N/∂q_j stay below a few hundred MB
 
 
 class ExplicitModel:
@@ -132,6 +135,19 @@ class ExplicitModel:
         """
         return self._matrix("N", number, 5, 2, pose, chain)
 
+    def margin(self, pose: Any) -> np.ndarray:
+        """Smallest sine or cosine that the thesis's formulas divide by, ``(...)``.
+
+        X, b_12, b_11, c_22 and X_i vanish where cos θ43, sin or cos θ1817, cos θ1716,
+        cos θ1615 or cos θ65i do. The mechanism isn't singular there, and the closed form
+        of :meth:`pollard_pin.Pollard.rates` has no such denominators: below about 0.05
+        the explicit model loses digits that nothing else does.
+        """
+        found = self.robot.inverse_kinematics(finite_array("pose", pose, 6), self.branch).require()
+        cosines = np.cos(found.angles[..., [1, 3, 4, 5, 7, 10]])
+        divisors = np.concatenate([cosines, np.sin(found.angles[..., [5]])], axis=-1)
+        return np.asarray(np.abs(divisors).min(axis=-1))
+
     # -- dynamics ------------------------------------------------------------------
 
     def D(self, pose: Any) -> np.ndarray:
@@ -168,7 +184,7 @@ class ExplicitModel:
     # -- machinery -------------------------------------------------------------------
 
     def mechanics(self, pose: np.ndarray, v: np.ndarray, a: np.ndarray) -> Mechanics:
-        """The references at poses ``(n, 6)`` on this model's branch.
+        """What each symbol must equal at poses ``(n, 6)`` on this model's branch.
 
         Raises:
             Unreachable: A pose has no solution on the branch.
