@@ -39,6 +39,7 @@ CAUSES = {
     "lost-arguments": "2.8, 2.9: c and s of a sum without its bracket",
     "lost-dots": "dots of rates and accelerations lost",
     "scanned-brackets": "brackets lost or added in long lines",
+    "scanned-letters": "letters and dots misread in long lines",
 }
 COEFFICIENTS = {"V": 79, "E": 66, "G": 92}
 """Coefficients the thesis names: appendix D, chapter 2, appendix E."""
@@ -100,7 +101,7 @@ def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:
     return (
         *found,
         (
-            "appendix C, Grübler's formula, appendix B's reachability, chapter 4's inertias",
+            "Grübler's formula, appendix B's reachability, chapter 4's inertias",
             "not yet transcribed",
         ),
         (
