@@ -106,17 +106,17 @@ def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:
     """What isn't transcribed yet, counted from the data."""
     covered = {number for equation in equations.equations for number in equation.number}
     numbers = [number for number in NUMBERS if number not in covered]
-    found = [(f"{len(numbers)} numbered equations, listed as missing", "not yet transcribed")]
+    found = []
+    if numbers:
+        found.append((f"{len(numbers)} numbered equations: {ranges(numbers)}", "not transcribed"))
     names = {equation.id.split(":", 2)[2] for equation in equations.equations}
     for letter, count in COEFFICIENTS.items():
         lacking = [f"{letter}_{k}" for k in range(1, count + 1) if f"{letter}_{k}" not in names]
         if lacking:
             what = f"{len(lacking)} of {count} coefficients {letter}: {ranges(lacking)}"
-            found.append((what, "not yet transcribed"))
+            found.append((what, "not transcribed"))
     return (
         *found,
-        ("appendix C", "not yet transcribed"),
-        ),
         ("figures", "drawings"),
     )
 
