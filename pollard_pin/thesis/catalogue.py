@@ -29,6 +29,7 @@ FILES = tuple(
         "section_2_7",
         "section_2_8",
         "section_2_9",
+        "appendix_c",
         "appendix_d",
         "appendix_e",
         "section_3_1",

@@ -112,6 +112,14 @@ CAUSES = {
         "look alike, so the column of θ76i carries the name of that of θ54, and the definitions "
         "have small letters that nothing else uses. Named in order, the lines are exact.",
     ),
+    "scanned-letters": Cause(
+        "letters and dots misread in long lines",
+        "each line by itself",
+        "In the longest lines some letters carry a dot too many or too few, an index is another, "
+        "or a sine stands for a cosine, with no pattern from line to line. The same terms are "
+        "right in the equations these lines are put together from, so they were lost on paper or "
+        "in reading it, not in the derivation.",
+    ),
     **DYNAMICS,
 }
 """Name of each shared slip, as the data give it → what it is."""

@@ -22,6 +22,7 @@ import numpy as np
 from pollard_pin.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import load
 from pollard_pin.specification import Specification
+from pollard_pin.thesis.accelerations import accelerating
 from pollard_pin.thesis.bodies import constants_of
 from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.mechanics import Mechanics
@@ -103,6 +104,8 @@ class ExplicitModel:
         """
 
         def found(model: ExplicitModel, mechanics: Mechanics) -> np.ndarray:
+            # The last G of an equation takes the accelerations of the joints before it.
+            mechanics = Mechanics(accelerating(mechanics.state), mechanics.drive)
             values = [
                 model._number(mechanics, Symbol("theta", name, dots=2), i)
                 for name, i in _angle_names()
@@ -195,7 +198,9 @@ class ExplicitModel:
         for i, start in (("1", 6), ("2", 9)):
             names = [name + i for name in _SIDE_ANGLES]
             variables |= dict(zip(names, angles[:, start : start + 3].T, strict=True))
-        state = State(self.constants, variables, dict(zip(POSE, v.T, strict=True)))
+        rates, accelerations = (dict(zip(POSE, x.T, strict=True)) for x in (v, a))
+        constants = {k: np.repeat(x, len(pose), axis=0) for k, x in self.constants.items()}
+        state = State(constants, variables, rates, accelerations)
         for i in "12":
             state = state.with_(**ball_angles(state, i))
         still = np.zeros((len(pose), 6))
