@@ -333,7 +333,7 @@ def _markdown_row(row: Row) -> Iterator[str]:
     if row.reason:
         yield f"- finding: {row.reason}"
     for place in row.places:
-        yield f"- {place}"
+        yield f"- where: `{place}`"
     if row.kinds:
         yield f"- kind: {', '.join(row.kinds)}"
     if row.effect:
