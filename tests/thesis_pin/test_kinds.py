@@ -27,6 +27,11 @@ from thesis_pin.places import places
             r"\frac{\partial R_2}{\partial \phi} r",
             ("symbol",),
         ),
+        (
+            r"\frac{\partial L}{\partial \dot{q}_j}",
+            r"\frac{\partial L}{\partial q_j}",
+            ("dot",),
+        ),
         (r"a - b", r"a + b", ("sign",)),
         (r"b + c", r"-b + c", ("sign",)),
         (r"a + r_5", r"r_5 - a", ("sign",)),
