@@ -17,6 +17,7 @@ import numpy as np
 from scout_pin.model import load
 from scout_pin.specification import Specification
 from scout_pin.thesis import claims_dynamics, claims_robot, claims_tables
+from scout_pin.thesis.causes import CAUSES
 from scout_pin.thesis.explicit import catalogue, resting
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
@@ -36,17 +37,6 @@ NUMBERS = (
     "6.1",
     *(f"C.{k}" for k in range(1, 6)),
 )
-CAUSES = {
-    "reaction-torques": "A_τ: reaction torques forgotten",
-    "constraints": "Φ fixes directions, not the feet",
-    "columns": "runs of zero columns miscounted",
-    "dots": "dots lost, added or merged lines",
-    "dotted-capitals": "dotted capitals read as small ones",
-    "old-frames": "4.3, 4.4: an older set of frames",
-    "ddot-q": "∂q̈/∂q̇_j for ∂q̇/∂q̇_j",
-    "shifted-columns": "∂W: one column too many, shifted",
-    "inertia-reading": "B.6 used as centroidal tensors",
-}
 BEYOND = (
     ("chapters 1 and 2, appendix A", "no equations of the robot: its field, its making, a census"),
     ("figures 3.1 to 5.3", "drawings; figure 5.2 and C.1 are checked through their numbers"),

@@ -15,6 +15,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from thesis_pin import kinds
+from thesis_pin.causes import Cause
 from thesis_pin.equations import Catalogue, Equation, index_values
 from thesis_pin.evaluation import Environment, evaluate
 from thesis_pin.formula import FormulaError
@@ -66,6 +68,7 @@ class Row:
         residual_printed, residual_corrected: See :class:`Residual`; None where
             there is nothing to evaluate.
         places: Where the correction differs from the print.
+        kinds: What kind of slip that is, of :data:`thesis_pin.kinds.KINDS`.
         reason: Why the print can't be evaluated, or isn't checked.
         effect: What following the print does; by quantity.
         note: What a reader should know.
@@ -85,6 +88,7 @@ class Row:
     residual_printed: float | None = None
     residual_corrected: float | None = None
     places: tuple[str, ...] = ()
+    kinds: tuple[str, ...] = ()
     reason: str = ""
     effect: dict[str, float | str] = field(default_factory=dict)
     note: str = ""
@@ -95,6 +99,16 @@ class Row:
     def failed(self) -> bool:
         """Whether the print can't be followed."""
         return self.verdict in ("misprint", "wrong", "unexplained")
+
+    @property
+    def section(self) -> str:
+        """Section of the thesis."""
+        return self.id.split(":")[1]
+
+    @property
+    def chapter(self) -> str:
+        """Chapter or appendix: what stands before the section's first point."""
+        return self.section.partition(".")[0]
 
     @property
     def weight(self) -> float:
@@ -208,10 +222,12 @@ def judge(
         return _with(row, reason=equation.not_checkable)
     if equation.claim:
         result = claims[equation.claim]()
+        answer = verdict(result.printed, result.corrected, physical=True)
         return _with(
             row,
             check=equation.claim,
-            verdict=verdict(result.printed, result.corrected, physical=True),
+            verdict=answer,
+            kinds=_kinds(equation, answer),
             residual_printed=result.printed,
             residual_corrected=result.corrected,
             reason=result.note,
@@ -223,17 +239,22 @@ def judge(
     if equation.mending or equation.left_printed:
         members = equation.members("corrected")
         mended = residual(catalogue, equation, members, environment, equation.left)
+    answer = verdict(printed.value, mended.value if mended else None, physical=bool(equation.right))
     return _with(
         row,
         check="identity",
-        verdict=verdict(
-            printed.value, mended.value if mended else None, physical=bool(equation.right)
-        ),
+        verdict=answer,
+        kinds=_kinds(equation, answer),
         residual_printed=printed.value,
         residual_corrected=mended.value if mended else None,
         reason=printed.reason or (mended.reason if mended else ""),
         places=tuple(_places(catalogue, equation)),
     )
+
+
+def _kinds(equation: Equation, answer: Verdict) -> tuple[str, ...]:
+    """Kinds of a mended slip; none where nothing is mended."""
+    return kinds.of_equation(equation) if answer in ("misprint", "wrong") else ()
 
 
 def _with(row: Row, **changes: Any) -> Row:
@@ -285,7 +306,7 @@ class Report:
         rows: One a printed equation.
         numbers: All equation numbers of the thesis.
         states: The states it was made at, in words.
-        causes: Title of each shared slip.
+        causes: Each shared slip, by its name in the rows.
         beyond: What lies outside the audit, and why.
         effects: What the rows' effects are, as lines for the document.
     """
@@ -294,7 +315,7 @@ class Report:
     rows: tuple[Row, ...]
     numbers: tuple[str, ...]
     states: str
-    causes: Mapping[str, str]
+    causes: Mapping[str, Cause]
     beyond: tuple[tuple[str, str], ...] = ()
     effects: tuple[str, ...] = ()
 
@@ -316,12 +337,32 @@ class Report:
         return tuple(number for number in self.numbers if number not in covered)
 
     @property
+    def by_chapter(self) -> dict[str, dict[str, int]]:
+        """Number of rows by chapter, chapters before appendices, and verdict."""
+        zeros: dict[str, int] = {verdict: 0 for verdict in VERDICTS}
+        names = sorted({row.chapter for row in self.rows}, key=lambda name: (name.isalpha(), name))
+        table = {name: zeros.copy() for name in names}
+        for row in self.rows:
+            table[row.chapter][row.verdict] += 1
+        return table
+
+    @property
+    def by_kind(self) -> dict[str, dict[str, int]]:
+        """Number of mended rows by kind and verdict; one of several kinds counts under each."""
+        found = {kind for row in self.rows for kind in row.kinds}
+        table = {k: {"misprint": 0, "wrong": 0} for k in kinds.KINDS if k in found}
+        for row in self.rows:
+            for kind in row.kinds:
+                table[kind][row.verdict] += 1
+        return table
+
+    @property
     def sections(self) -> tuple[Section, ...]:
         """Coverage section by section, in the rows' order."""
-        names = dict.fromkeys(row.id.split(":")[1] for row in self.rows)
+        names = dict.fromkeys(row.section for row in self.rows)
         result = []
         for name in names:
-            rows = [row for row in self.rows if row.id.split(":")[1] == name]
+            rows = [row for row in self.rows if row.section == name]
             open_ = [row for row in rows if row.verdict in ("illegible", "not checkable")]
             gaps = tuple((row.id, row.reason) for row in open_)
             result.append(Section(name, len(rows), len(rows) - len(open_), gaps))

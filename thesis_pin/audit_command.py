@@ -17,6 +17,10 @@ if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
     Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
 
 
+_NARROW = {"not checkable": "not\ncheckable", "unexplained": "un-\nexplained"}
+"""Headings on two lines: all verdicts fit 80 columns."""
+
+
 class Audit(Protocol):
     """A robot's audit, of some equations or of all."""
 
@@ -54,7 +58,7 @@ def run_verb(
     """
     from thesis_pin import audit_report as faces
     from thesis_pin.audit_page import page
-    from thesis_pin.command_line import OK, print_table, print_text, write_file
+    from thesis_pin.command_line import OK, print_entries, print_table, print_text, write_file
     from thesis_pin.report import json_bytes
 
     only = [known(arguments.equation, catalogue, robot)] if arguments.equation else None
@@ -68,10 +72,15 @@ def run_verb(
     if arguments.json == "-":
         return OK
     if only:
-        print_text(*faces.explain(report.rows[0]))
+        row = report.rows[0]
+        print_entries(faces.explain(row, report.causes.get(row.cause)))
         return OK
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])
+    headings, chapters = faces.chapter_table(report)
+    print_table([_NARROW.get(h, h) for h in headings], chapters, title="verdicts by chapter")
+    print_table(*faces.kind_table(report), title="mended lines by kind of slip")
+    print_text(faces.KIND_NOTE, "")
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
     print_table(columns, faces.failure_rows(report, every=arguments.every))
     print_text(

@@ -8,8 +8,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from thesis_pin.audit import HOLDS, VERDICTS, Report, Row
+from thesis_pin.causes import Cause
+from thesis_pin.kinds import KINDS
 
-SCHEMA, VERSION = "thesis-pin/audit", 1
+SCHEMA, VERSION = "thesis-pin/audit", 2
 
 
 def document(report: Report) -> dict[str, Any]:
@@ -24,6 +26,8 @@ def document(report: Report) -> dict[str, Any]:
         "states": report.states,
         "holds_below": HOLDS,
         "counts": report.counts,
+        "chapters": report.by_chapter,
+        "kinds": {kind: {"is": KINDS[kind], **counts} for kind, counts in report.by_kind.items()},
         "coverage": {
             "numbered": len(report.numbers) - len(report.missing_numbers),
             "numbers": len(report.numbers),
@@ -39,7 +43,15 @@ def document(report: Report) -> dict[str, Any]:
             ],
             "beyond": [{"what": what, "why": why} for what, why in report.beyond],
         },
-        "causes": dict(report.causes),
+        "causes": {
+            name: {
+                "title": cause.title,
+                "enters": cause.enters,
+                "explanation": cause.explanation,
+                "rows": [row.id for row in report.rows if row.cause == name],
+            }
+            for name, cause in report.causes.items()
+        },
         "rows": [row_document(row) for row in report.rows],
     }
 
@@ -59,6 +71,7 @@ def row_document(row: Row) -> dict[str, Any]:
         "residual_printed": _finite(row.residual_printed),
         "residual_corrected": _finite(row.residual_corrected),
         "places": list(row.places),
+        "kinds": list(row.kinds),
         "reason": row.reason or None,
         "effect": row.effect or None,
         "note": row.note or None,
@@ -127,13 +140,36 @@ def summary_lines(report: Report) -> Iterator[str]:
     yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
 
 
+def chapter_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Verdicts by chapter: headings and rows; a verdict that nowhere occurs has no column."""
+    verdicts = [v for v in VERDICTS if report.counts[v]]
+    rows = [
+        (chapter, str(sum(counts.values())), *(str(counts[v] or "-") for v in verdicts))
+        for chapter, counts in report.by_chapter.items()
+    ]
+    total = ("all", str(len(report.rows)), *(str(report.counts[v]) for v in verdicts))
+    return ("chapter", "lines", *verdicts), [*rows, total]
+
+
+def kind_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Mended lines by kind of slip: headings and rows, without the definitions."""
+    rows = [
+        (kind, *(str(n or "-") for n in counts.values())) for kind, counts in report.by_kind.items()
+    ]
+    return ("kind of slip", "misprint", "wrong"), rows
+
+
+KIND_NOTE = "A line with slips of several kinds counts under each."
+
+
 def failure_rows(report: Report, *, every: bool = False) -> list[tuple[str, ...]]:
     """Rows of the failure table: what, lines, verdict, who, residual, worst effect."""
     found: list[tuple[str, ...]] = []
     groups = [(row.id, [row]) for row in report.failures] if every else grouped(report.failures)
     for name, rows in groups:
         worst = rows[0]
-        title = name.split(":", 1)[-1] if len(rows) == 1 else report.causes.get(name, name)
+        shared = report.causes.get(name) if len(rows) > 1 else None
+        title = shared.title if shared else name.split(":", 1)[-1]
         verdicts = "/".join(dict.fromkeys(row.verdict for row in rows))
         who = "/".join(dict.fromkeys(row.attribution for row in rows))
         effect = _worst_effect(worst)
@@ -157,27 +193,37 @@ def _short(text: str, width: int) -> str:
     return text if len(text) <= width else text[: width - 1] + "…"
 
 
-def explain(row: Row) -> Iterator[str]:
-    """Everything about one equation, line by line."""
-    yield f"{row.id}   {row.source}"
-    yield f"verdict    {row.verdict}" + (f", by the {row.attribution}" if row.attribution else "")
-    yield f"printed    {row.left}"
+def explain(row: Row, cause: Cause | None = None) -> Iterator[tuple[str, str]]:
+    """Everything about one equation: labels and what belongs to them.
+
+    Args:
+        row: The audit's answer.
+        cause: The slip it shares with other equations.
+    """
+    yield "equation", f"{row.id} ({row.source})"
+    yield "verdict", row.verdict + (f", by the {row.attribution}" if row.attribution else "")
+    yield "printed", row.left
     for member in row.printed:
-        yield f"             = {member}"
+        yield "", f"= {member}"
     for number, text in sorted(row.corrected.items()):
         label = "left side" if number == 0 else f"member {number}"
-        yield f"corrected  {label}: {text or '(nothing)'}"
+        yield "corrected", f"{label}: {text or '(nothing)'}"
     if row.residual_printed is not None:
-        yield f"residual   as printed {residual_text(row.residual_printed)}"
+        yield "residual", f"as printed {residual_text(row.residual_printed)}"
     if row.residual_corrected is not None:
-        yield f"           corrected {residual_text(row.residual_corrected)}"
+        yield "", f"corrected {residual_text(row.residual_corrected)}"
     for place in row.places:
-        yield f"where      {place}"
-    if row.effect:
-        yield f"effect     {effect_text(row)}"
-    for label, text in (("because", row.reason), ("guess", row.why), ("note", row.note)):
-        if text:
-            yield f"{label:<10} {text}"
+        yield "where", place
+    if row.kinds:
+        yield "kind", ", ".join(f"{kind} ({KINDS[kind]})" for kind in row.kinds)
+    texts = (
+        *(("effect", effect_text(row)), ("because", row.reason)),
+        *(("guess", row.why), ("note", row.note)),
+    )
+    yield from ((label, text) for label, text in texts if text)
+    if cause:
+        yield "cause", f"{cause.title}; enters in {cause.enters}"
+        yield "", cause.explanation
 
 
 # -- Markdown -----------------------------------------------------------------------
@@ -206,13 +252,53 @@ def markdown(report: Report, command: str) -> str:
         lines.append(f"| {section.name} | {section.rows} | {section.checked} | {gaps} |")
     lines += ["", "Outside the audit:", ""]
     lines += [f"- {what}: {why}." for what, why in report.beyond]
-    lines += ["", "## Failures by cause", ""]
+    lines += ["", "## Verdicts by chapter", ""]
+    lines += _markdown_table(*chapter_table(report))
+    lines += ["", "## Mended lines by kind of slip", ""]
+    headings, rows = kind_table(report)
+    lines += _markdown_table((*headings, "what it is"), [(*row, KINDS[row[0]]) for row in rows])
+    lines += ["", KIND_NOTE, "", "## Failures by cause", ""]
     lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
     lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
-    lines += ["", "## Failures", ""]
+    lines += ["", "## Root causes", "", "Slips that several lines share, and where they enter.", ""]
+    for name, cause in used_causes(report):
+        lines += _markdown_cause(cause, [row for row in report.failures if row.cause == name])
+    lines += ["## Failures", ""]
     for row in report.failures:
         lines += _markdown_row(row)
     return "\n".join(lines) + "\n"
+
+
+def _markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+    """A table whose columns of numbers are set to the right."""
+    listed = [tuple(row) for row in rows]
+    numbers = [all(re.fullmatch(r"\d+|-", row[k]) for row in listed) for k in range(len(headings))]
+    yield "| " + " | ".join(headings) + " |"
+    yield "| " + " | ".join("---:" if right else "---" for right in numbers) + " |"
+    yield from ("| " + " | ".join(_cell(cell) for cell in row) + " |" for row in listed)
+
+
+def used_causes(report: Report) -> Iterator[tuple[str, Cause]]:
+    """Slips that failing rows of a report share, in the order of its causes."""
+    used = {row.cause for row in report.failures}
+    return ((name, cause) for name, cause in report.causes.items() if name in used)
+
+
+def _markdown_cause(cause: Cause, rows: Sequence[Row]) -> Iterator[str]:
+    names = sorted((row.id.split(":", 1)[1] for row in rows), key=_natural)
+    yield f"### {cause.title}"
+    yield ""
+    yield f"Enters in: {cause.enters}."
+    yield ""
+    yield cause.explanation
+    yield ""
+    yield f"Lines ({len(names)}): {ranges(names)}."
+    yield ""
+
+
+def _natural(name: str) -> list[str]:
+    """Sorts V_9 before V_10."""
+    return [part.zfill(4) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
 
 
 def _gaps(gaps: tuple[tuple[str, str], ...]) -> str:
@@ -239,6 +325,8 @@ def _markdown_row(row: Row) -> Iterator[str]:
         yield f"- finding: {row.reason}"
     for place in row.places:
         yield f"- {place}"
+    if row.kinds:
+        yield f"- kind: {', '.join(row.kinds)}"
     if row.effect:
         yield f"- effect: {effect_text(row)}"
     yield ""

@@ -224,3 +224,17 @@ def print_text(*paragraphs: str) -> None:
     console = Console(highlight=False, markup=False)
     for paragraph in paragraphs:
         console.print(paragraph)
+
+
+def print_entries(entries: Iterable[tuple[str, str]]) -> None:
+    """Print labels with their texts beside them, wrapped to the terminal's width."""
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table.grid(padding=(0, 2))
+    table.add_column(no_wrap=True)
+    table.add_column(overflow="fold")
+    for label, text in entries:
+        table.add_row(label, Text(text))
+    Console(highlight=False, markup=False).print(table)

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from thesis_pin import formula as nt
 from thesis_pin.equations import Catalogue, Edition, Equation
 from thesis_pin.evaluation import Movable, evaluate
 from thesis_pin.formula import FormulaError, Node, Symbol
-from thesis_pin.values import Value, imaginary
+from thesis_pin.values import Value, imaginary, transpose
 
 Slot = tuple[str, str, int, str]
 """A symbol's place in a cache: "" or "∂", name, dots, leg."""
+
+
+class UnusablePrint(FormulaError):
+    """The one line that is to be followed as printed can't be evaluated."""
 
 
 class EditionEnvironment:
@@ -23,8 +29,8 @@ class EditionEnvironment:
         substituted: Where to note the lines that had to be replaced.
 
     Attributes:
-        substituted: Ids of printed lines that can't be evaluated, with the reason;
-            their corrected form stood in.
+        substituted: Ids of lines that can't be evaluated, with the reason; their
+            corrected form stood in, or the reference where there is none.
     """
 
     def __init__(
@@ -52,7 +58,8 @@ class EditionEnvironment:
     def following_print(self, identity: str) -> EditionEnvironment:
         """The same symbols with one equation as printed; what doesn't depend on it is kept."""
         definitions = self.catalogue.definitions
-        waiting = [slot for slot in self._values if definitions[slot[:3]][0].id == identity]
+        # Not only the values kept here: a derivative's states keep their own.
+        waiting = [slot for slot in self._users if definitions[slot[:3]][0].id == identity]
         changed: set[Slot] = set()
         while waiting:
             slot = waiting.pop()
@@ -63,6 +70,7 @@ class EditionEnvironment:
             self.catalogue, self.references, self.edition, frozenset({identity})
         )
         other._values = {k: v for k, v in self._values.items() if k not in changed}
+        other._moved = {key: moved.following_print(identity) for key, moved in self._moved.items()}
         return other
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
@@ -71,10 +79,7 @@ class EditionEnvironment:
         if found is not None:
             return found
         if symbol.dots and ("", symbol.name, symbol.dots - 1) in self.catalogue.definitions:
-            below = Symbol(
-                symbol.base, symbol.sub, symbol.sup, symbol.dots - 1, symbol.primes, symbol.bold
-            )
-            return self.partial(below, None, indices)
+            return self.partial(replace(symbol, dots=symbol.dots - 1), None, indices)
         return self.references.lookup(symbol, indices)
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
@@ -84,10 +89,7 @@ class EditionEnvironment:
             if found is not None:
                 return found
         if by is None and isinstance(of, Symbol):
-            dotted = of.bound(indices)
-            dotted = Symbol(
-                dotted.base, dotted.sub, dotted.sup, dotted.dots + 1, dotted.primes, dotted.bold
-            )
+            dotted = replace(of.bound(indices), dots=of.dots + 1)
             found = self._defined("", dotted, indices)
             if found is not None:
                 return found
@@ -110,8 +112,9 @@ class EditionEnvironment:
             return None
         equation, bound = definition
         key = (kind, symbol.name, symbol.dots, indices.get("i", "") if not bound else "")
+        users = self._users.setdefault(key, set())
         if self._busy:
-            self._users.setdefault(key, set()).add(self._busy[-1])
+            users.add(self._busy[-1])
         if key in self._values:
             return self._values[key]
         if key in self._busy:  # defined by itself somewhere down the line
@@ -121,12 +124,16 @@ class EditionEnvironment:
             inner = {**{k: v for k, v in indices.items() if k in "ij"}, **bound}
             if "j" in inner and kind == "∂":
                 inner.pop("j")
-            self._values[key] = self._evaluate(equation, symbol, inner)
+            value = self._evaluate(equation, symbol, inner)
         finally:
             self._busy.pop()
-        return self._values[key]
+        if value is not None:
+            self._values[key] = value
+        return value
 
-    def _evaluate(self, equation: Equation, symbol: Symbol, indices: dict[str, str]) -> Value:
+    def _evaluate(
+        self, equation: Equation, symbol: Symbol, indices: dict[str, str]
+    ) -> Value | None:
         literal = self.edition == "printed" or equation.id in self.printed_only
         if literal:
             try:
@@ -137,13 +144,21 @@ class EditionEnvironment:
                 return value
             except FormulaError as error:
                 if equation.id in self.printed_only:
-                    raise
+                    raise UnusablePrint(error.what) from error
                 self.substituted[equation.id] = error.what
-        return self._last(equation, equation.members("corrected"), symbol, indices)
+        try:
+            return self._last(equation, equation.members("corrected"), symbol, indices)
+        except FormulaError as error:
+            if equation.mending or isinstance(error, UnusablePrint):
+                raise
+            self.substituted[equation.id] = f"{error.what}; the exact value stands in"
+            return None
 
     def _check_shape(self, equation: Equation, value: Value, indices: dict[str, str]) -> None:
         node = self.catalogue.parse(equation.defines or equation.left)
         expected = evaluate(node, self.references, indices)
+        if self._gives_transpose(equation):
+            expected = transpose(expected)
         if min(value.rank, expected.rank) >= 0 and value.tail != expected.tail:
             raise FormulaError(f"is {value.describe()} where {expected.describe()} belongs")
 
@@ -160,4 +175,10 @@ class EditionEnvironment:
             node = self.catalogue.parse(members[-2])
             if isinstance(node, nt.Product):
                 node = node.factors[0]
-        return evaluate(node, self, indices)
+        value = evaluate(node, self, indices)
+        return transpose(value) if self._gives_transpose(equation) else value
+
+    def _gives_transpose(self, equation: Equation) -> bool:
+        """Whether an equation defines kᵀ, not k."""
+        left = self.catalogue.parse(equation.left)
+        return isinstance(left.of if isinstance(left, nt.Derivative) else left, nt.Transpose)

@@ -57,6 +57,8 @@ class Equation(Strict):
         imposes: Members that are conditions to be met ("= 0"), not identities.
         claim: Name of the check in code that decides, where no identity can.
         cause: Name of the slip that several equations share.
+        kind: Kind of the slip, where the difference of the formulas doesn't show it;
+            see :data:`thesis_pin.kinds.KINDS`.
         illegible: What is missing in the text, if it can't be read.
         not_checkable: Why nothing can be computed, if so.
         closed: Whether it holds only where the mechanism's loops are closed.
@@ -77,6 +79,7 @@ class Equation(Strict):
     imposes: tuple[int, ...] = ()
     claim: str = ""
     cause: str = ""
+    kind: Literal["frame", ""] = ""
     illegible: str = ""
     not_checkable: str = ""
     closed: bool = False
@@ -127,6 +130,8 @@ class EquationFile(Strict):
                 equation.attribution and equation.why
             ):
                 yield key, "a correction needs attribution and why", equation.id
+            if equation.kind and not equation.mending:
+                yield (*key, "kind"), "there is no correction to be of a kind", equation.id
             if equation.corrected and equation.right:
                 yield key, "either misprinted (corrected) or wrong (right), not both", equation.id
 
@@ -200,15 +205,18 @@ class Catalogue:
                 kind, symbol = "", node
                 if isinstance(node, nt.Derivative) and node.by == Symbol("q", "j"):
                     kind, symbol = "∂", node.of
+                if isinstance(symbol, nt.Transpose):
+                    symbol = symbol.of
                 if not isinstance(symbol, Symbol):
                     continue
                 for indices in index_values(node):
                     key = (kind, symbol.bound(indices).name, symbol.dots)
-                    found.setdefault(key, (equation, indices))
+                    own = {k: v for k, v in indices.items() if k not in symbol.kept}
+                    found.setdefault(key, (equation, own))
         return found
 
 
-_LETTERS = re.compile(r"theta|phi|psi|tau|ZMP|LDn")
+_LETTERS = re.compile(r"theta|phi|psi|tau|times|ZMP|LDn")
 
 
 def free_indices(*nodes: Node) -> set[str]:

@@ -126,6 +126,8 @@ def _signed(sign: str, value: Value, indices: dict[str, str]) -> Value:
 _ROTATIONS = {"R_x": "x", "R_y": "y", "R_z": "z", "T_z4": "x", "T_z5": "y", "T_z6": "z"}
 _TRANSLATIONS = {"T_z1": 0, "T_z2": 1, "T_z3": 2}
 _SPINS = {"Omega_x": "x", "Omega_y": "y", "Omega_z": "z"}
+_TURNINGS = {"B_x": "x", "B_y": "y", "B_z": "z"}
+"""Derivatives of the rotations by their angles: B_y(θ) = dR_y(θ)/dθ."""
 _ELEMENTARY: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "cos": np.cos,
     "sin": np.sin,
@@ -136,7 +138,7 @@ _ELEMENTARY: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "arctan": np.arctan,
     "sqrt": np.sqrt,
 }
-FUNCTIONS = frozenset({*_ROTATIONS, *_TRANSLATIONS, *_SPINS})
+FUNCTIONS = frozenset({*_ROTATIONS, *_TRANSLATIONS, *_SPINS, *_TURNINGS})
 """Symbols that both theses use as functions of the bracket after them."""
 
 
@@ -153,6 +155,8 @@ def _call(node: nt.Call, environment: Environment, indices: dict[str, str]) -> V
     if name in _ROTATIONS:
         turned = rotation(_ROTATIONS[name], x)
         return matrix(turned if name[0] == "R" else transform(turned, np.zeros(3)))
+    if name in _TURNINGS:
+        return matrix(rotation_derivative(_TURNINGS[name], x))
     if name in _TRANSLATIONS:
         shift = np.zeros((*x.shape, 3), dtype=x.dtype)
         shift[..., _TRANSLATIONS[name]] = x

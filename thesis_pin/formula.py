@@ -34,6 +34,8 @@ class Symbol(Node):
         dots: Number of dots.
         primes: Number of primes.
         bold: Whether it is printed bold.
+        kept: Index letters that stay in its name when others are replaced; see
+            :class:`thesis_pin.notation.Notation`.
     """
 
     base: str
@@ -42,6 +44,7 @@ class Symbol(Node):
     dots: int = 0
     primes: int = 0
     bold: bool = False
+    kept: str = ""
 
     @property
     def name(self) -> str:
@@ -56,11 +59,11 @@ class Symbol(Node):
 
 @functools.lru_cache(maxsize=65536)
 def _bound(symbol: Symbol, pairs: tuple[tuple[str, str], ...]) -> Symbol:
-    indices = dict(pairs)
+    indices = {letter: value for letter, value in pairs if letter not in symbol.kept}
 
     def put(text: str) -> str:
-        # A Greek name inside a subscript ("thetaB") isn't a run of indices.
-        parts = re.split(r"(theta|phi|psi)", text)
+        # A name inside a subscript ("thetaB", "3times3") isn't a run of indices.
+        parts = re.split(r"(theta|phi|psi|times)", text)
         return "".join(
             part if k % 2 else "".join(indices.get(letter, letter) for letter in part)
             for k, part in enumerate(parts)

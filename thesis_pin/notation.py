@@ -63,12 +63,15 @@ class Notation:
         words: Names of several letters ("ZMP").
         labelled: Bases whose numeric superscript is a label even when not bold.
         ignored_arguments: Brackets after a symbol that say only what it depends on.
+        chains: Bases whose index i stays in the name: with i = 1 the vector k_{2i} of a
+            side chain would become k_21, which is another vector of chain 0.
     """
 
     functions: frozenset[str] = frozenset()
     words: tuple[str, ...] = ()
     labelled: frozenset[str] = frozenset()
     ignored_arguments: frozenset[str] = frozenset({"t", "q_j"})
+    chains: frozenset[str] = frozenset()
 
     def parse(self, formula: str) -> tuple[Node, ...]:
         """Read a formula.
@@ -135,19 +138,21 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return tuple(_open(part) for part in parts)
 
     def name(self, parts: list[Token]) -> Node:
-        return Symbol(str(parts[0]).removeprefix("\\"))
+        return self._letter(str(parts[0]).removeprefix("\\"))
+
+    def _letter(self, base: str) -> Symbol:
+        return Symbol(base, kept="i" if base in self.notation.chains else "")
 
     def number(self, parts: list[Token]) -> Node:
         return Number(float(parts[0]))
 
     def font(self, parts: list[Any]) -> Node:
         font, inside = str(parts[0]), parts[1]
-        node = (
-            Symbol(str(inside).removeprefix("\\")) if isinstance(inside, Token) else _open(inside)
-        )
+        node = self.name([inside]) if isinstance(inside, Token) else _open(inside)
         if isinstance(node, Symbol):
             if font in _PREFIX:
-                return replace(node, base=f"{_PREFIX[font]}:{node.base}")
+                named = self._letter(f"{_PREFIX[font]}:{node.base}")
+                return replace(node, base=named.base, kept=named.kept)
             return replace(node, bold=font not in ("\\text", "\\mathrm"))
         return node
 
@@ -162,7 +167,7 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
 
     def function(self, parts: list[Token]) -> Node:
         name = re.sub(r"\\(text|operatorname|mathrm)|[\\{}\s]", "", str(parts[0])).lower()
-        return _Mark("function", name)
+        return _Mark("function", "sin" if name == "sen" else name)
 
     def group(self, parts: list[Node]) -> Node:
         return _Group(_open(parts[0]))
@@ -194,7 +199,11 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return Derivative(_open(above), _open(below))
 
     def quotient(self, parts: list[Any]) -> Node:
-        return Quotient(_open(parts[1]), _open(parts[2]))
+        above, below = _open(parts[1]), _open(parts[2])
+        of, by = _differential(above), _differential(below)
+        if of is not None and by is not None:
+            return Derivative(of, None if by == Symbol("t") else by)
+        return Quotient(above, below)
 
     def scripted(self, parts: list[Any]) -> Node:
         node, scripts = parts[0], [str(part) for part in parts[1:]]
@@ -218,8 +227,10 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             return Power(node, int(label))  # still an argument: c(α + β)^2 is a squared cosine
         if not isinstance(node, _Mark):
             node = _open(node)
-        if label == "-1":
-            node = Power(node, -1)
+        if label == "-":  # J^{-T}
+            label = "-1"
+        if re.fullmatch(r"-\d", label):
+            node = Power(node, int(label))
         elif label:
             if isinstance(node, _Mark):
                 node = replace(node, exponent=int(label))
@@ -330,6 +341,14 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         signs, rest = parts[1::2], parts[2::2]
         terms += [(str(sign), _open(term)) for sign, term in zip(signs, rest, strict=True)]
         return Sum(tuple(terms))
+
+
+def _differential(node: Node) -> Node | None:
+    """x of "dx"; None if it isn't one."""
+    if isinstance(node, Product) and node.factors[0] == Symbol("d"):
+        rest = node.factors[1:]
+        return rest[0] if len(rest) == 1 else Product(rest)
+    return None
 
 
 def _open(node: Node) -> Node:

@@ -5,22 +5,26 @@ from __future__ import annotations
 import difflib
 import itertools
 import re
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 
+_BOLD = re.compile(r"\\(?:mathbf|boldsymbol)\s*\{((?:[^{}]|\{[^{}]*\})*)\}")
+_DOUBLE = {"C": "ℂ", "D": "𝔻", "V": "𝕍"}
 _SCRIPT = r"(?:\s*[_^]\s*(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\?\w))"
-_LETTER = r"(?:\\d?dot\{[^{}]*\}|\\[a-zA-Z]+|[A-Za-z]\d?|\d+(?:\.\d+)?)"
-_PIECE = re.compile(rf"∂[^ ]+/∂[^ ]+|{_LETTER}'*{_SCRIPT}*|\\\\|\S")
+_LETTER = r"(?:[ℂ𝔻𝕍]|\\d?dot\{[^{}]*\}|\\[a-zA-Z]+|[A-Za-z]\d?|\d+(?:\.\d+)?)"
+_PIECE = re.compile(rf"∂[^ ]+/∂[^ ()]+|{_LETTER}'*{_SCRIPT}*|\\\\|\S")
 _LAYOUT = re.compile(
     r"\\(?:begin|end)\{\w+\}(?:\{[clr| ]*\})?|\\(?:left|right|[bB]igg?[lr]?|c?l?dots)\b\.?"
 )
 
 
-def _pieces(formula: str) -> tuple[list[str], str]:
+def pieces(formula: str) -> tuple[list[str], str]:
     """A formula cut for comparison: into columns if it is a row, else into symbols.
 
     Fonts and layout are left out; what a piece is called comes with them.
     """
-    text = re.sub(r"\\(?:mathbf|boldsymbol)\s*\{((?:[^{}]|\{[^{}]*\})*)\}", r"\1", formula)
+    text = _BOLD.sub(r"\1", formula)
+    text = re.sub(r"\\mathbb\s*\{([CDV])\}", lambda match: _DOUBLE[match[1]], text)
     simple = (
         r"\\frac\{\\partial ([^{} ]*(?:\{[^{}]*\}[^{} ]*)*)\}\{\\partial ([^{} ]*(?:\{[^{}]*\})?)\}"
     )
@@ -33,7 +37,7 @@ def _pieces(formula: str) -> tuple[list[str], str]:
 
 def places(before: str, after: str) -> list[str]:
     """Where two formulas differ, symbol by symbol, each place in words."""
-    (first, unit), (second, _) = _pieces(before), _pieces(after)
+    (first, unit), (second, _) = pieces(before), pieces(after)
     found = []
     matcher = difflib.SequenceMatcher(None, first, second, autojunk=False)
     for kind, a, b, c, d in matcher.get_opcodes():
@@ -49,7 +53,14 @@ def places(before: str, after: str) -> list[str]:
             found.append(f"{where}: {old} should not be there")
         else:
             found.append(f"{where}: {old} should be {new}")
-    return found
+    return found or list(_fonts(before, after))
+
+
+def _fonts(before: str, after: str) -> Iterator[str]:
+    """What differs in nothing but being bold."""
+    thin, bold = Counter(_BOLD.findall(before)), Counter(_BOLD.findall(after))
+    yield from (f"{letter} should be bold" for letter in bold - thin)
+    yield from (f"{letter} should not be bold" for letter in thin - bold)
 
 
 def _counted(cells: Sequence[str]) -> str:

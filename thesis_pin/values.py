@@ -125,13 +125,15 @@ def power(value: Value, exponent: int | str) -> Value:
         raise FormulaError(f"the exponent {exponent} has no value")
     if value.rank == 0:
         return scalar(value.array ** float(exponent))
+    if value.rank == 2 and exponent == -1 and value.tail[0] != value.tail[1]:
+        raise FormulaError(f"inverts {value.describe()}, which has no inverse")
     if value.rank == 2 and exponent == -1:
         return matrix(np.linalg.inv(value.array))
     raise FormulaError(f"raises {value.describe()} to the power {exponent}")
 
 
 def blocks(rows: list[list[Value]], columns: int) -> Value:
-    """Matrix from its cells: numbers, or vectors as columns.
+    """Matrix from its cells: numbers, or vectors as columns; a column of both is one vector.
 
     A row of vectors that ends in 0 and is too short stands for one whose last 0
     fills the missing columns: the notation the Scout thesis uses for J_B.
@@ -144,6 +146,8 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
         spread = [[np.broadcast_to(cell.array, batch) for cell in row] for row in rows]
         array = np.stack([np.stack(row, axis=-1) for row in spread], axis=-2)
         return vector(array[..., 0]) if len(rows[0]) == 1 < len(rows) else matrix(array)
+    if len(rows[0]) == 1 < len(rows) and {cell.rank for cell in cells} == {0, 1}:
+        return _stacked(cells)
     height = next(cell.tail[0] for cell in cells if cell.rank > 0)
     filled = []
     for row in rows:
@@ -163,4 +167,14 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
             array = array[..., None] if cell.rank == 1 else array
             parts.append(np.broadcast_to(array, (*batch, *array.shape[-2:])))
         lines.append(np.concatenate(parts, axis=-1))
+    if len({line.shape[-1] for line in lines}) > 1:
+        raise FormulaError("puts rows of different length one below the other")
     return matrix(np.concatenate(lines, axis=-2))
+
+
+def _stacked(cells: list[Value]) -> Value:
+    """One vector from vectors and numbers below each other."""
+    arrays = [cell.array if cell.rank else cell.array[..., None] for cell in cells]
+    batch = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
+    spread = [np.broadcast_to(array, (*batch, array.shape[-1])) for array in arrays]
+    return vector(np.concatenate(spread, axis=-1))

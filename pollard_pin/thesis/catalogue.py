@@ -9,12 +9,20 @@ from thesis_pin.equations import Catalogue
 from thesis_pin.evaluation import FUNCTIONS
 from thesis_pin.notation import Notation
 
-NOTATION = Notation(functions=FUNCTIONS, words=("signo", "Ec"))
+NOTATION = Notation(
+    functions=FUNCTIONS,
+    words=("signo", "Ec"),
+    # A number above these is a frame, bold or not.
+    labelled=frozenset("ijkrJ"),
+    # What chapter 3 numbers anew for the side chains.
+    chains=frozenset({*"kmJKLMNUVE", "omega", "bb:D", "bb:V", "bb:C"}),
+)
 
 _FOLDER = Path(__file__).parent
 FILES = tuple(
     path
     for name in (
+        "section_2_1",
         "section_2_4",
         "section_2_5",
         "section_2_6",
@@ -24,6 +32,17 @@ FILES = tuple(
         "appendix_c",
         "appendix_d",
         "appendix_e",
+        "section_3_1",
+        "section_3_2",
+        "section_3_3_1",
+        "section_3_3_2",
+        "section_3_4",
+        "section_3_5",
+        "section_3_6",
+        "section_3_7",
+        "chapter_4",
+        "appendix_a",
+        "appendix_b",
     )
     if (path := _FOLDER / f"{name}.toml").exists()
 )

@@ -11,6 +11,7 @@ from functools import partial
 
 import numpy as np
 
+from pollard_pin.thesis import claims_dynamics, claims_path, claims_robot
 from pollard_pin.thesis.references import References
 from thesis_pin.arrays import wrap
 from thesis_pin.audit import ClaimResult, Claims
@@ -20,8 +21,14 @@ from thesis_pin.formula import FormulaError
 
 
 def claims(catalogue: Catalogue, closed: References) -> Claims:
-    """The claims by name: "angle:" and "half-angle:" and the equation's id."""
-    kinds: dict[str, Callable[..., ClaimResult]] = {"angle": _angle, "half-angle": _half_angle}
+    """The claims by name: the kind of check, ":", and what it is about."""
+    kinds: dict[str, Callable[..., ClaimResult]] = {
+        "angle": _angle,
+        "half-angle": _half_angle,
+        **claims_robot.CHECKS,
+        **claims_path.CHECKS,
+        **claims_dynamics.CHECKS,
+    }
     return {
         equation.claim: partial(kinds[equation.claim.split(":")[0]], catalogue, equation, closed)
         for equation in catalogue.equations

@@ -9,10 +9,10 @@ import re
 
 import numpy as np
 
-from pollard_pin.thesis.state import State, elementary, inverse
+from pollard_pin.thesis.state import Matrices, State, inverse
 
 
-def frame(state: State, name: str) -> np.ndarray | None:
+def frame(state: State, name: str) -> Matrices | None:
     """The transforms that rename a side of a loop (2.25 – 2.110)."""
     t = state.transform
     if name == "T_LDn":
@@ -41,14 +41,14 @@ def frame(state: State, name: str) -> np.ndarray | None:
     return found
 
 
-def _product(state: State, *moves: str) -> np.ndarray:
-    result = np.eye(4)
+def _product(state: State, *moves: str) -> Matrices:
+    result: Matrices = np.eye(4)
     for move, name in zip(moves[::2], moves[1::2], strict=True):
-        result = result @ elementary(move, state.number(name))
+        result = result @ state.elementary(move, name)
     return result
 
 
-def side(state: State, k: int, i: str = "") -> np.ndarray:
+def side(state: State, k: int, i: str = "") -> Matrices:
     """Ec_1 … Ec_4: last columns of both sides of (2.3) and (2.90), shape ``(n, 4)``.
 
     Those of a side chain are seen from frame 5i, after β54, as (2.98) and (2.100) are.
@@ -58,20 +58,20 @@ def side(state: State, k: int, i: str = "") -> np.ndarray:
         return t("T_315")[..., 3]
     if k == 2:
         return (inverse(t("T_03")) @ t("T_LD0"))[..., 3]
-    tilt = inverse(elementary("Rx", state.number("beta_54i", i)))
+    tilt = inverse(state.elementary("Rx", "beta_54i", i))
     if k == 3:
         return (tilt @ t("T_48i", i))[..., 3]
     back = tilt @ inverse(t("T_02i", i) @ t("T_24i", i))
     return (back @ t("T_03") @ t("T_311i", i))[..., 3]
 
 
-def opening(state: State, i: str = "") -> np.ndarray:
+def opening(state: State, i: str = "") -> Matrices:
     """|Ec_1|² − |Ec_2|², or |Ec_3|² − |Ec_4|² of a side chain, shape ``(n,)``."""
     first, second = (side(state, k, i)[..., :3] for k in ((3, 4) if i else (1, 2)))
     return (first * first).sum(axis=-1) - (second * second).sum(axis=-1)
 
 
-def between(state: State, name: str, i: str = "") -> np.ndarray | None:
+def between(state: State, name: str, i: str = "") -> Matrices | None:
     """Vector r_ab of a loop equation: from origin b to origin a, base frame [m], ``(n, 3)``.
 
     Args:
@@ -83,30 +83,55 @@ def between(state: State, name: str, i: str = "") -> np.ndarray | None:
     spans = own or _SPANS_0.get(name)
     if spans is None:
         return None
-    ends = []
-    for path in spans:
-        placement = np.eye(4)
-        for move, number in path:
-            value = state.number(number, i)
-            value = -value if move[0] == "-" else value
-            placement = placement @ elementary(move.removeprefix("-"), value)
-        ends.append(placement[..., :3, 3])
-    return ends[1] - ends[0]
+    start, end = (placement(state, path, i)[..., :3, 3] for path in spans)
+    return end - start
 
 
-_Path = tuple[tuple[str, str], ...]
-_TO_2: _Path = (("z", "z_10"), ("Ry", "theta_21"))
-_TO_3: _Path = (*_TO_2, ("x", "x_32"))
-_TO_5: _Path = (*_TO_3, ("Ry", "theta_43"), ("Rz", "theta_54"))
-_TO_14: _Path = (*_TO_5, ("x", "x_65"))
-_TO_15: _Path = (*_TO_14, ("x", "x_1514"))
-_TO_18: _Path = (*_TO_15, ("Rx", "theta_1615"), ("Rz", "theta_1716"), ("Rx", "theta_1817"))
-_TIP: _Path = (
+def placement(state: State, path: Path, i: str = "") -> Matrices:
+    """Placement at the end of a path, base frame, shape ``(..., 4, 4)``."""
+    result: Matrices = np.eye(4)
+    for move, name in path:
+        sign = -1 if move[0] == "-" else 1
+        result = result @ state.elementary(move.removeprefix("-"), name, i, sign)
+    return result
+
+
+Path = tuple[tuple[str, str], ...]
+"""Elementary moves from the base: ("-z", "z_32i") goes down by z_32i."""
+
+_TO_1: Path = (("z", "z_10"),)
+_TO_2: Path = (*_TO_1, ("Ry", "theta_21"))
+_TO_3: Path = (*_TO_2, ("x", "x_32"))
+_TO_4: Path = (*_TO_3, ("Ry", "theta_43"))
+_TO_5: Path = (*_TO_4, ("Rz", "theta_54"))
+_TO_14: Path = (*_TO_5, ("x", "x_65"))
+_TO_15: Path = (*_TO_14, ("x", "x_1514"))
+_TO_16: Path = (*_TO_15, ("Rx", "theta_1615"))
+_TO_17: Path = (*_TO_16, ("Rz", "theta_1716"))
+_TO_18: Path = (*_TO_17, ("Rx", "theta_1817"))
+_TIP: Path = (
     *(("x", "x"), ("y", "y"), ("z", "z")),
     *(("Rx", "theta"), ("Ry", "psi"), ("Rz", "phi")),
 )
-_TO_2I: _Path = (("y", "signed_y_10i"), ("Rz", "theta_21i"))
-_SPANS_0: dict[str, tuple[_Path, _Path]] = {
+_TO_1I: Path = (("y", "signed_y_10i"),)
+_TO_2I: Path = (*_TO_1I, ("Rz", "theta_21i"))
+_TO_3I: Path = (*_TO_2I, ("-z", "z_32i"))
+_TO_4I: Path = (*_TO_3I, ("x", "x_43i"))
+_TO_5I: Path = (*_TO_4I, ("Rx", "beta_54i"))
+_TO_6I: Path = (*_TO_5I, ("Ry", "theta_65i"))
+_TO_7I: Path = (*_TO_6I, ("Rz", "theta_76i"))
+_TO_13I: Path = (*_TO_14, ("-Rz", "beta_1413i"))
+_TO_12I: Path = (*_TO_13I, ("-z", "z_1312i"))
+PATHS: dict[str, Path] = {
+    **{"1": _TO_1, "2": _TO_2, "3": _TO_3, "4": _TO_4, "5": _TO_5, "14": _TO_14, "15": _TO_15},
+    **{"16": _TO_16, "17": _TO_17, "18": _TO_18},
+    **{"1i": _TO_1I, "2i": _TO_2I, "3i": _TO_3I, "4i": _TO_4I, "5i": _TO_5I},
+    **{"6i": _TO_6I, "7i": _TO_7I, "8i": (*_TO_7I, ("x", "x_87i"))},
+    **{"11i": (*_TO_12I, ("-x", "x_1211i")), "12i": _TO_12I, "13i": _TO_13I, "p": _TIP},
+}
+"""Paths to the thesis's frames (2.4.1, 2.7.1); p is the tool's, as the pose gives it (A.1)."""
+
+_SPANS_0: dict[str, tuple[Path, Path]] = {
     "10": ((), _TO_2),
     "32": (_TO_2, _TO_3),
     "145": (_TO_5, _TO_14),
@@ -114,17 +139,13 @@ _SPANS_0: dict[str, tuple[_Path, _Path]] = {
     "1918": (_TO_18, (*_TO_18, ("x", "x_1918"))),
     "5": ((), _TIP),
 }
-_TO_3I: _Path = (*_TO_2I, ("-z", "z_32i"))
-_TO_4I: _Path = (*_TO_3I, ("x", "x_43i"))
-_TO_7I: _Path = (*_TO_4I, ("Rx", "beta_54i"), ("Ry", "theta_65i"), ("Rz", "theta_76i"))
-_TO_13I: _Path = (*_TO_14, ("-Rz", "beta_1413i"))
-_TO_12I: _Path = (*_TO_13I, ("-z", "z_1312i"))
-_SPANS_I: dict[str, tuple[_Path, _Path]] = {
+_SPANS_I: dict[str, tuple[Path, Path]] = {
     "10": ((), _TO_2I),
     "32": (_TO_2I, _TO_3I),
     "43": (_TO_3I, _TO_4I),
     "87": (_TO_7I, (*_TO_7I, ("x", "x_87i"))),
     "145": (_TO_5, _TO_14),
+    "1514": (_TO_14, _TO_15),
     "1312": (_TO_12I, _TO_13I),
     "1211": ((*_TO_12I, ("-x", "x_1211i")), _TO_12I),
 }

@@ -13,24 +13,22 @@ Source: Pollard thesis, 2.5 (2.49 – 2.74), 2.8 (2.132 – 2.160).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from pollard_pin.thesis.loops import frame, opening, side
 from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, inverse, own_name
-from thesis_pin.values import STEP
 
-Along = Mapping[str, float]
+Along = Mapping[str, float | np.ndarray]
 _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarray]]]
 
 
-def derivative(
-    of: Callable[[State], np.ndarray], state: State, along: Mapping[str, float | np.ndarray]
-) -> np.ndarray:
-    """Exact derivative of a function of states along a direction."""
-    return np.asarray(np.imag(of(state.step(dict(along)))) / STEP)
+def derivative(of: Callable[[State], Any], state: State, along: Along) -> np.ndarray:
+    """Exact derivative of a product of transforms along a direction, at complex states too."""
+    return of(replace(state, along=along)).slope
 
 
 def _first(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
@@ -49,30 +47,30 @@ def _second(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndar
 
     def numerator(along: Along) -> np.ndarray:
         rate = derivative(lambda s: side(s, which, i), state, along)
-        return -rate[:, 2] * np.cos(theta) - rate[:, 0] * np.sin(theta)
+        return -rate[..., 2] * np.cos(theta) - rate[..., 0] * np.sin(theta)
 
-    return at[:, 0] * np.cos(theta) - at[:, 2] * np.sin(theta), numerator
+    return at[..., 0] * np.cos(theta) - at[..., 2] * np.sin(theta), numerator
 
 
 def _third(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
     """(2.57), (2.142): from tan θ = Y cos θ' / X."""
     which, angle, other = (4, "theta_76", "theta_65") if i else (2, "theta_54", "theta_43")
     at, bend = side(state, which, i), state.variables[other + i]
-    x, y, square = at[:, 0], at[:, 1], np.cos(state.variables[angle + i]) ** 2
+    x, y, square = at[..., 0], at[..., 1], np.cos(state.variables[angle + i]) ** 2
 
     def numerator(along: Along) -> np.ndarray:
         rate = derivative(lambda s: side(s, which, i), state, along)
         turned = along.get(other + i, 0.0)
-        plain = (rate[:, 1] * x - rate[:, 0] * y) * np.cos(bend)
+        plain = (rate[..., 1] * x - rate[..., 0] * y) * np.cos(bend)
         return square * (plain - turned * x * y * np.sin(bend))
 
     return x**2, numerator
 
 
-def _element(state: State, name: str, row: int, column: int) -> np.ndarray:
+def _element(state: State, name: str, row: int, column: int) -> Any:
     found = frame(state, name)
     assert found is not None
-    return np.asarray(found[:, row - 1, column - 1])
+    return found[..., row - 1, column - 1]
 
 
 def _quotient(
@@ -84,10 +82,10 @@ def _quotient(
         name = {"b": "T_LDn2", "c": "T_LDn3", "d": f"T_LD{i}"}
         name |= {"e": f"T_LD{i}2", "f": f"T_LD{i}3"}
 
-        def up(s: State) -> np.ndarray:
+        def up(s: State) -> Any:
             return _element(s, name[letter], *above)
 
-        def down(s: State) -> np.ndarray:
+        def down(s: State) -> Any:
             return _element(s, name[letter], *below)
 
         first, second = up(state), down(state)
@@ -175,8 +173,17 @@ ROWS = (
 """Rate equations (2.51), (2.54), … (2.156); in some, one V multiplies θ̇21 + θ̇43."""
 
 
-def coefficient(state: State, name: str, i: str) -> np.ndarray | None:
-    """Value of "V_14" or "E_3"; None if there is none, or it needs a chain and has none."""
+def coefficient(
+    state: State, name: str, i: str, rates: Mapping[str, np.ndarray] | None = None
+) -> np.ndarray | None:
+    """Value of "V_14" or "E_3"; None if there is none, or it needs a chain and has none.
+
+    Args:
+        state: States.
+        name: The coefficient.
+        i: Side chain, or "".
+        rates: :func:`joint_rates` at the states, if they are known.
+    """
     letter, number = name[0], int(name[2:])
     for row in ROWS:
         chain = i if row.angle.endswith("i") else ""
@@ -189,8 +196,8 @@ def coefficient(state: State, name: str, i: str) -> np.ndarray | None:
             return numerator({own_name(row.variables[number - row.first - 1], i): 1.0})
         if letter == "E" and row.pose and row.pose <= number < row.pose + 6:
             below, _ = row.relation(state, chain)
-            rate = joint_rates(state)[own_name(row.angle, i)]
-            return np.asarray(below * rate[:, number - row.pose])
+            rate = (rates or joint_rates(state))[own_name(row.angle, i)]
+            return np.asarray(below * rate[..., number - row.pose])
     return None
 
 
@@ -207,42 +214,61 @@ def joint_rates(state: State) -> dict[str, np.ndarray]:
     The gap of a loop is the placement of one end in the other's frame; its
     derivative by the angles, times their rates, undoes its derivative by the pose.
     """
-    state = State(state.constants, {k: np.real(v) for k, v in state.variables.items()}, state.rates)
+    state = replace(state, along=None)
 
-    def serial(s: State) -> np.ndarray:
+    def serial(s: State) -> Any:
         chain = s.transform("T_03") @ s.transform("T_315") @ s.transform("T_1519")
         return inverse(s.transform("pose")) @ chain
 
-    rates = _solve(serial, state, CHAIN_0, [{name: np.ones(1)} for name in POSE])
+    rates = _solve(serial, state, CHAIN_0, [{name: 1.0} for name in POSE])
     result = dict(zip(CHAIN_0, rates, strict=True))
     for i in "12":
 
-        def loop(s: State, i: str = i) -> np.ndarray:
+        def loop(s: State, i: str = i) -> Any:
             chain = s.transform("T_02i", i) @ s.transform("T_24i", i) @ s.transform("T_48i", i)
             return inverse(s.transform("T_03") @ s.transform("T_311i", i)) @ (
                 chain @ s.transform("ball_i", i)
             )
 
-        moving = [{name: result[name][:, k] for name in CHAIN_0} for k in range(6)]
+        moving = [{name: result[name][..., k] for name in CHAIN_0} for k in range(6)]
         names = [name + i for name in SIDE]
         result |= dict(zip(names, _solve(loop, state, names, moving), strict=True))
     return result
 
 
+def explicit_rates(state: State) -> dict[str, np.ndarray]:
+    """∂(angle)/∂(pose) as formulas in pose and angles, each ``(..., 6)``.
+
+    Joint after joint, each rate equation takes the rates found before it, as 2.5 and
+    2.8 do. On closed states these are :func:`joint_rates`; off them, what the
+    thesis's k are as functions, which a derivative by one angle alone needs.
+    """
+    result: dict[str, np.ndarray] = {}
+    for row in ROWS:
+        for i in ("1", "2") if row.angle.endswith("i") else ("",):
+            below, numerator = row.relation(state, i)
+            found = [
+                numerator({POSE[k]: 1.0, **{name: one[..., k] for name, one in result.items()}})
+                for k in range(6)
+            ]
+            result[own_name(row.angle, i)] = np.stack(found, axis=-1) / below[..., None]
+    return result
+
+
 def _solve(
-    gap: Callable[[State], np.ndarray],
+    gap: Callable[[State], Any],
     state: State,
     unknown: list[str] | tuple[str, ...],
-    given: list[dict[str, np.ndarray]],
+    given: Sequence[Along],
 ) -> list[np.ndarray]:
     """Rates of unknown variables that keep a gap as it is while the given ones move."""
 
-    def twist(along: Mapping[str, float | np.ndarray]) -> np.ndarray:
+    def twist(along: Along) -> np.ndarray:
         rate = inverse(gap(state)) @ derivative(gap, state, along)
-        parts = [rate[:, 0, 3], rate[:, 1, 3], rate[:, 2, 3]]
-        return np.stack([*parts, rate[:, 2, 1], rate[:, 0, 2], rate[:, 1, 0]], axis=-1)
+        parts = [rate[..., 0, 3], rate[..., 1, 3], rate[..., 2, 3]]
+        return np.stack([*parts, rate[..., 2, 1], rate[..., 0, 2], rate[..., 1, 0]], axis=-1)
 
     matrix = np.stack([twist({name: 1.0}) for name in unknown], axis=-1)
     right = np.stack([twist(along) for along in given], axis=-1)
     solved = np.linalg.solve(matrix, -right)
-    return [solved[:, k] for k in range(len(unknown))]
+    return [solved[..., k, :] for k in range(len(unknown))]

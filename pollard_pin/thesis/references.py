@@ -37,7 +37,7 @@ _LAST = np.array([0.0, 0.0, 0.0, 1.0])
 class References:
     """The reference environment: every symbol at a batch of states."""
 
-    columns = 6
+    columns = 0  # a row that ends in 0 isn't filled up
 
     def __init__(self, state: State) -> None:
         self.state = state
@@ -46,7 +46,7 @@ class References:
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
         """Value of a symbol; see :class:`thesis_pin.evaluation.Environment`."""
         i = indices.get("i", "")
-        key = (symbol.name, symbol.dots, i)
+        key = (symbol.name + "*" * symbol.bold, symbol.dots, i)
         if key not in self._values:
             value = self._find(symbol, i)
             if value is None:
@@ -135,14 +135,14 @@ def _element(state: State, i: str, letter: str, row: str, column: str) -> Value 
     found = frame(state, renamed[letter])
     if found is None:  # an element of a side chain where no chain is meant
         return None
-    return scalar(found[:, int(row) - 1, int(column) - 1])
+    return scalar(found[..., int(row) - 1, int(column) - 1])
 
 
 def _fourier(state: State, _: str, letter: str, kind: str) -> Value:
     """A, B, C with opening = C + A cos θ + B sin θ."""
     i = "" if kind == "0" else kind
     at = {
-        turn: opening(state.with_(**{f"theta_21{i}": np.full(state.size, turn * np.pi / 2)}), i)
+        turn: opening(state.with_(**{f"theta_21{i}": np.full(state.shape, turn * np.pi / 2)}), i)
         for turn in (-1, 0, 1, 2)
     }
     values = {"A": at[0] - at[2], "B": at[1] - at[-1], "C": at[0] + at[2]}

@@ -5,7 +5,7 @@ all of them are random, so that no identity of the closed loop hides a slip; on
 *closed* states the pose follows from chain 0 and the bases of the side chains
 are put where the loops close. Nothing of the thesis's derivations is used.
 
-Arrays are ``(n,)``, one number a state, and may be complex: a complex step
+Arrays are ``(..., n)``, one number a state, and may be complex: a complex step
 differentiates exactly.
 
 Source: Pollard thesis, 2.4 and 2.7 (transformations).
@@ -13,14 +13,19 @@ Source: Pollard thesis, 2.4 and 2.7 (transformations).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from pollard_pin.geometry import pose_from_placement
-from thesis_pin.rotations import rotation, transform
+from pollard_pin.thesis.dual import Dual
+from thesis_pin.rotations import rotation, rotation_derivative, transform
 from thesis_pin.values import STEP
+
+Matrices = Any
+"""An array, or a :class:`Dual` where the state has a direction."""
 
 POSE = ("x", "y", "z", "psi", "theta", "phi")
 """Task coordinates (2.3)."""
@@ -78,23 +83,26 @@ class State:
         variables: :data:`VARIABLES`.
         rates: Their time derivatives.
         accelerations: Their second time derivatives.
+        along: A direction in the space of variables: transforms then are
+            :class:`Dual` and carry their derivative along it. None: plain arrays.
     """
 
     constants: dict[str, np.ndarray]
     variables: dict[str, np.ndarray]
     rates: dict[str, np.ndarray]
     accelerations: dict[str, np.ndarray] = field(default_factory=dict)
+    along: Mapping[str, float | np.ndarray] | None = None
 
     def with_(self, **changed: np.ndarray) -> State:
         """The same states with other values of some variables."""
         return replace(self, variables={**self.variables, **changed})
 
-    def step(self, direction: dict[str, np.ndarray | float]) -> State:
-        """One imaginary step along a direction in the space of variables."""
-        moved = {
-            name: self.variables[name] + 1j * STEP * np.asarray(by)
-            for name, by in direction.items()
-        }
+    def step(self, direction: Mapping[str, np.ndarray | float], *, rates: bool = False) -> State:
+        """One imaginary step along a direction in the space of variables, or of their rates."""
+        start = self.rates if rates else self.variables
+        moved = {name: start[name] + 1j * STEP * np.asarray(by) for name, by in direction.items()}
+        if rates:
+            return replace(self, rates={**self.rates, **moved})
         return self.with_(**moved)
 
     def number(self, name: str, i: str = "") -> np.ndarray:
@@ -104,24 +112,37 @@ class State:
             return self.constants[f"signo{name[-1]}"] * self.constants[f"y_10{name[-1]}"]
         return self.variables[name] if name in self.variables else self.constants[name]
 
-    def transform(self, name: str, i: str = "") -> np.ndarray:
-        """A homogeneous transform of the thesis, shape ``(n, 4, 4)``."""
+    def elementary(self, move: str, by: str, i: str = "", sign: int = 1) -> Matrices:
+        """A translation or rotation by ``sign`` times a constant or variable."""
+        value = sign * self.number(by, i)
+        if self.along is None:
+            return elementary(move, value)
+        speed = sign * np.asarray(self.along.get(own_name(by, i), 0.0))
+        return Dual(elementary(move, value), slope(move, value) * speed[..., None, None])
+
+    def transform(self, name: str, i: str = "") -> Matrices:
+        """A homogeneous transform of the thesis, shape ``(..., 4, 4)``."""
         if name == "T_LD0":
             return self.transform("pose") @ self.transform("nozzle")
-        factors = [(move, sign * self.number(by, i)) for move, sign, by in _FACTORS[name]]
-        result = elementary(*factors[0])
+        factors = [self.elementary(move, by, i, sign) for move, sign, by in _FACTORS[name]]
+        result = factors[0]
         for factor in factors[1:]:
-            result = result @ elementary(*factor)
+            result = result @ factor
         return result
 
-    @cached_property
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of every variable."""
+        return self.variables["x"].shape
+
+    @property
     def size(self) -> int:
         """Number of states."""
-        return len(self.variables["x"])
+        return self.shape[-1]
 
 
 def elementary(move: str, value: np.ndarray) -> np.ndarray:
-    """A translation "x", "y", "z" or rotation "Rx", "Ry", "Rz", shape ``(n, 4, 4)``."""
+    """A translation "x", "y", "z" or rotation "Rx", "Ry", "Rz", shape ``(..., 4, 4)``."""
     if move[0] == "R":
         return transform(rotation(move[1], value), np.zeros(3))
     shift = np.zeros((*value.shape, 3), dtype=value.dtype)
@@ -129,8 +150,21 @@ def elementary(move: str, value: np.ndarray) -> np.ndarray:
     return transform(np.eye(3), shift)
 
 
-def inverse(matrix: np.ndarray) -> np.ndarray:
+def slope(move: str, value: np.ndarray) -> np.ndarray:
+    """Derivative of :func:`elementary` by its value, shape ``(..., 4, 4)``."""
+    result = np.zeros((*value.shape, 4, 4), dtype=value.dtype)
+    if move[0] == "R":
+        result[..., :3, :3] = rotation_derivative(move[1], value)
+    else:
+        result[..., _AXES[move], 3] = 1.0
+    return result
+
+
+def inverse(matrix: Matrices) -> Matrices:
     """Inverse of rigid placements, complex ones included."""
+    if isinstance(matrix, Dual):
+        turned = inverse(matrix.value)
+        return Dual(turned, -(turned @ matrix.slope @ turned))
     turned = np.swapaxes(matrix[..., :3, :3], -1, -2)
     return transform(turned, -(turned @ matrix[..., :3, 3:])[..., 0])
 
@@ -182,11 +216,19 @@ def _closed(state: State) -> State:
         constants[f"x_43{i}"] = arm
         constants[f"y_10{i}"] = (gap[:, 1] - arm * np.sin(angle)) * constants[f"signo{i}"]
         constants[f"z_32{i}"] = -gap[:, 2]
-        rod_frame = turned @ state.transform("T_48i", i)
-        ball = np.swapaxes(rod_frame[:, :3, :3], -1, -2) @ goal[:, :3, :3]
         sign = np.where(state.variables[f"theta_109{i}"] < 0, -1.0, 1.0)
-        sine = sign * np.hypot(ball[:, 0, 2], ball[:, 1, 2])
-        changed[f"theta_98{i}"] = np.arctan2(sign * ball[:, 1, 2], sign * ball[:, 0, 2])
-        changed[f"theta_109{i}"] = np.arctan2(sine, ball[:, 2, 2])
-        changed[f"theta_1110{i}"] = np.arctan2(sign * ball[:, 2, 1], -sign * ball[:, 2, 0])
+        changed |= ball_angles(state, i, sign)
     return replace(state, constants=constants).with_(**changed)
+
+
+def ball_angles(state: State, i: str, sign: np.ndarray | float = 1.0) -> dict[str, np.ndarray]:
+    """Angles of a ball joint whose rod and forearm are in place; ``sign`` is that of sin θ109i."""
+    rod = state.transform("T_02i", i) @ state.transform("T_24i", i) @ state.transform("T_48i", i)
+    goal = state.transform("T_03") @ state.transform("T_311i", i)
+    ball = np.swapaxes(rod[:, :3, :3], -1, -2) @ goal[:, :3, :3]
+    sine = sign * np.hypot(ball[:, 0, 2], ball[:, 1, 2])
+    return {
+        f"theta_98{i}": np.arctan2(sign * ball[:, 1, 2], sign * ball[:, 0, 2]),
+        f"theta_109{i}": np.arctan2(sine, ball[:, 2, 2]),
+        f"theta_1110{i}": np.arctan2(sign * ball[:, 2, 1], -sign * ball[:, 2, 0]),
+    }

@@ -1,0 +1,109 @@
+"""What following one printed line does to a user of the explicit model, all others corrected.
+
+Two measures: the change of D q̈ + V q̇ + C at random states of random robots,
+relative to that state's largest component (median and worst), where no length
+or centre of gravity is zero by accident; and the change of the six motors'
+torques of the thesis's robot along the default path.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from pollard_pin.path import appendix_b
+from pollard_pin.specification import ACTUATORS
+from pollard_pin.thesis.claims_dynamics import AWAY
+from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
+from pollard_pin.thesis.mechanics import Mechanics
+from thesis_pin.editions import EditionEnvironment
+from thesis_pin.equations import Catalogue, Equation
+from thesis_pin.formula import FormulaError, Symbol
+
+_SEED = 20174
+_PATH = 41  # samples, of which those near a zero of the formulas' denominators drop out
+_ROUNDING = 1e-9  # relative change, or N·m, below which a line has no effect
+
+
+class Effects:
+    """Effects of printed lines, one environment for all of them.
+
+    Args:
+        equations: The equations.
+        random: Closed states of random robots with random bodies.
+    """
+
+    def __init__(self, equations: Catalogue, random: Mechanics) -> None:
+        # Accelerated at random: three motors' torques leave a small force of large terms.
+        acceleration = np.random.default_rng(_SEED).uniform(-2, 2, random.drive.acceleration.shape)
+        drive = replace(random.drive, acceleration=acceleration)
+        self.random = _Model(equations, Mechanics(random.state, drive))
+        self.path = _Model(equations, along_path())
+
+    def of(self, equation: Equation) -> dict[str, float | str]:
+        """Changes by quantity; empty if the dynamics don't rest on the line."""
+        if not self.random.rests_on(equation):
+            return {}
+        try:
+            changed, force = self.random.change(equation), self.random.force
+            on_path = self.path.change(equation)
+        except FormulaError as error:
+            return {"generalized force": f"can't be computed, {error.what}"}
+        relative = np.abs(changed).max(axis=-1) / np.abs(force).max(axis=-1)
+        torque = (self._torque_map @ on_path[..., None])[..., 0]
+        found = {
+            "generalized force, median [-]": float(np.median(relative)),
+            "generalized force, worst [-]": float(relative.max()),
+            "path torque [N·m]": float(np.abs(torque).max()),
+        }
+        return {name: value if value > _ROUNDING else 0.0 for name, value in found.items()}
+
+    @cached_property
+    def _torque_map(self) -> np.ndarray:
+        """Generalized force → six motor torques along the path, ``(samples, 6, 6)``."""
+        rates = self.path.mechanics.rows
+        rows = np.stack([rates[ANGLES[joint]] for joint in ACTUATORS], axis=-2)
+        return np.linalg.inv(np.swapaxes(rows, -1, -2))
+
+
+def along_path() -> Mechanics:
+    """The thesis's robot on the default path.
+
+    It runs through y = 0, where b_12 and c_22 vanish and the thesis's formulas divide
+    by zero; samples near it would measure that and not the misprint.
+    """
+    model, path = ExplicitModel(), appendix_b().sample(_PATH)
+    regular = model.margin(path.pose) > AWAY
+    return model.mechanics(*(x[regular][::3] for x in (path.pose, path.rate, path.acceleration)))
+
+
+class _Model:
+    """The corrected model at some states, and what one printed line makes of it."""
+
+    def __init__(self, equations: Catalogue, mechanics: Mechanics) -> None:
+        self.mechanics = mechanics
+        self.environment = EditionEnvironment(equations, mechanics)
+
+    @cached_property
+    def force(self) -> np.ndarray:
+        """D q̈ + V q̇ + C, shape ``(states, 6)``."""
+        return self._force(self.environment)
+
+    def rests_on(self, equation: Equation) -> bool:
+        """Whether the force does."""
+        return bool(self.force.size) and self.environment.uses(equation.id)
+
+    def change(self, equation: Equation) -> np.ndarray:
+        """Change of the force by a line as printed, shape ``(states, 6)``."""
+        force = self.force
+        return self._force(self.environment.following_print(equation.id)) - force
+
+    def _force(self, environment: EditionEnvironment) -> np.ndarray:
+        mass, velocity, gravity = (
+            environment.lookup(Symbol(letter, "j"), {}).array for letter in "DVC"
+        )
+        total = mass[..., 0, :] * self.mechanics.drive.acceleration
+        total = (total + velocity[..., 0, :] * self.mechanics.pose_rates).sum(axis=-1) + gravity
+        return np.asarray(np.moveaxis(total, 0, -1))

@@ -1,0 +1,284 @@
+"""The thesis's explicit model, evaluated from its own printed equations.
+
+``D q̈ + V q̇ + C = Q`` in the task coordinates (x, y, z, ψ, θ, φ), with the joint
+rates k_n they rest on. Two editions: "corrected" follows the equations with
+their corrections, "printed" follows the print literally wherever it can be
+evaluated. Where a line can't be evaluated its correction stands in, and where
+the text of a coefficient is lost, the exact value from the closed mechanism:
+:attr:`ExplicitModel.substituted` lists both.
+
+The equations are in the TOML files beside this module.
+
+Source: Pollard thesis, 2.5, 2.6, 2.8, 2.9, chapter 3, appendices D and E.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from pollard_pin.geometry import DEFAULT_BRANCH, Branch
+from pollard_pin.model import load
+from pollard_pin.specification import Specification
+from pollard_pin.thesis.accelerations import accelerating
+from pollard_pin.thesis.bodies import constants_of
+from pollard_pin.thesis.catalogue import catalogue
+from pollard_pin.thesis.mechanics import Mechanics
+from pollard_pin.thesis.motion_symbols import Drive
+from pollard_pin.thesis.rates import moving
+from pollard_pin.thesis.state import CHAIN_0, POSE, State, ball_angles
+from thesis_pin.arrays import finite_array
+from thesis_pin.editions import EditionEnvironment
+from thesis_pin.equations import Edition
+from thesis_pin.errors import UnknownName, WrongShape
+from thesis_pin.formula import Symbol
+from thesis_pin.inertia import Reading
+
+ROW_NAMES = ("k_2", "k_6", "k_7", "k_12", "k_18", "k_25")
+"""Rows of chain 0: rates of θ21, θ43, θ54, θ1615, θ1716, θ1817 over the pose's."""
+
+SIDE_ROW_NAMES = ("k_2i", "k_6i", "k_7i")
+"""Rows of a side chain: θ21i, θ65i, θ76i."""
+
+_SIDE_ANGLES = ("theta_21", "theta_65", "theta_76")
+ANGLES = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in _SIDE_ANGLES))
+"""The thesis's symbols in the order of :data:`pollard_pin.specification.JOINT_NAMES`."""
+
+_CHUNK = 128  # states whose ∂N/∂q_j stay below a few hundred MB
+
+
+class ExplicitModel:
+    """The terms of (3.153) for one pose or a batch.
+
+    Poses, rates and accelerations have shape ``(..., 6)``: (x, y, z, ψ, θ, φ) [m], [rad].
+    It walks through hundreds of formulas at every call: made for comparison, not for
+    control. :meth:`pollard_pin.Pollard.inverse_dynamics` gives torques faster.
+
+    Args:
+        specification: The robot; None for the thesis's.
+        inertia: Reading of the printed inertias.
+        edition: "corrected" or "printed".
+        branch: Which solution of the inverse kinematics.
+
+    Attributes:
+        substituted: After an evaluation: ids of lines that can't be followed as the
+            edition asks, with the reason.
+    """
+
+    def __init__(
+        self,
+        specification: Specification | None = None,
+        *,
+        inertia: Reading = "physical",
+        edition: Edition = "corrected",
+        branch: Branch = DEFAULT_BRANCH,
+    ) -> None:
+        if edition not in ("corrected", "printed"):
+            raise UnknownName("edition", edition, ("corrected", "printed"))
+        self.robot = load(specification, inertia=inertia)
+        self.edition: Edition = edition
+        self.branch = branch
+        self.constants = constants_of(self.robot.specification, inertia)
+        self.substituted: dict[str, str] = lost_coefficients()
+
+    # -- kinematics --------------------------------------------------------------
+
+    def rows(self, pose: Any) -> np.ndarray:
+        """Joint rates over the pose's, ``(..., 12, 6)``, in the order of JOINT_NAMES.
+
+        k_2, k_6, k_7, k_12, k_18, k_25, then k_2i, k_6i, k_7i of either side chain.
+        Source: (3.8), (3.17), (3.25), (3.33), (3.41), (3.112), (3.120).
+        """
+        return self._batch(lambda model, mechanics: model._rows(mechanics), pose)
+
+    def J_tau(self, pose: Any) -> np.ndarray:
+        """Rows of the three base motors, ``(..., 3, 6)``. Source: (3.151)."""
+        return self.rows(pose)[..., [0, 6, 9], :]
+
+    def accelerations(self, pose: Any, v: Any, a: Any) -> np.ndarray:
+        """Joint accelerations ``(..., 12)`` [rad/s²], in the order of JOINT_NAMES.
+
+        Source: (2.77) … (2.88), (2.161) … (2.166), with the G of appendix E.
+        """
+
+        def found(model: ExplicitModel, mechanics: Mechanics) -> np.ndarray:
+            # The last G of an equation takes the accelerations of the joints before it.
+            mechanics = Mechanics(accelerating(mechanics.state), mechanics.drive)
+            values = [
+                model._number(mechanics, Symbol("theta", name, dots=2), i)
+                for name, i in _angle_names()
+            ]
+            return np.stack(values, axis=-1)
+
+        return self._batch(found, pose, v, a)
+
+    def M(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+        """M_k, ``(..., 3, 6)``: odd, velocity of a centre of gravity; even, angular velocity.
+
+        Args:
+            number: 1 … 10 for chain 0, 1 … 4 for a side chain.
+            pose: Shape ``(..., 6)``.
+            chain: None for chain 0, else 1 or 2.
+
+        Source: (3.10) … (3.45), (3.114) … (3.124).
+        """
+        return self._matrix("M", number, 10, 4, pose, chain)
+
+    def N(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+        """N_k, ``(..., 6, 6)``: a body's share of D.
+
+        Args:
+            number: 1 … 5 for chain 0, 1 or 2 for a side chain.
+            pose: Shape ``(..., 6)``.
+            chain: None for chain 0, else 1 or 2.
+
+        Source: 3.3.1 (after 3.50), 3.5.1 (after 3.125).
+        """
+        return self._matrix("N", number, 5, 2, pose, chain)
+
+    def margin(self, pose: Any) -> np.ndarray:
+        """Smallest sine or cosine that the thesis's formulas divide by, ``(...)``.
+
+        X, b_12, b_11, c_22 and X_i vanish where cos θ43, sin or cos θ1817, cos θ1716,
+        cos θ1615 or cos θ65i do. The mechanism isn't singular there, and the closed form
+        of :meth:`pollard_pin.Pollard.rates` has no such denominators: below about 0.05
+        the explicit model loses digits that nothing else does.
+        """
+        found = self.robot.inverse_kinematics(finite_array("pose", pose, 6), self.branch).require()
+        cosines = np.cos(found.angles[..., [1, 3, 4, 5, 7, 10]])
+        divisors = np.concatenate([cosines, np.sin(found.angles[..., [5]])], axis=-1)
+        return np.asarray(np.abs(divisors).min(axis=-1))
+
+    # -- dynamics ------------------------------------------------------------------
+
+    def D(self, pose: Any) -> np.ndarray:
+        """Mass matrix, ``(..., 6, 6)``. Source: (3.153), (3.68) … (3.134)."""
+        return self._batch(lambda model, mechanics: model._terms(mechanics, "D")[0], pose)
+
+    def V(self, pose: Any, v: Any) -> np.ndarray:
+        """V(q, q̇) = Ṅ − ½ [q̇ᵀ ∂N/∂q_j]_j, ``(..., 6, 6)``; only V q̇ compares.
+
+        Source: (3.153), (3.68) … (3.140).
+        """
+        return self._batch(lambda model, mechanics: model._terms(mechanics, "V")[0], pose, v)
+
+    def C(self, pose: Any) -> np.ndarray:
+        """Gravity term [N], [N·m], ``(..., 6)``. Source: (3.153), (3.78) … (3.140)."""
+        return self._batch(lambda model, mechanics: model._terms(mechanics, "C")[0], pose)
+
+    def terms(self, pose: Any, v: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """D, V and C at once: what they share is worked out once."""
+
+        def stacked(model: ExplicitModel, mechanics: Mechanics) -> np.ndarray:
+            mass, velocity, gravity = model._terms(mechanics, "DVC")
+            return np.concatenate([mass, velocity, gravity[..., None]], axis=-1)
+
+        found = self._batch(stacked, pose, v)
+        return found[..., :6], found[..., 6:12], found[..., 12]
+
+    def generalized_force(self, pose: Any, v: Any, a: Any) -> np.ndarray:
+        """Q = D q̈ + V q̇ + C [N], [N·m], ``(..., 6)``. Source: (3.153)."""
+        v, a = (finite_array(name, x, 6) for name, x in (("v", v), ("a", a)))
+        mass, velocity, gravity = self.terms(pose, v)
+        return np.asarray((mass @ a[..., None] + velocity @ v[..., None])[..., 0] + gravity)
+
+    # -- machinery -------------------------------------------------------------------
+
+    def mechanics(self, pose: np.ndarray, v: np.ndarray, a: np.ndarray) -> Mechanics:
+        """What each symbol must equal at poses ``(n, 6)`` on this model's branch.
+
+        Raises:
+            Unreachable: A pose has no solution on the branch.
+        """
+        angles = self.robot.inverse_kinematics(pose, self.branch).require().angles
+        variables = dict(zip(POSE, pose.T, strict=True))
+        variables |= dict(zip(CHAIN_0, angles[:, :6].T, strict=True))
+        for i, start in (("1", 6), ("2", 9)):
+            names = [name + i for name in _SIDE_ANGLES]
+            variables |= dict(zip(names, angles[:, start : start + 3].T, strict=True))
+        rates, accelerations = (dict(zip(POSE, x.T, strict=True)) for x in (v, a))
+        constants = {k: np.repeat(x, len(pose), axis=0) for k, x in self.constants.items()}
+        state = State(constants, variables, rates, accelerations)
+        for i in "12":
+            state = state.with_(**ball_angles(state, i))
+        still = np.zeros((len(pose), 6))
+        return Mechanics(moving(state), Drive(a, still[:, :3], still))
+
+    def environment(self, mechanics: Mechanics) -> EditionEnvironment:
+        """The thesis's symbols at some states, in this edition."""
+        return EditionEnvironment(
+            catalogue(), mechanics, self.edition, substituted=self.substituted
+        )
+
+    def _number(self, mechanics: Mechanics, symbol: Symbol, i: str = "") -> np.ndarray:
+        indices = {"i": i} if i else {}
+        value = self.environment(mechanics).lookup(symbol.bound(indices), indices)
+        return np.broadcast_to(value.array, (*mechanics.state.shape, *value.tail))
+
+    def _rows(self, mechanics: Mechanics) -> np.ndarray:
+        environment, found = self.environment(mechanics), []
+        names = [(name, "") for name in ROW_NAMES]
+        names += [(name, i) for i in "12" for name in SIDE_ROW_NAMES]
+        for name, i in names:
+            symbol = Symbol("k", name.removeprefix("k_"), kept="i")
+            found.append(environment.lookup(symbol, {"i": i} if i else {}).array)
+        return np.stack(np.broadcast_arrays(*found), axis=-2)
+
+    def _terms(self, mechanics: Mechanics, wanted: str) -> list[np.ndarray]:
+        environment, found = self.environment(mechanics), []
+        for letter in wanted:
+            value = environment.lookup(Symbol(letter, "j"), {}).array  # j stands first
+            rows = value[..., 0, :] if letter != "C" else value
+            found.append(np.moveaxis(rows, 0, 1))
+        return found
+
+    def _matrix(
+        self, letter: str, number: int, count: int, side_count: int, pose: Any, chain: int | None
+    ) -> np.ndarray:
+        if chain not in (None, 1, 2):
+            raise UnknownName("chain", chain, ("None", "1", "2"))
+        last = side_count if chain else count
+        if number not in range(1, last + 1):
+            raise UnknownName("number", number, [str(k) for k in range(1, last + 1)])
+        symbol = Symbol(letter, f"{number}i" if chain else str(number), kept="i")
+        i = str(chain or "")
+        return self._batch(lambda model, mechanics: model._number(mechanics, symbol, i), pose)
+
+    def _batch(
+        self,
+        of: Callable[[ExplicitModel, Mechanics], np.ndarray],
+        pose: Any,
+        v: Any = None,
+        a: Any = None,
+    ) -> np.ndarray:
+        pose = finite_array("pose", pose, 6)
+        given = {"v": v, "a": a}
+        flat = [pose.reshape(-1, 6)]
+        for name, value in given.items():
+            array = np.zeros(pose.shape) if value is None else finite_array(name, value, 6)
+            if array.shape != pose.shape:
+                raise WrongShape(name, array.shape, f"that of the pose, {pose.shape}")
+            flat.append(array.reshape(-1, 6))
+        parts = [
+            of(self, self.mechanics(*(x[start : start + _CHUNK] for x in flat)))
+            for start in range(0, max(len(flat[0]), 1), _CHUNK)
+        ]
+        result = np.concatenate(parts)
+        return result.reshape(*pose.shape[:-1], *result.shape[1:])
+
+
+def _angle_names() -> list[tuple[str, str]]:
+    """Subscripts of the twelve angles in the order of JOINT_NAMES, with their chain."""
+    names = [(name.removeprefix("theta_"), "") for name in CHAIN_0]
+    return names + [(f"{name.removeprefix('theta_')}i", i) for i in "12" for name in _SIDE_ANGLES]
+
+
+def lost_coefficients() -> dict[str, str]:
+    """Coefficients whose text is lost or torn: the exact value stands in for them."""
+    return {
+        equation.id: f"{equation.illegible}; the exact value stands in"
+        for equation in catalogue().equations
+        if equation.illegible and equation.section in "CDE"
+    }
