@@ -19,6 +19,8 @@ if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
 
 _NARROW = {"not checkable": "not\ncheckable", "unexplained": "un-\nexplained"}
 """Headings on two lines: all verdicts fit 80 columns."""
+_TITLE = 31
+"""Characters of a failure's title, so that its row fits 80 columns."""
 
 
 class Audit(Protocol):
@@ -82,19 +84,24 @@ def run_verb(
     print_table(*faces.kind_table(report), title="mended lines by kind of slip")
     print_text(faces.KIND_NOTE, "")
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
-    print_table(columns, faces.failure_rows(report, every=arguments.every))
+    print_table(columns, faces.failure_rows(report, every=arguments.every, width=_TITLE))
     print_text(
         "Effect: the largest number of a row or group; blocked: the line can't be computed, or "
         "following it leaves nothing to compute.",
         *lines[1:],
         "Without a verdict:",
     )
+    print_entries(_without_verdict(report))
+    print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
+    return OK
+
+
+def _without_verdict(report: Report) -> Iterator[tuple[str, str]]:
+    """Section and number of lines that share a reason, and the reason."""
     for section in report.sections:
         for reason in dict.fromkeys(reason for _, reason in section.gaps):
             count = sum(one == reason for _, one in section.gaps)
-            print_text(f"  {section.name}, {count}: {reason}")
-    print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
-    return OK
+            yield f"  {section.name}, {count}:", reason
 
 
 def known(identity: str, catalogue: Catalogue, robot: str) -> str:

@@ -162,8 +162,16 @@ def kind_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
 KIND_NOTE = "A line with slips of several kinds counts under each."
 
 
-def failure_rows(report: Report, *, every: bool = False) -> list[tuple[str, ...]]:
-    """Rows of the failure table: what, lines, verdict, who, residual, worst effect."""
+def failure_rows(
+    report: Report, *, every: bool = False, width: int | None = None
+) -> list[tuple[str, ...]]:
+    """Rows of the failure table: what, lines, verdict, who, worst effect.
+
+    Args:
+        report: The audit.
+        every: A row for each line, not for each cause.
+        width: Characters a title may have; None for all of them.
+    """
     found: list[tuple[str, ...]] = []
     groups = [(row.id, [row]) for row in report.failures] if every else grouped(report.failures)
     for name, rows in groups:
@@ -171,9 +179,10 @@ def failure_rows(report: Report, *, every: bool = False) -> list[tuple[str, ...]
         shared = report.causes.get(name) if len(rows) > 1 else None
         title = shared.title if shared else name.split(":", 1)[-1]
         verdicts = "/".join(dict.fromkeys(row.verdict for row in rows))
-        who = "/".join(dict.fromkeys(row.attribution for row in rows))
+        who = set(row.attribution for row in rows)
+        by = "both" if len(who) > 1 else who.pop()
         effect = _worst_effect(worst)
-        found.append((_short(title, 34), str(len(rows)), verdicts, who, effect))
+        found.append((_short(title, width or len(title)), str(len(rows)), verdicts, by, effect))
     return found
 
 

@@ -84,9 +84,9 @@ CAUSES = {
         "brackets lost or added in long lines",
         "each line by itself",
         "Opening and closing brackets don't balance, or close one factor too early, in lines of "
-        "a dozen products. With brackets alone put back each of them is exact, so nothing of the "
-        "derivation is wrong; a reader who types them in meets an error, or a sum where a product "
-        "is meant.",
+        "a dozen products and more. With the brackets put back they are exact (one has a wrong "
+        "letter besides), so the derivation is right; a reader who types them in meets an error, "
+        "or a sum where a product is meant.",
     ),
     "ball-frame": Cause(
         "A: base 11i turned the wrong way",
