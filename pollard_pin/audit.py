@@ -55,6 +55,7 @@ def audit(
     equations: Catalogue | None = None,
     *,
     only: Iterable[str] | None = None,
+    with_effects: bool = True,
     progress: Callable[[Iterable[Equation], int], Iterable[Equation]] | None = None,
 ) -> Report:
     """Audit the thesis.
@@ -62,6 +63,7 @@ def audit(
     Args:
         equations: The equations; None for the thesis's own.
         only: Ids to audit; None for all.
+        with_effects: Follow each failing line that the dynamics rest on.
         progress: Wraps the loop over equations, for a progress bar.
 
     Returns:
@@ -69,17 +71,14 @@ def audit(
     """
     equations = equations or catalogue()
     chosen = equations.equations if only is None else [equations[name] for name in only]
-    open_, closed = References(states(closed=False)), mechanics()
-    loops = loop_symbols(states(closed=True))
-    checks, effects = _once(claims(equations, closed)), Effects(equations, closed)
+    environments = Environments()
+    checks = _once(claims(equations, environments.closed))
+    effects = Effects(equations, environments.closed)
     rows = []
     for equation in progress(chosen, len(chosen)) if progress else chosen:
-        environment = closed if equation.closed or equation.section.startswith("3") else open_
-        # From chapter 3 on the coordinates are the pose's six, the loops closed.
-        environment = loops if equation.section == "A" else environment
-        row = judge(equations, equation, environment, checks, THESIS)
+        row = judge(equations, equation, environments.of(equation), checks, THESIS)
         if row.failed and not row.effect:
-            effect = effects.of(equation)
+            effect = effects.of(equation) if with_effects else {}
             if not effect and row.residual_printed == math.inf:
                 effect = {"this line": "can't be computed"}
             row = replace(row, effect=effect)
@@ -92,9 +91,33 @@ def audit(
     return Report(THESIS, tuple(rows), NUMBERS, described, CAUSES, beyond(equations), EFFECTS)
 
 
-def mechanics() -> Mechanics:
-    """The closed states, each with random bodies and moved by the three base motors."""
-    return driven(states(closed=True), np.random.default_rng(_SEED))
+class Environments:
+    """The references at the audit's states, each worked out when it is asked for."""
+
+    @functools.cached_property
+    def open(self) -> References:
+        """Where nothing of the loops is assumed."""
+        return References(states(closed=False))
+
+    @functools.cached_property
+    def closed(self) -> Mechanics:
+        """With closed loops, random bodies, and moved by the three base motors."""
+        return driven(states(closed=True), np.random.default_rng(_SEED))
+
+    @functools.cached_property
+    def loops(self) -> References:
+        """For appendix A, which names the loops' Jacobians."""
+        return loop_symbols(states(closed=True))
+
+    def of(self, equation: Equation) -> References:
+        """Where an equation has to hold.
+
+        From chapter 3 on the coordinates are the pose's six and the loops are closed.
+        """
+        if equation.section == "A":
+            return self.loops
+        closed = equation.closed or equation.section.startswith("3")
+        return self.closed if closed else self.open
 
 
 def _once(checks: Claims) -> Claims:

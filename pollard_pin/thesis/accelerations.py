@@ -26,6 +26,7 @@ from pollard_pin.thesis.loops import frame, opening, side
 from pollard_pin.thesis.rates import ROWS, derivative
 from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, inverse, own_name
 
+# 32 points can't tell the 34th Taylor term from the second; at this radius it is below rounding.
 _POINTS, _RADIUS = 32, 0.4
 _TURNS = np.exp(2j * np.pi * np.arange(_POINTS) / _POINTS)
 _Function = Callable[[State], np.ndarray]

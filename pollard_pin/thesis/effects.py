@@ -36,11 +36,23 @@ class Effects:
     """
 
     def __init__(self, equations: Catalogue, random: Mechanics) -> None:
-        # Accelerated at random: three motors' torques leave a small force of large terms.
-        acceleration = np.random.default_rng(_SEED).uniform(-2, 2, random.drive.acceleration.shape)
-        drive = replace(random.drive, acceleration=acceleration)
-        self.random = _Model(equations, Mechanics(random.state, drive))
-        self.path = _Model(equations, along_path())
+        self.equations, self._states = equations, random
+
+    @cached_property
+    def random(self) -> _Model:
+        """The random robots, accelerated at random.
+
+        Three motors' torques would leave a small force of large terms.
+        """
+        drive = self._states.drive
+        acceleration = np.random.default_rng(_SEED).uniform(-2, 2, drive.acceleration.shape)
+        mechanics = Mechanics(self._states.state, replace(drive, acceleration=acceleration))
+        return _Model(self.equations, mechanics)
+
+    @cached_property
+    def path(self) -> _Model:
+        """The thesis's robot on the default path."""
+        return _Model(self.equations, along_path())
 
     def of(self, equation: Equation) -> dict[str, float | str]:
         """Changes by quantity; empty if the dynamics don't rest on the line."""

@@ -139,3 +139,58 @@ def test_G_14_and_G_22_fail_because_220_is_in_the_base_frame(opened):
     expected = np.cos(yaw) ** 2 * above - 2 * state.rates["theta_54"] ** 2 * x**3 * np.tan(yaw)
     (text,) = catalogue()["pollard:E:G_22"].printed
     np.testing.assert_allclose(value(text + ")", opened), expected, atol=1e-10)
+
+
+def side_in_base_frame(state, i):
+    """First and second derivatives of X_i, Y_i, Z_i without the turn by θ21i, as in (2.163)."""
+    circle = Circle(state, i)
+    still = circle.state.with_(**{f"theta_21{i}": np.zeros(circle.state.size)})
+    x, y, z = side(still, 4, i)[:, :3].T
+    angle, arm, tilt = (
+        circle.state.number(f"{name}{i}") for name in ("theta_21", "x_43", "beta_54")
+    )
+    moved = (
+        x - arm * np.cos(angle),
+        y - np.cos(tilt) * arm * np.sin(angle),
+        z + np.sin(tilt) * arm * np.sin(angle),
+    )
+    return [[circle.derivative(v, order) for v in moved] for order in (1, 2)]
+
+
+def mended(identity, *edits):
+    """The printed member after edits, each of which must find its place."""
+    (text,) = catalogue()[identity].printed
+    for old, new in edits:
+        assert old in text, old
+        text = text.replace(old, new)
+    return text
+
+
+G_60 = (
+    (
+        r"\dot{\theta}_{65}^2 (c \theta_{65i} z_{32}",
+        r"\dot{\theta}_{65i}^2 c \theta_{65i} (z_{32i}",
+    ),
+    (r"\dot{\theta}_{65}", r"\dot{\theta}_{65i}"),
+    ("y_{10} c", "y_{10i} c"),
+    ("x_{1211} c", "x_{1211i} c"),
+    ("x_{43}", "x_{43i}"),
+    (r"\dot{\theta}_{21}^2 x_{43i}", r"\dot{\theta}_{21i}^2 x_{43i}"),
+    (r"(\dot{\theta}_{21}^2 c \theta_{21i}", r"(\dot{\theta}_{21i}^2 c \theta_{21i}"),
+    (r"\ddot{\theta}_{21} s \theta_{21i}", r"\ddot{\theta}_{21i} s \theta_{21i}"),
+    (r"c \beta_{1413i} - \theta_{54})", r"c(\beta_{1413i} - \theta_{54})"),
+    (r"s \beta_{1413i} - \theta_{54})", r"s(\beta_{1413i} - \theta_{54})"),
+    (r"s \theta_{54} s \theta_{65i}", r"s \theta_{54}) s \theta_{65i}"),
+)
+
+
+@pytest.mark.parametrize("i", "12")
+def test_G_60_fails_because_the_differences_are_in_the_base_frame(opened, i):
+    """With its lost i and brackets it is (2.162) with X and Z in one frame, rates in another."""
+    text = mended("pollard:E:G_60", *G_60)
+    (x1, _, z1), (x2, _, z2) = side_in_base_frame(opened, i)
+    x, _, z = side(opened, 4, i)[:, :3].T
+    theta, rate = (given[f"theta_65{i}"] for given in (opened.variables, opened.rates))
+    c, s = np.cos(theta), np.sin(theta)
+    expected = -z2 * c - x2 * s + 2 * rate * (z1 * s - x1 * c) + rate**2 * (z * c + x * s)
+    np.testing.assert_allclose(value(text, opened, i), expected, atol=1e-10)
