@@ -23,9 +23,10 @@ from pollard_pin.thesis.mechanics import Mechanics, driven
 from pollard_pin.thesis.rates import moving
 from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import State, random_state
-from thesis_pin.audit import Claims, Report, judge
+from thesis_pin.audit import Claims, judge
 from thesis_pin.audit_command import run_verb
 from thesis_pin.audit_report import ranges
+from thesis_pin.audit_rows import Report
 from thesis_pin.equations import Catalogue, Equation
 
 THESIS = "Pollard thesis"

@@ -22,8 +22,9 @@ from scout_pin.thesis.explicit import catalogue, resting
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from scout_pin.thesis.symbols.forces import matrix_entry
-from thesis_pin.audit import Claims, Report, judge
+from thesis_pin.audit import Claims, judge
 from thesis_pin.audit_command import run_verb
+from thesis_pin.audit_rows import Report
 from thesis_pin.editions import EditionEnvironment
 from thesis_pin.equations import Catalogue, Equation
 from thesis_pin.evaluation import evaluate

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
-    from thesis_pin.audit import Report
+    from thesis_pin.audit_rows import Report
     from thesis_pin.equations import Catalogue, Equation
 
     Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
@@ -59,6 +59,7 @@ def run_verb(
         command: What regenerates the document.
     """
     from thesis_pin import audit_report as faces
+    from thesis_pin.audit_json import document
     from thesis_pin.audit_page import page
     from thesis_pin.command_line import OK, print_entries, print_table, print_text, write_file
     from thesis_pin.report import json_bytes
@@ -70,7 +71,7 @@ def run_verb(
     if arguments.markdown:
         write_file(arguments.markdown, faces.markdown(report, command).encode())
     if arguments.json:
-        write_file(arguments.json, json_bytes(faces.document(report)))
+        write_file(arguments.json, json_bytes(document(report)))
     if arguments.json == "-":
         return OK
     if only:

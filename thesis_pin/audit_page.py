@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from thesis_pin.audit import Report, Row
 from thesis_pin.audit_report import (
     KIND_NOTE,
     chapter_table,
@@ -17,6 +16,7 @@ from thesis_pin.audit_report import (
     summary_lines,
     used_causes,
 )
+from thesis_pin.audit_rows import Report, Row
 from thesis_pin.kinds import KINDS
 from thesis_pin.page import Table
 from thesis_pin.viewer import render, web_file

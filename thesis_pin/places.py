@@ -13,6 +13,8 @@ _DOUBLE = {"C": "ℂ", "D": "𝔻", "V": "𝕍"}
 _SCRIPT = r"(?:\s*[_^]\s*(?:\{(?:[^{}]|\{[^{}]*\})*\}|\\?\w))"
 _LETTER = r"(?:[ℂ𝔻𝕍]|\\d?dot\{[^{}]*\}|\\[a-zA-Z]+|[A-Za-z]\d?|\d+(?:\.\d+)?)"
 _PIECE = re.compile(rf"∂[^ ]+/∂[^ ()]+|{_LETTER}'*{_SCRIPT}*|\\\\|\S")
+_INSIDE = r"([^{} ]*(?:\{[^{}]*\}[^{} ]*)*)"
+_PARTIAL = re.compile(rf"\\frac\{{\\partial {_INSIDE}\}}\{{\\partial {_INSIDE}\}}")
 _LAYOUT = re.compile(
     r"\\(?:begin|end)\{\w+\}(?:\{[clr| ]*\})?|\\(?:left|right|[bB]igg?[lr]?|c?l?dots)\b\.?"
 )
@@ -25,10 +27,7 @@ def pieces(formula: str) -> tuple[list[str], str]:
     """
     text = _BOLD.sub(r"\1", formula)
     text = re.sub(r"\\mathbb\s*\{([CDV])\}", lambda match: _DOUBLE[match[1]], text)
-    simple = (
-        r"\\frac\{\\partial ([^{} ]*(?:\{[^{}]*\}[^{} ]*)*)\}\{\\partial ([^{} ]*(?:\{[^{}]*\})?)\}"
-    )
-    text = _LAYOUT.sub(" ", re.sub(simple, r"∂\1/∂\2", text))
+    text = _LAYOUT.sub(" ", _PARTIAL.sub(r"∂\1/∂\2", text))
     cells = re.split(r"&|\\quad", text.replace("\\\\", "&"))
     if len(cells) > 4:
         return [" ".join(re.sub(r"[\[\]]", "", cell).split()) for cell in cells], "column"

@@ -21,6 +21,7 @@ from thesis_pin.audit import ClaimResult
 from thesis_pin.equations import Catalogue, Equation, index_values
 from thesis_pin.evaluation import evaluate
 from thesis_pin.formula import FormulaError, Node, Symbol
+from thesis_pin.inertia import parallel_axis
 from thesis_pin.values import Value, scalar
 
 Check = Callable[[Catalogue, Equation, References], ClaimResult]
@@ -174,7 +175,7 @@ def impossibility(tensor: np.ndarray, mass: float, length: float | None) -> floa
 def spread(tensor: np.ndarray, mass: float) -> float:
     """Root mean square distance of the mass from the tensor's point along x [m]."""
     second = (tensor[1, 1] + tensor[2, 2] - tensor[0, 0]) / 2
-    return math.sqrt(second / mass)
+    return math.sqrt(max(0.0, second) / mass)  # a negative one shows in the moments
 
 
 def _inertia(catalogue: Catalogue, equation: Equation, closed: References) -> ClaimResult:
@@ -193,9 +194,17 @@ def _inertia(catalogue: Catalogue, equation: Equation, closed: References) -> Cl
         note = f"the mass lies {far:.0f} mm from the centre of gravity in the mean: a body of at "
         note += f"least {2 * far:.0f} mm, and the thesis gives its size nowhere"
         return ClaimResult(printed, note=note + _twin(specification, link))
-    note = f"the mass lies {far:.0f} mm from the tensor's point in the mean; a link of "
-    note += f"{span * 1e3:.0f} mm allows {span * 500:.0f} mm about its centre of gravity and "
-    note += f"{span * 1e3:.0f} mm about its joint"
+    middle = np.array([span / 2, 0.0, 0.0])
+    readings = {
+        "its centre of gravity": tensor,
+        "its joint": tensor - parallel_axis(mass, middle),
+    }
+    possible = [name for name, of in readings.items() if impossibility(of, mass, span) == 0]
+    note = (
+        f"the mass lies {far:.0f} mm from the tensor's point in the mean, on a link of "
+        f"{span * 1e3:.0f} mm; with the centre of gravity in the middle it can be meant about "
+        + (" or ".join(possible) or "no point: neither its centre of gravity nor its joint")
+    )
     if not equation.right:
         return ClaimResult(printed, note=note)
     right = value_of(catalogue, equation.right[1], given) * 1e-6

@@ -103,6 +103,21 @@ def test_every_printed_tensor_is_that_of_some_body_and_two_of_no_body_of_their_l
     assert impossible == ["pollard:4.4:J_2", "pollard:4.4:J_2i"]
 
 
+@pytest.mark.parametrize(
+    ("identity", "about"),
+    [
+        ("J_1", "meant about its centre of gravity"),
+        ("J_1i", "meant about its centre of gravity"),
+        ("J_2", "meant about no point"),
+        ("J_2i", "meant about its joint"),
+    ],
+)
+def test_each_links_tensor_says_about_which_point_it_can_be_meant(rows, identity, about):
+    reason = rows[f"pollard:4.4:{identity}"].reason
+    assert about in reason
+    assert " or " not in reason
+
+
 def test_no_decimal_saves_the_forearms_product():
     """With the diagonal a forearm can have, 1381.8 is more than any body allows."""
     text = catalogue()["pollard:4.4:J_2"].right[1]

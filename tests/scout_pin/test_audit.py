@@ -168,7 +168,7 @@ def test_following_the_print_has_a_price_that_is_worked_out(rows):
 
 
 def audit_rows_in_order(rows):
-    from thesis_pin.audit import Report
+    from thesis_pin.audit_rows import Report
 
     return Report("", tuple(rows.values()), (), "", {}).failures
 

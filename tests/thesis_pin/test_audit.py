@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from thesis_pin import audit, audit_page, audit_report
-from thesis_pin.audit import ClaimResult, Report, judge, verdict
+from thesis_pin import audit_json, audit_page, audit_report
+from thesis_pin.audit import ClaimResult, judge, verdict
+from thesis_pin.audit_rows import Report, Row
 from thesis_pin.equations import Catalogue, Equation
 from thesis_pin.formula import FormulaError
 from thesis_pin.notation import Notation
@@ -130,7 +131,7 @@ def test_a_report_counts_covers_and_names_its_gaps(report):
 def test_failures_come_worst_effect_first():
     def failing(name, effect):
         base = row(id=f"robot:1:{name}", printed="a a", corrected="a b", **MENDED)
-        return audit.Row(**{**vars(base), "effect": effect})
+        return Row(**{**vars(base), "effect": effect})
 
     rows = tuple(
         failing(name, effect)
@@ -148,7 +149,7 @@ def test_failures_come_worst_effect_first():
 def test_the_document_is_plain_json_and_the_page_stands_alone(report):
     import orjson
 
-    document = orjson.loads(orjson.dumps(audit_report.document(report)))
+    document = orjson.loads(orjson.dumps(audit_json.document(report)))
     assert [r["verdict"] for r in document["rows"]] == ["holds", "misprint", "illegible"]
     assert document["rows"][1]["corrected"] == {"1": "a b"}
     page = audit_page.page(report)

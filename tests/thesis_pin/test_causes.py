@@ -6,8 +6,8 @@ import pollard_pin.audit
 import pollard_pin.thesis
 import scout_pin.audit
 import scout_pin.thesis
-from thesis_pin import audit_report
-from thesis_pin.audit import Report, Row
+from thesis_pin import audit_json, audit_report
+from thesis_pin.audit_rows import Report, Row
 from thesis_pin.causes import Cause
 
 ROBOTS = [(scout_pin.audit, scout_pin.thesis), (pollard_pin.audit, pollard_pin.thesis)]
@@ -53,7 +53,7 @@ def test_the_document_explains_each_cause_once_with_its_lines():
 
 
 def test_the_json_gives_each_cause_with_its_rows():
-    cause = audit_report.document(REPORT)["causes"]["slip"]
+    cause = audit_json.document(REPORT)["causes"]["slip"]
     assert (cause["title"], cause["enters"]) == (SLIP.title, SLIP.enters)
     assert cause["rows"] == ["robot:1:c_1", "robot:1:c_2"]
 

@@ -4,9 +4,9 @@ import pytest
 
 from pollard_pin.thesis import catalogue as pollard
 from scout_pin.thesis import catalogue as scout
-from thesis_pin import audit_report
-from thesis_pin.audit import Report, Row
+from thesis_pin import audit_json, audit_report
 from thesis_pin.audit_command import _NARROW
+from thesis_pin.audit_rows import Report, Row
 from thesis_pin.command_line import print_table
 from thesis_pin.equations import Equation
 from thesis_pin.kinds import KINDS, kinds, of_equation
@@ -26,6 +26,11 @@ from thesis_pin.places import places
             r"\frac{\partial R_2}{\partial \theta} r",
             r"\frac{\partial R_2}{\partial \phi} r",
             ("symbol",),
+        ),
+        (
+            r"\frac{\partial L}{\partial \dot{q}_j}",
+            r"\frac{\partial L}{\partial q_j}",
+            ("dot",),
         ),
         (r"a - b", r"a + b", ("sign",)),
         (r"b + c", r"-b + c", ("sign",)),
@@ -109,7 +114,7 @@ def test_documents_and_json_show_both_tables(report):
     assert "| all | 4 | 1 | 2 | 1 |" in text
     assert f"| dot | 2 | - | {KINDS['dot']} |" in text
     assert "- kind: dot, bracket" in text
-    document = audit_report.document(report)
+    document = audit_json.document(report)
     assert document["chapters"]["2"]["holds"] == 1
     assert document["kinds"]["dot"] == {"is": KINDS["dot"], "misprint": 2, "wrong": 0}
     assert document["rows"][2]["kinds"] == ["dot", "bracket"]
