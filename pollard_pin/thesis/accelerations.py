@@ -17,14 +17,15 @@ Source: Pollard thesis, 2.6 (2.75 – 2.88), 2.9 (2.159 – 2.172), appendix E.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
 from pollard_pin.thesis.loops import frame, opening, side
-from pollard_pin.thesis.rates import ROWS, derivative
-from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, inverse, own_name
+from pollard_pin.thesis.rates import ROWS, moving
+from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, own_name
+from thesis_pin.values import STEP
 
 # 32 points can't tell the 34th Taylor term from the second; at this radius it is below rounding.
 _POINTS, _RADIUS = 32, 0.4
@@ -86,42 +87,13 @@ class Circle:
 def accelerating(state: State) -> State:
     """A closed, moving state whose joints accelerate as its pose does.
 
-    The gap of a loop is the placement of one end in the other's frame, and stays
-    the identity: its second derivative with the joints unaccelerated is undone by
-    the joints' accelerations.
+    One imaginary step of time through the loops' linear equations for the rates.
     """
-    found = {name: state.accelerations[name] for name in POSE}
-    for i, gap, names in _gaps():
-        circle = Circle(replace(state, accelerations=found), i)
-        rest = _twist(circle.derivative(gap(circle.state), 2, axis=0))
-        columns = [_twist(derivative(gap, state, {name: 1.0})) for name in names]
-        solved = np.linalg.solve(np.stack(columns, axis=-1), -rest[..., None])[..., 0]
-        found |= dict(zip(names, solved.T, strict=True))
-    return replace(state, accelerations=found)
-
-
-def _gaps() -> Iterator[tuple[str, _Function, tuple[str, ...]]]:
-    """Each loop's side chain, what closes it, and the joints that see to it, chain 0 first."""
-
-    def serial(s: State) -> np.ndarray:
-        chain = s.transform("T_03") @ s.transform("T_315") @ s.transform("T_1519")
-        return inverse(s.transform("pose")) @ chain
-
-    yield "", serial, CHAIN_0
-    for i in "12":
-
-        def loop(s: State, i: str = i) -> np.ndarray:
-            arm = s.transform("T_02i", i) @ s.transform("T_24i", i) @ s.transform("T_48i", i)
-            goal = s.transform("T_03") @ s.transform("T_311i", i)
-            return inverse(goal) @ arm @ s.transform("ball_i", i)
-
-        yield i, loop, tuple(f"{name}{i}" for name in SIDE)
-
-
-def _twist(change: np.ndarray) -> np.ndarray:
-    """Velocity of a placement that is the identity, from its derivative: ``(n, 6)``."""
-    places = ((0, 3), (1, 3), (2, 3), (2, 1), (0, 2), (1, 0))
-    return np.stack([change[:, row, column] for row, column in places], axis=-1)
+    pose = {name: state.accelerations[name] for name in POSE}
+    later = moving(state.step(state.rates).step(pose, rates=True))
+    joints = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in SIDE))
+    found = {name: np.imag(later.rates[name]) / STEP for name in joints}
+    return replace(state, accelerations={**pose, **found})
 
 
 _FIRST = {

@@ -8,19 +8,13 @@ import pytest
 from pollard_pin.audit import states
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.accelerations import Circle, accelerating, coefficient
+from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
 from pollard_pin.thesis.loops import side
-from pollard_pin.thesis.rates import moving
 from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import POSE
 from thesis_pin.evaluation import evaluate
 
 from .conftest import closed_motion
-from .test_audit import as_state, with_balls
-
-NAMES = (
-    *("theta_21", "theta_43", "theta_54", "theta_1615", "theta_1716", "theta_1817"),
-    *(f"{name}{i}" for i in "12" for name in ("theta_21", "theta_65", "theta_76")),
-)
 
 
 @pytest.fixture(scope="module")
@@ -58,14 +52,10 @@ def test_circles_are_as_exact_for_fast_states(opened):
 
 
 def test_references_on_the_closed_mechanism_give_the_models_accelerations(robot, rng):
-    poses, rate, acceleration, q, _, expected = closed_motion(robot, rng, 20)
-    state = with_balls(as_state(robot.specification, poses, q))
-    given = {
-        "rates": dict(zip(POSE, rate.T, strict=True)),
-        "accelerations": dict(zip(POSE, acceleration.T, strict=True)),
-    }
-    found = accelerating(moving(replace(state, **given))).accelerations
-    actual = np.stack([found[name] for name in NAMES], axis=-1)
+    poses, rate, acceleration, _, _, expected = closed_motion(robot, rng, 20)
+    state = ExplicitModel(robot.specification).mechanics(poses, rate, acceleration).state
+    found = accelerating(state).accelerations
+    actual = np.stack([found[name] for name in ANGLES], axis=-1)
     np.testing.assert_allclose(actual, expected, atol=1e-9 * np.abs(expected).max())
 
 

@@ -25,6 +25,7 @@ from pollard_pin.thesis.rates import joint_rates
 from pollard_pin.thesis.references import References
 from thesis_pin import audit_page, audit_report
 from thesis_pin.audit import residual
+from thesis_pin.equations import Catalogue
 from thesis_pin.values import STEP
 
 from .conftest import random_poses
@@ -63,7 +64,7 @@ def test_every_numbered_equation_and_every_coefficient_has_a_row(report):
 def test_what_is_not_transcribed_would_be_counted():
     some = [e for e in catalogue().equations if not e.id.startswith(("pollard:3", "pollard:E"))]
     text = " ".join(what for what, _ in beyond(Catalogue(some, catalogue().notation)))
-    assert "154 numbered equations: 3.1 … 3.154" in text
+    assert "154 numbered equations: 3.1 … 3.154" in text.replace("\n", " ")
     assert "92 of 92 coefficients G" in text
 
 
@@ -324,7 +325,7 @@ def test_the_document_is_current(report):
 def test_the_page_renders_every_formula_and_stays_small(report):
     page = audit_page.page(report)
     assert page.count("<article") == len(report.rows)
-    assert len(page.encode()) < 3_000_000
+    assert len(page.encode()) < 3_500_000
     assert "http://" not in page
 
 
@@ -348,7 +349,7 @@ def test_the_command_writes_all_rows_as_json(tmp_path, capsys):
     data = json.loads(path.read_bytes())
     assert len(data["rows"]) == len(catalogue().equations)
     assert sum(data["counts"].values()) == len(data["rows"])
-    assert "not yet transcribed" in " ".join(capsys.readouterr().out.split())
+    assert "333 of 333" in " ".join(capsys.readouterr().out.split())
 
 
 def test_an_unknown_equation_is_refused_with_names_that_exist(capsys):

@@ -115,8 +115,8 @@ def test_J_tau_turns_base_torques_into_their_power(thesis):
     pose, v, _ = random_motion(thesis, 5)
     _, rate, _ = thesis.robot.joint_motion(pose, v, None, thesis.branch)
     torque = np.array([1.0, -2.0, 3.0])
-    power = torque @ thesis.J_tau(pose) @ v[..., None]
-    np.testing.assert_allclose(power[..., 0], rate[:, [0, 6, 9]] @ torque, rtol=1e-10)
+    power = np.einsum("i,nij,nj->n", torque, thesis.J_tau(pose), v)
+    np.testing.assert_allclose(power, rate[:, [0, 6, 9]] @ torque, rtol=1e-10)
 
 
 def test_stacks_of_any_shape_and_single_poses_agree(thesis):
