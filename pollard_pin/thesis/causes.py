@@ -39,8 +39,8 @@ CAUSES = {
         "(2.9)",
         "Lengths and angles of chain 0 carry a 1 at their end that belongs to a side chain, as "
         "chapter 4 still lists x_1514 and x_1918 once for chain 1 and once for chain 2. They look "
-        "like remains of a notation that repeated the end of chain 0 for each side chain. No symbol of "
-        "that name is defined where it is used; without the 1 the lines hold.",
+        "like remains of a notation that repeated the end of chain 0 for each side chain. No "
+        "symbol of that name is defined where it is used; without the 1 the lines hold.",
     ),
     "whole-matrices": Cause(
         "loops without ball or wrist joint, as matrices",
