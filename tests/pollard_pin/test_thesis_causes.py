@@ -15,6 +15,7 @@ from thesis_pin.audit import residual
 from thesis_pin.equations import index_values
 from thesis_pin.evaluation import evaluate
 from thesis_pin.kinds import of_equation
+from thesis_pin.values import STEP
 
 OPEN, CLOSED = (References(states(closed=closed)) for closed in (False, True))
 
@@ -44,6 +45,46 @@ def test_with_the_printed_x_and_z_the_tangent_is_that_of_both_angles():
     np.testing.assert_allclose(np.sin(both) * x + np.cos(both) * z, 0, atol=1e-12)
     alone = CLOSED.state.variables["theta_43"]
     assert np.abs(np.sin(alone) * x + np.cos(alone) * z).min() > 1e-4
+
+
+def base_frame(state):
+    """X, Y, Z as (2.20) prints them: the wrist less the elbow, in the base's axes."""
+    wrist = state.transform("T_LD0")[..., :3, 3]
+    theta = state.variables["theta_21"]
+    x = wrist[..., 0] - state.constants["x_32"] * np.cos(theta)
+    z = wrist[..., 2] - state.constants["z_10"] + state.constants["x_32"] * np.sin(theta)
+    return np.stack([x, wrist[..., 1], z])
+
+
+def rate(along):
+    """Rate of (2.20)'s X, Y, Z as printed."""
+    return np.imag(base_frame(OPEN.state.step(along))) / STEP
+
+
+def test_the_rates_of_253_are_those_of_the_printed_x_and_z_but_for_a_lost_dot():
+    for k, name in ((0, "X"), (2, "Z")):
+        printed = catalogue()[f"pollard:2.5.2:dot_{name}"].printed[0]
+        dotted = printed.replace(r"\theta_{21}x_{32}", r"\dot{\theta}_{21}x_{32}")
+        assert dotted != printed
+        found = value(dotted, OPEN)
+        np.testing.assert_allclose(found, rate(dict(OPEN.state.rates))[k], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("first", "along"),
+    [(8, ("x", "z", "y", "psi", "theta", "phi")), (16, ("x", "y", "z", "psi", "theta", "phi"))],
+)
+def test_the_accelerations_G_are_made_from_the_printed_x_and_z(first, along):
+    """G_8 … G_13 and G_16 … G_21; of (2.80)'s pair G_9, G_10 the print has the places swapped."""
+    pitch, yaw = (OPEN.state.variables[name] for name in ("theta_43", "theta_54"))
+    x, y = (value(name, OPEN) for name in "XY")
+    for k, name in enumerate(along):
+        dx, dy, dz = rate({name: 1.0})
+        expected = -dz * np.cos(pitch) - dx * np.sin(pitch)
+        if first == 16:
+            expected = x * (dy * x - dx * y) * np.cos(yaw) ** 2 * np.cos(pitch)
+        printed = value(catalogue()[f"pollard:E:G_{first + k}"].printed[0], OPEN)
+        np.testing.assert_allclose(printed + 0 * expected, expected, atol=1e-12)
 
 
 @pytest.mark.parametrize("i", ["1", "2"])

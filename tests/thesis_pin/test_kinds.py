@@ -4,7 +4,7 @@ import pytest
 
 from pollard_pin.thesis import catalogue as pollard
 from scout_pin.thesis import catalogue as scout
-from thesis_pin import audit_json, audit_report
+from thesis_pin import audit_json, audit_page, audit_report
 from thesis_pin.audit_command import _NARROW
 from thesis_pin.audit_rows import Report, Row
 from thesis_pin.command_line import print_table
@@ -118,6 +118,13 @@ def test_documents_and_json_show_both_tables(report):
     assert document["chapters"]["2"]["holds"] == 1
     assert document["kinds"]["dot"] == {"is": KINDS["dot"], "misprint": 2, "wrong": 0}
     assert document["rows"][2]["kinds"] == ["dot", "bracket"]
+
+
+def test_the_page_shows_both_tables(report):
+    page = audit_page.page(report)
+    for text in ("Verdicts by chapter", "Mended lines by kind of slip", KINDS["dot"]):
+        assert text in page
+    assert "<td>D</td><td>2</td><td>-</td><td>1</td><td>1</td>" in page
 
 
 def test_all_verdicts_fit_eighty_columns(monkeypatch, capsys):
