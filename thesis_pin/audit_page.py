@@ -31,9 +31,8 @@ def page(report: Report) -> str:
     from markupsafe import Markup
 
     order = {row.id: k for k, row in enumerate(report.failures)}
-    causes = list(used_causes(report))
     titles = {name: cause.title for name, cause in report.causes.items()}
-    rows = [
+    articles = [
         _Article.of(row, titles.get(row.cause, ""), Markup)
         for row in sorted(report.rows, key=lambda row: order.get(row.id, len(order)))
     ]
@@ -43,10 +42,8 @@ def page(report: Report) -> str:
         report=report,
         summary=list(summary_lines(report)),
         tables=list(_tables(report)),
-        causes=[
-            (cause, sum(row.cause == name for row in report.failures)) for name, cause in causes
-        ],
-        rows=rows,
+        causes=[(cause, len(rows)) for cause, rows in used_causes(report)],
+        rows=articles,
         coverage=Table("Section by section", ("section", "lines", "computed"), sections),
         report_style=web_file("report.css"),
         audit_style=web_file("audit.css"),

@@ -197,8 +197,8 @@ def markdown(report: Report, command: str) -> str:
     lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
     lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
     lines += ["", "## Root causes", "", "Slips that several lines share, and where they enter.", ""]
-    for name, cause in used_causes(report):
-        lines += _markdown_cause(cause, [row for row in report.failures if row.cause == name])
+    for cause, rows_of_cause in used_causes(report):
+        lines += _markdown_cause(cause, rows_of_cause)
     lines += ["## Failures", ""]
     for row in report.failures:
         lines += _markdown_row(row)
@@ -214,10 +214,13 @@ def _markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> I
     yield from ("| " + " | ".join(_cell(cell) for cell in row) + " |" for row in listed)
 
 
-def used_causes(report: Report) -> Iterator[tuple[str, Cause]]:
-    """Slips that failing rows of a report share, in the order of its causes."""
-    used = {row.cause for row in report.failures}
-    return ((name, cause) for name, cause in report.causes.items() if name in used)
+def used_causes(report: Report) -> list[tuple[Cause, list[Row]]]:
+    """Slips that failing rows of a report share, with the rows; the most lines first."""
+    found = [
+        (cause, [row for row in report.failures if row.cause == name])
+        for name, cause in report.causes.items()
+    ]
+    return sorted((pair for pair in found if pair[1]), key=lambda pair: -len(pair[1]))
 
 
 def _markdown_cause(cause: Cause, rows: Sequence[Row]) -> Iterator[str]:

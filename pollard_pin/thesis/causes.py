@@ -38,9 +38,9 @@ CAUSES = {
         "a side chain's index left on chain 0",
         "(2.9)",
         "Lengths and angles of chain 0 carry a 1 at their end that belongs to a side chain, as "
-        "chapter 4 still lists x_1514 and x_1918 once for chain 1 and once for chain 2. These are "
-        "remains of a notation that repeated the end of chain 0 for each side chain. No symbol of "
-        "that name is defined where it is used; without the 1 the lines hold.",
+        "chapter 4 still lists x_1514 and x_1918 once for chain 1 and once for chain 2. They look "
+        "like remains of a notation that repeated the end of chain 0 for each side chain. No "
+        "symbol of that name is defined where it is used; without the 1 the lines hold.",
     ),
     "whole-matrices": Cause(
         "loops without ball or wrist joint, as matrices",
@@ -62,7 +62,7 @@ CAUSES = {
         "(2.60)",
         "(2.58) numbers the denominator V_15 and the seven coefficients after it V_16 to V_22, but "
         "(2.60) puts θ̇21 and θ̇43 into an expression where the count starts one lower and the "
-        "term of θ̇21 is subtracted: it was made with an earlier draft of (2.58). As printed, "
+        "term of θ̇21 is subtracted, as in an earlier draft of (2.58). As printed, "
         "what multiplies ẋ contains the denominator itself, and what multiplies ẏ the "
         "coefficient of ẋ.",
     ),

@@ -59,7 +59,9 @@ def _path(catalogue: Catalogue, equation: Equation, closed: References) -> Claim
         f"{upright:.2f} with one orientation all along, which any shift by {fits.min():.2f} to "
         f"{fits.max():.2f} m allows"
     )
-    return ClaimResult(max(0.0, -float(margins.min())), max(0.0, -float(upright)), note)
+    effect: dict[str, float | str] = {"the path": "can't be followed"}
+    short, mended = (max(0.0, -float(margin)) for margin in (margins.min(), upright))
+    return ClaimResult(short, mended, note, effect)
 
 
 CHECKS: Mapping[str, Check] = {"path": _path}

@@ -15,7 +15,8 @@ from dataclasses import replace
 import numpy as np
 
 from pollard_pin.model import Pollard, load
-from pollard_pin.specification import SKEWED_PATH, Specification
+from pollard_pin.path import appendix_b
+from pollard_pin.specification import LINK_NAMES, SKEWED_PATH, Specification
 from pollard_pin.thesis.references import References
 from thesis_pin.audit import ClaimResult
 from thesis_pin.equations import Catalogue, Equation, index_values
@@ -152,6 +153,7 @@ def _numbers(catalogue: Catalogue, equation: Equation, closed: References) -> Cl
     return ClaimResult(float(np.abs(printed - used).max()), note="the numbers in use")
 
 
+_SAMPLES = 101  # of the default path
 WRIST = ("wrist_roll_link", "wrist_yaw_link", "tool")
 """Bodies whose ends the thesis doesn't give."""
 
@@ -208,7 +210,34 @@ def _inertia(catalogue: Catalogue, equation: Equation, closed: References) -> Cl
     if not equation.right:
         return ClaimResult(printed, note=note)
     right = value_of(catalogue, equation.right[1], given) * 1e-6
-    return ClaimResult(printed, impossibility(right, mass, length), note)
+    bodies = [link] if link == name else [f"chain{k}_{name}" for k in (1, 2)]
+    effect: dict[str, float | str] = {
+        "path torque [N·m]": torque_change(specification, bodies),
+    }
+    return ClaimResult(printed, impossibility(right, mass, length), note, effect)
+
+
+def torque_change(specification: Specification, bodies: list[str]) -> float:
+    """Largest change of a motor's torque on the default path [N·m] by following the print.
+
+    Args:
+        specification: The robot.
+        bodies: Those whose printed matrix is then used about the centre of gravity.
+    """
+    data = specification.model_dump()
+    kept = [x for x in data["assumptions"]["replaced_inertias"] if x["link"] not in bodies]
+    data["assumptions"]["replaced_inertias"] = kept
+    chains = ("chain_0", "chain_1", "chain_2")
+    links = [link for chain in chains for link in data[chain]["links"]]
+    for name, link in zip(LINK_NAMES, links, strict=True):
+        if name in bodies:
+            link["inertia_convention"] = "tensor_about_com"
+    motion = appendix_b(specification).sample(_SAMPLES)
+    torques = []
+    for robot in (load(specification), load(Specification.model_validate(data))):
+        q, v, a = robot.joint_motion(motion.pose, motion.rate, motion.acceleration)
+        torques.append(robot.inverse_dynamics(q, v, a).torque)
+    return float(np.abs(torques[1] - torques[0]).max())
 
 
 def _twin(specification: Specification, link: str) -> str:

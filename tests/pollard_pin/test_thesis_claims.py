@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from pollard_pin.audit import audit
+from pollard_pin.model import load
 from pollard_pin.path import appendix_b
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.claims_path import best_margins, path_points
@@ -116,6 +117,21 @@ def test_each_links_tensor_says_about_which_point_it_can_be_meant(rows, identity
     reason = rows[f"pollard:4.4:{identity}"].reason
     assert about in reason
     assert " or " not in reason
+
+
+def test_following_an_impossible_inertia_changes_the_torques_of_the_default_path(rows):
+    """Between both readings of all inertias lies at least what one of them makes."""
+    motion = appendix_b(pollard.specification).sample(101)
+    torques = []
+    for robot in (pollard, load(inertia="printed")):
+        q, v, a = robot.joint_motion(motion.pose, motion.rate, motion.acceleration)
+        torques.append(robot.inverse_dynamics(q, v, a).torque)
+    both = np.abs(torques[1] - torques[0]).max()
+    effects = [rows[f"pollard:4.4:{name}"].effect["path torque [N·m]"] for name in ("J_2", "J_2i")]
+    assert both <= sum(effects) + 1e-12
+    assert both >= max(effects) - min(effects) - 1e-12
+    assert 0.05 < effects[0] < 0.5
+    assert rows["pollard:4.4:J_1"].effect == {}
 
 
 def test_no_decimal_saves_the_forearms_product():

@@ -6,7 +6,7 @@ import pollard_pin.audit
 import pollard_pin.thesis
 import scout_pin.audit
 import scout_pin.thesis
-from thesis_pin import audit_json, audit_report
+from thesis_pin import audit_json, audit_page, audit_report
 from thesis_pin.audit_rows import Report, Row
 from thesis_pin.causes import Cause
 
@@ -67,3 +67,14 @@ def test_one_equation_is_explained_with_its_cause():
 def test_the_table_of_failures_keeps_to_titles():
     shown = audit_report.failure_rows(REPORT)
     assert [row[:2] for row in shown] == [("a slip", "2"), ("1:d", "1")]
+
+
+def test_the_cause_of_most_lines_comes_first_and_the_page_finds_its_lines():
+    many = Report("T", (*REPORT.rows, failing("e", "unused")), (), "", REPORT.causes)
+    assert [len(rows) for _, rows in audit_report.used_causes(many)] == [2, 1]
+    page = audit_page.page(many)
+    for title, count in (("a slip", 2), ("another", 1)):
+        assert f'data-find="{title}">{count} line' in page
+        assert page.count('data-text="robot:1:') == 4
+    assert page.index("a slip") < page.index("another")
+    assert SLIP.explanation in page
