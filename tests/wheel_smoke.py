@@ -36,6 +36,7 @@ assert report["summary"]["can_walk"] is False
 assert output("scout-pin", "urdf") == Path(scout_pin.URDF_PATH).read_text()
 assert "scout" in output("scout-pin", "info")
 assert "misprint" in output("scout-pin", "audit", "--equation", "scout:4.4.2:dr_0i/dq_j")
+assert "wrong" in output("pollard-pin", "audit", "--equation", "pollard:3.2.5:k_8")
 motors = json.loads(output("pollard-pin", "trajectory", "--json", "-"))["actuators"]
 assert len(motors) == 6
 assert output("pollard-pin", "urdf") == Path(pollard_pin.URDF_PATH).read_text()
