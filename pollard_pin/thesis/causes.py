@@ -11,14 +11,14 @@ from thesis_pin.causes import Cause
 
 CAUSES = {
     "axis-index": Cause(
-        "2.1: θ with an axis for its index, left only",
+        "2.1: θ_x, θ_y, θ_z for θ",
         "2.1",
         "The three rotations are introduced as functions of θ_x, θ_y, θ_z, and their matrices are "
         "those of θ. The index only says about which axis one turns; the rest of the thesis puts "
         "its angles in without it.",
     ),
     "base-frame": Cause(
-        "(2.20): X, Z in the base frame, used in frame 3",
+        "(2.20): X, Z in the base frame",
         "(2.12), kept by (2.20); for the side chains (2.138)",
         "Equation (2.3) turns the wrist's place into frame 3, which swings with the arm's θ21, and "
         "(2.18) needs it there: θ43 is counted from the arm. (2.12) prints the plain differences "
@@ -35,7 +35,7 @@ CAUSES = {
         "of a branch, give the angle.",
     ),
     "stray-index": Cause(
-        "a side chain's index left on chain 0",
+        "a side chain's 1 on chain 0",
         "(2.9)",
         "Lengths and angles of chain 0 carry a 1 at their end that belongs to a side chain, as "
         "chapter 4 still lists x_1514 and x_1918 once for chain 1 and once for chain 2. They look "
@@ -43,7 +43,7 @@ CAUSES = {
         "symbol of that name is defined where it is used; without the 1 the lines hold.",
     ),
     "whole-matrices": Cause(
-        "loops without ball or wrist joint, as matrices",
+        "open loops equated as matrices",
         "(2.2) and (2.89)",
         "The loop is cut at the wrist, or at the ball joint of a side chain, whose turns appear on "
         "neither side. Cut there, both sides end in the same point but not in the same "
@@ -67,7 +67,7 @@ CAUSES = {
         "coefficient of ẋ.",
     ),
     "lost-arguments": Cause(
-        "2.8: c and s of a sum without its bracket",
+        "2.8: c, s without their bracket",
         "(2.133)",
         "When cos(a − b) was shortened to c, its bracket went as well, so that c β1413i − θ54 "
         "stands for c(β1413i − θ54): an angle is subtracted from a cosine. In (2.133) the terms of "
@@ -81,7 +81,7 @@ CAUSES = {
         "the same rates have their dots in the lines above and below.",
     ),
     "scanned-brackets": Cause(
-        "brackets lost or added in long lines",
+        "brackets lost in long lines",
         "each line by itself",
         "Opening and closing brackets don't balance, or close one factor too early, in lines of "
         "a dozen products and more. With the brackets put back they are exact (one has a wrong "
@@ -89,7 +89,7 @@ CAUSES = {
         "or a sum where a product is meant.",
     ),
     "ball-frame": Cause(
-        "A: base 11i turned the wrong way",
+        "A: base 11i turned backwards",
         "R_11i after (A.4)",
         "(2.89) goes from the forearm to a ball joint by turning −β1413i; appendix A writes the "
         "same bases with +β1413i. It also gives the last vector its components in base 5 (the "
@@ -106,14 +106,14 @@ CAUSES = {
         "isn't touched by it.",
     ),
     "one-letter": Cause(
-        "A: columns I, J, K, L mistaken for each other",
+        "A: columns I, J, K, L mixed up",
         "the line before (A.6)",
         "The six columns of the side chain's loop are called r_G to r_L. Capital I and small l "
         "look alike, so the column of θ76i carries the name of that of θ54, and the definitions "
         "have small letters that nothing else uses. Named in order, the lines are exact.",
     ),
     "scanned-letters": Cause(
-        "letters and dots misread in long lines",
+        "letters misread in long lines",
         "each line by itself",
         "In the longest lines some letters carry a dot too many or too few, an index is another, "
         "or a sine stands for a cosine, with no pattern from line to line. The same terms are "

@@ -14,7 +14,7 @@ CAUSES = {
         "push the whole robot about from inside, and A_τ has entries where there should be none.",
     ),
     "constraints": Cause(
-        "Φ fixes directions, not the feet",
+        "Φ fixes directions, not feet",
         "(4.15)",
         "The vectors in (4.15) are directions of the foot and have no place in them, so the "
         "constraints hold a foot's orientation but let it slide and fly. The columns of the "
@@ -29,21 +29,21 @@ CAUSES = {
         "column after it belongs to another joint: the right leg's are read as the left one's.",
     ),
     "dots": Cause(
-        "dots lost, added or merged lines",
+        "dots lost, lines merged",
         "4.3, each line by itself",
         "The derivative of a product puts one dot on one factor of each term. In these lines a dot "
         "is missing, or stands on both factors or on the wrong line; the other lines of the same "
         "family, which differ only in their numbers, have it right.",
     ),
     "dotted-capitals": Cause(
-        "dotted capitals read as small ones",
+        "dotted capitals read as small",
         "4.3.1",
         "The rates of the matrices J, I and the like stand in the text as the small letters j, i, "
         "which are axes. The line before names what is differentiated, so only the capital with "
         "its dot makes sense there, and with it the line is exact.",
     ),
     "old-frames": Cause(
-        "4.3, 4.4: an older set of frames",
+        "4.3, 4.4: older frames",
         "4.3.2, the rate of R_1i",
         "4.3 differentiates rotations that chapter 3 doesn't have: angles β count from zero and an "
         "extra R_y(β_1i) stands in the first one, as in the program of appendix D. Chapter 3's "
@@ -58,7 +58,7 @@ CAUSES = {
         "picks the jth equation.",
     ),
     "shifted-columns": Cause(
-        "∂W: one column too many, shifted",
+        "∂W: one column too many",
         "4.4.1",
         "The torso's first axis is fixed, so its derivative is the zero vector and its column a "
         "0. These rows write that 0 and the derivative of the axis as well, so the other two axes "

@@ -7,6 +7,7 @@ import pollard_pin.thesis
 import scout_pin.audit
 import scout_pin.thesis
 from thesis_pin import audit_json, audit_page, audit_report
+from thesis_pin.audit_command import _TITLE
 from thesis_pin.audit_rows import Report, Row
 from thesis_pin.causes import Cause
 
@@ -41,7 +42,7 @@ def test_an_explanation_has_two_to_four_sentences_and_a_place(audit, _):
         assert 2 <= cause.explanation.count(". ") + 1 <= 4, name
         assert cause.explanation.endswith("."), name
         assert any(character.isdigit() for character in cause.enters) or "each line" in cause.enters
-        assert len(cause.title) <= 50, name
+        assert len(cause.title) <= _TITLE, name
 
 
 def test_the_document_explains_each_cause_once_with_its_lines():
