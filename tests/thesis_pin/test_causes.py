@@ -71,7 +71,8 @@ def test_the_table_of_failures_keeps_to_titles():
 
 
 def test_the_cause_of_most_lines_comes_first_and_the_page_finds_its_lines():
-    many = Report("T", (*REPORT.rows, failing("e", "unused")), (), "", REPORT.causes)
+    listed = {"unused": REPORT.causes["unused"], "slip": SLIP}
+    many = Report("T", (failing("e", "unused"), *REPORT.rows), (), "", listed)
     assert [len(rows) for _, rows in audit_report.used_causes(many)] == [2, 1]
     page = audit_page.page(many)
     for title, count in (("a slip", 2), ("another", 1)):
