@@ -85,23 +85,6 @@ def test_limits_reach_the_model(pollard):
     assert pollard.model.nq == pollard.model.nv == 12
 
 
-@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # zmq's own
-def test_single_configurations_go_to_pinocchios_meshcat_viewer():
-    """As docs/viewer.md says."""
-    from pinocchio.visualize import MeshcatVisualizer
-
-    robot = pollard_pin.load()
-    robot.wrapper.setVisualizer(MeshcatVisualizer())
-    robot.wrapper.initViewer(open=False)
-    try:
-        robot.wrapper.loadViewerModel()
-        robot.wrapper.display(robot.inverse_kinematics([0.45, 0, 0, 0, 0, 0]).angles)
-        shown = robot.wrapper.viewer.static_html()
-    finally:
-        robot.wrapper.viewer.window.server_proc.kill()
-    assert len(shown) > 100_000
-
-
 def test_robot_is_a_robot_wrapper_in_all_but_name(pollard):
     wrapper = pollard.wrapper
     assert isinstance(wrapper, pin.RobotWrapper)
