@@ -195,6 +195,7 @@ def check_document(robot: ClosedRobot) -> dict[str, Any]:
             "by_rank": found.freedom,
             "equations": found.equations,
             "independent": found.independent,
+            "held_by_motors": found.held,
             "configuration": closed,
         }
     return {
@@ -228,5 +229,18 @@ def print_check(document: dict[str, Any]) -> None:
     print_text(
         f"Degrees of freedom: {freedom['by_rank']} by rank "
         f"({freedom['independent']} of {freedom['equations']} loop equations are independent), "
-        f"{freedom['counted']} by counting."
+        f"{freedom['counted']} by counting.",
+        _held(len(document["motors"]), freedom["held_by_motors"], freedom["by_rank"]),
     )
+
+
+def _held(motors: int, held: int, freedom: int) -> str:
+    """What the motors hold, in words."""
+    if held < freedom:
+        return (
+            f"The motors hold {held} of them: with all motors still, "
+            f"{freedom - held} can move by itself."
+        )
+    if motors > freedom:
+        return f"The motors hold all of them, {motors - freedom} more than needed."
+    return "The motors hold all of them."
