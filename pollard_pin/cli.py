@@ -119,6 +119,9 @@ def _add_trajectory(verbs: Any) -> None:
     verb.add_argument(
         "--html", metavar="FILE", help="write the report as a page to mail: animation and plots"
     )
+    verb.add_argument(
+        "--strict", action="store_true", help="exit with 1 if a motor exceeds its limits"
+    )
     verb.set_defaults(run=_later("trajectory"))
 
 

@@ -7,6 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from thesis_pin.command_line import (
+    LIMIT_VIOLATED,
     OK,
     print_table,
     print_text,
@@ -83,7 +84,7 @@ def trajectory(arguments: argparse.Namespace) -> int:
         from pollard_pin.tables import print_report
 
         print_report(report)
-    return OK
+    return OK if report.motor_use.within or not arguments.strict else LIMIT_VIOLATED
 
 
 def view(arguments: argparse.Namespace) -> int:
