@@ -25,7 +25,8 @@ from scout_pin.load_sharing import share_load
 from scout_pin.model import Scout
 from scout_pin.rates import leg_rates
 from scout_pin.specification import SIDES
-from thesis_pin.errors import TrajectoryError
+from thesis_pin.checks import instance
+from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.trajectory import BodyMotion, JointTrajectory
 
@@ -103,6 +104,8 @@ def joint_trajectory(robot: Scout, motion: Motion) -> JointTrajectory:
         Unreachable: Some pose has no valid branch.
         SingularPose: A leg's Jacobian loses rank on the way.
     """
+    instance("robot", robot, Scout, "scout_pin.load()")
+    instance("motion", motion, Motion, "Gait.sample()")
     feet = {"left": motion.left_foot, "right": motion.right_foot}
     q = robot.inverse_kinematics(
         motion.torso.placement, motion.left_foot.placement, motion.right_foot.placement
@@ -113,6 +116,22 @@ def joint_trajectory(robot: Scout, motion: Motion) -> JointTrajectory:
     ]
     v, a = (np.concatenate([part[order] for part in parts], axis=1) for order in (0, 1))
     return JointTrajectory(motion.time, q, v, a)
+
+
+def walking(robot: Scout) -> Scout:
+    """The biped, if its root is a free flyer.
+
+    Raises:
+        BadInput: It is no :class:`Scout`, or has the thesis's eighteen coordinates.
+    """
+    instance("robot", robot, Scout, "scout_pin.load()")
+    if robot.root != "free_flyer":
+        raise BadInput(
+            f"the robot's root is {robot.root!r}",
+            allowed="'free_flyer'",
+            remedy="Load it with scout_pin.load(), and convert with to_free_flyer()",
+        )
+    return robot
 
 
 def free_flyer_state(
@@ -158,10 +177,17 @@ def inverse_dynamics(
         joints: Its joint trajectory; None computes it.
 
     Raises:
+        BadInput: The robot's root is no free flyer, or the joints aren't this motion's.
         TrajectoryError: At some sample no foot is in support.
         Unreachable, SingularPose: See :func:`joint_trajectory`.
     """
-    joints = joint_trajectory(robot, motion) if joints is None else joints
+    walking(robot)
+    if joints is None:
+        joints = joint_trajectory(robot, motion)
+    instance("motion", motion, Motion, "Gait.sample()")
+    instance("joints", joints, JointTrajectory, "joint_trajectory()")
+    if np.shape(joints.q) != (len(motion.time), 12):
+        raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
     if not motion.support.any(axis=1).all():
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")

@@ -24,7 +24,8 @@ import numpy as np
 
 from scout_pin.forward import leg_forward_kinematics
 from scout_pin.geometry import LegGeometry
-from thesis_pin.arrays import finite_array, pose_array, wrap
+from thesis_pin.arrays import finite_array, pose_array, spread, wrap
+from thesis_pin.checks import element
 from thesis_pin.errors import Unreachable
 from thesis_pin.tolerances import TOLERANCES
 
@@ -122,8 +123,12 @@ class LegSolutions:
         Args:
             index: Which pose of the stack.
             branch: Number of a branch in :data:`BRANCHES`; None speaks of the pose.
+
+        Raises:
+            BadInput: There is no such pose or branch.
         """
-        index = (index,) if isinstance(index, int) else index
+        index = element(index, self.target.shape[:-2], "poses")
+        branch = None if branch is None else element(branch, (8,), "branches")[0]
         if branch is not None:
             text = f"branch {BRANCHES[branch]} is {self._explain_branch(index, branch)}"
         elif (valid := self.valid[index]).any():
@@ -188,7 +193,7 @@ def leg_inverse_kinematics(
         axis = np.broadcast_to(axis, (3, count))
     else:
         given = finite_array("reference", reference, 6)
-        gamma = np.broadcast_to(given + leg.beta, (*stack, 6)).reshape(count, 6)
+        gamma = spread("reference", given + leg.beta, stack).reshape(count, 6)
         yaw, sine = gamma[:, 0], np.sin(gamma[:, 1])
         axis = np.stack([np.cos(yaw) * sine, np.sin(yaw) * sine, np.cos(gamma[:, 1])])
     angles = np.empty((count, 8, 6))

@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
 
 from thesis_pin.arrays import finite_array
-from thesis_pin.errors import TrajectoryError, UnknownName
+from thesis_pin.checks import choice
+from thesis_pin.errors import TrajectoryError
 
 
 def quadratic(t: ArrayLike, value: ArrayLike) -> PPoly:
@@ -88,8 +89,7 @@ def interpolate(t: ArrayLike, value: ArrayLike, method: str = "quadratic") -> PP
         TrajectoryError: Too few nodes, unequal lengths or t not increasing.
         NotFinite: A node or value is NaN or infinite.
     """
-    if method not in METHODS:
-        raise UnknownName("interpolation", method, list(METHODS))
+    choice("interpolation", method, list(METHODS))
     nodes, values = finite_array("t", t, None), finite_array("value", value, None)
     if nodes.ndim != 1 or values.shape != nodes.shape or nodes.size < 2:
         raise TrajectoryError(
