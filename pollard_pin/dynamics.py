@@ -17,10 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio as pin
 
-from pollard_pin.posture import Posture, Vector, cross, dot
+from pollard_pin.posture import Posture
 from pollard_pin.specification import ACTUATORS
 from thesis_pin.errors import BadInput, SingularPose
 from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.vectors import Vector, cross, dot
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from thesis_pin.evaluation import Environment, evaluate
 from thesis_pin.formula import FormulaError
 from thesis_pin.values import Value
 
+_FEW_PLACES = 3
 _FLOOR = 1e-3  # what counts as zero is zero against this
 
 
@@ -194,10 +195,10 @@ def _places(catalogue: Catalogue, equation: Equation) -> Iterator[str]:
             continue
         before = equation.printed[number - 1]
         where = f"member {number}, " if len(equation.printed) > 1 else ""
-        if equation.right:
-            yield f"{where or 'the whole '}statement: {text}"
-        elif not text:
+        found = [where + place for place in catalogue.places(before, text)] if text else []
+        if not text:
             yield f"{where}should not be there"
+        elif equation.right and len(found) > _FEW_PLACES:  # another statement, not an edit
+            yield f"{where or 'the whole '}statement: {text}"
         else:
-            for place in catalogue.places(before, text):
-                yield where + place
+            yield from found
