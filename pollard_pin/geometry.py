@@ -10,6 +10,7 @@ import numpy as np
 
 from pollard_pin.specification import Specification
 from pollard_pin.urdf import anchors
+from thesis_pin.branches import label
 from thesis_pin.checks import choice, shown
 from thesis_pin.errors import BadInput
 from thesis_pin.rotations import euler_rate_matrix, rotation
@@ -40,7 +41,7 @@ class Branch(NamedTuple):
     f2: int
 
     def __str__(self) -> str:
-        return "".join("+" if sign > 0 else "-" for sign in self)
+        return label(self)
 
     @classmethod
     def parse(cls, text: str) -> Branch:

@@ -256,7 +256,7 @@ class TrajectoryReport:
             "motor_limits": self.motor_use.document(),
             "margin": {"least": float(self.solutions.margin[least]), "time": float(time[least])},
             "residual": {
-                "tool": float(self.solutions.tool_residual.max()),
+                "tool": float(self.solutions.position_residual.max()),
                 "loops": float(self.solutions.loop_residual.max()),
             },
             "other_inertia": {"reading": reading, "peak_torque": other},

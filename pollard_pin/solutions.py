@@ -67,7 +67,7 @@ class Solutions:
         return Posture.of(self.geometry, self.angles)
 
     @property
-    def tool_residual(self) -> np.ndarray:
+    def position_residual(self) -> np.ndarray:
         """Distance of the spray tip from the pose asked for [m], shape ``(...)``."""
         return np.linalg.norm(self.posture.tip - self.pose[..., :3], axis=-1)
 
@@ -168,7 +168,7 @@ class Solutions:
             Unreachable: No branch reaches the pose within the limits.
             SingularPose: Every branch that does is singular.
         """
-        if self.reachable.ndim > 1 or (self.reachable.ndim and len(self.branches) == 1):
+        if self.pose.size != 6:
             raise WrongShape("pose", self.pose.shape, "(6,), one pose")
         valid = np.atleast_1d(self.valid)
         if not valid.any():
