@@ -194,10 +194,14 @@ def _places(catalogue: Catalogue, equation: Equation) -> Iterator[str]:
             continue
         before = equation.printed[number - 1]
         where = f"member {number}, " if len(equation.printed) > 1 else ""
-        if equation.right:
+        found = catalogue.places(before, text) if text else ["should not be there"]
+        if equation.right and not _local(found, text):
             yield f"{where or 'the whole '}statement: {text}"
-        elif not text:
-            yield f"{where}should not be there"
         else:
-            for place in catalogue.places(before, text):
-                yield where + place
+            yield from (where + place for place in found)
+
+
+def _local(found: Sequence[str], text: str) -> bool:
+    """Whether a statement differs in so little that saying where is shorter than it."""
+    named = len(found) <= 2 and all(place.startswith("symbol") for place in found)
+    return named and "\\text" not in text and sum(map(len, found)) < len(text)

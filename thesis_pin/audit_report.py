@@ -28,9 +28,9 @@ def effect_text(row: Row) -> str:
             parts.append(f"{name}: {value}")
         else:
             quantity, _, unit = name.rstrip("]").partition(" [")
-            amount = f"{value:.2g}" if value >= HOLDS else "none"
-            parts.append(f"{quantity} {amount}{f' {unit}' if unit not in ('-', '') else ''}")
-    return ", ".join(parts)
+            amount = f"{value:.2g} {unit.replace('-', '')}" if value >= HOLDS else "none"
+            parts.append(f"{quantity} {amount}".rstrip())
+    return "; ".join(parts)
 
 
 def grouped(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
