@@ -22,7 +22,6 @@ from thesis_pin.evaluation import Environment, evaluate
 from thesis_pin.formula import FormulaError
 from thesis_pin.values import Value
 
-_FEW_PLACES = 3
 _FLOOR = 1e-3  # what counts as zero is zero against this
 
 
@@ -195,10 +194,14 @@ def _places(catalogue: Catalogue, equation: Equation) -> Iterator[str]:
             continue
         before = equation.printed[number - 1]
         where = f"member {number}, " if len(equation.printed) > 1 else ""
-        found = [where + place for place in catalogue.places(before, text)] if text else []
-        if not text:
-            yield f"{where}should not be there"
-        elif equation.right and len(found) > _FEW_PLACES:  # another statement, not an edit
+        found = catalogue.places(before, text) if text else ["should not be there"]
+        if equation.right and not _local(found, text):
             yield f"{where or 'the whole '}statement: {text}"
         else:
-            yield from found
+            yield from (where + place for place in found)
+
+
+def _local(found: Sequence[str], text: str) -> bool:
+    """Whether a statement differs in so little that saying where is shorter than it."""
+    named = len(found) <= 2 and all(place.startswith("symbol") for place in found)
+    return named and "\\text" not in text and sum(map(len, found)) < len(text)

@@ -98,11 +98,15 @@ def run_verb(
 
 
 def _without_verdict(report: Report) -> Iterator[tuple[str, str]]:
-    """Section and number of lines that share a reason, and the reason."""
+    """Section and names of lines that share a reason, and the reason."""
+    from thesis_pin.audit_report import ranges
+
     for section in report.sections:
         for reason in dict.fromkeys(reason for _, reason in section.gaps):
-            count = sum(one == reason for _, one in section.gaps)
-            yield f"  {section.name}, {count}:", reason
+            names = [name.split(":", 2)[2] for name, one in section.gaps if one == reason]
+            count = f"{len(names)} line{'s' if len(names) > 1 else ''}"
+            ways = (ranges(names), f"{names[0]} and {len(names) - 1} more", count)
+            yield f"  {section.name}: {next(way for way in ways if len(way) < 20)}", reason
 
 
 def known(identity: str, catalogue: Catalogue, robot: str) -> str:

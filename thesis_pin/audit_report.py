@@ -28,8 +28,8 @@ def effect_text(row: Row) -> str:
             parts.append(f"{name}: {value}")
         else:
             quantity, _, unit = name.rstrip("]").partition(" [")
-            amount = f"{value:.2g}{f' {unit}' if unit not in ('-', '') else ''}"
-            parts.append(f"{quantity} {amount if value >= HOLDS else 'unchanged'}")
+            amount = f"{value:.2g} {unit.replace('-', '')}" if value >= HOLDS else "none"
+            parts.append(f"{quantity} {amount}".rstrip())
     return "; ".join(parts)
 
 

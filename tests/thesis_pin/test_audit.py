@@ -64,8 +64,16 @@ def test_a_right_formula_holds_and_a_wrong_one_does_not():
 def test_a_correction_decides_between_misprint_and_wrong_and_says_where():
     misprint = row(printed="a a", corrected="a b", **MENDED)
     assert (misprint.verdict, misprint.places) == ("misprint", ("symbol 2: a should be b",))
-    assert row(printed="a a", right="a b", **MENDED).verdict == "wrong"
+    wrong = row(printed="a a", right="a b", **MENDED)
+    assert (wrong.verdict, wrong.places) == ("wrong", ("the whole statement: a b",))
     assert row(printed="a a", corrected="b b", **MENDED).verdict == "unexplained"
+
+
+def test_another_statement_that_lacks_a_term_names_it():
+    right = r"a \frac{\mathbf{r}^T \mathbf{r} b}{\mathbf{r}^T \mathbf{r}} + a - a"
+    lacking = row(printed=right.replace(" b", ""), right=right, **MENDED)
+    assert lacking.verdict == "wrong"
+    assert lacking.places == ("symbol 6: b is missing after r",)
 
 
 def test_every_member_of_a_chain_counts():
