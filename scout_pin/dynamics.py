@@ -24,7 +24,7 @@ from scout_pin.model import Scout
 from scout_pin.rates import leg_rates
 from scout_pin.screws import LegScrews
 from scout_pin.specification import SIDES
-from thesis_pin.checks import instance
+from thesis_pin.checks import element, instance
 from thesis_pin.elementwise import blocks
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.rotations import quaternions
@@ -95,6 +95,7 @@ class ContactDynamics:
         In single support about the stance foot's origin, in its axes; in double
         support only the size is known, and the wrench is NaN.
         """
+        (sample,) = element(sample, (len(self.support),), "samples")
         if self.support[sample].all():
             return float(self.double_violation[sample]), np.full(6, np.nan)
         k = int(np.argmax(self.support[sample]))

@@ -13,7 +13,7 @@ from scout_pin.gait import Motion
 from scout_pin.model import Scout
 from thesis_pin.arrays import finite_array
 from thesis_pin.checks import instance, real
-from thesis_pin.errors import NoSupportForce
+from thesis_pin.errors import NoSupportForce, WrongShape
 
 GRAVITY = 9.81
 """Pinocchio's default, [m/s²]."""
@@ -135,6 +135,11 @@ def support_margin(robot: Scout, motion: Motion, points: np.ndarray) -> np.ndarr
     Returns:
         Margins [m], positive inside, shape ``(n,)``.
     """
+    instance("robot", robot, Scout, "scout_pin.load()")
+    instance("motion", motion, Motion, "Gait.sample()")
+    points = finite_array("points", points, None, 2)
+    if points.shape != (len(motion.time), 2):
+        raise WrongShape("points", points.shape, f"({len(motion.time)}, 2), as motion")
     margins = np.empty(len(points))
     feet = {"left": motion.left_foot.placement, "right": motion.right_foot.placement}
     for samples, polygon in polygons(robot, motion, feet):

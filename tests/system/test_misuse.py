@@ -5,6 +5,7 @@ time by things it was not made for.
 """
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
@@ -13,9 +14,11 @@ import pytest
 import pollard_pin
 import scout_pin
 from pollard_pin import path as pollard_path
-from thesis_pin import loop_dynamics, loops
+from pollard_pin.thesis import ExplicitModel as PollardExplicit
+from scout_pin.thesis import ExplicitModel as ScoutExplicit
+from thesis_pin import closures, inertia, loading, loop_dynamics, loops
 from thesis_pin.errors import BadInput, ThesisPinError
-from thesis_pin.interpolation import interpolate
+from thesis_pin.interpolation import cubic, interpolate
 
 JUNK = {
     "None": None,
@@ -44,6 +47,7 @@ JUNK = {
     "empty stack of 12": np.zeros((0, 12)),
 }
 
+DATA = Path(__file__).parents[1] / "thesis_pin" / "data"
 SCOUT, POLLARD = scout_pin.load(), pollard_pin.load()
 FEET, GAIT = SCOUT.neutral_feet(), scout_pin.load_gait()
 TIMES = GAIT.sample_times(5)
@@ -111,6 +115,26 @@ CALLS = {
         scout_pin.zero_moment_point,
         {"mass": 1.0, "com": np.zeros(3), "momentum_rate": np.zeros(6), "ground_height": 0.0},
     ),
+    "leg_rates": (
+        scout_pin.leg_rates,
+        {
+            "leg": SCOUT.legs["left"],
+            "theta": scout_pin.joint_trajectory(SCOUT, MOTION).q[:, :6],
+            "foot": MOTION.left_foot.seen_from(MOTION.torso),
+        },
+    ),
+    "support_margin": (
+        scout_pin.support_margin,
+        {"robot": SCOUT, "motion": MOTION, "points": np.zeros((len(TIMES), 2))},
+    ),
+    "Contact.from_outline": (
+        scout_pin.Contact.from_outline,
+        {"outline": np.array([[0, 0], [1, 0], [0, 1]]), "friction": 0.5},
+    ),
+    "Contact.margin": (SCOUT.contacts[0].margin, {"wrench": np.ones(6)}),
+    "Contact.violation": (SCOUT.contacts[0].violation, {"wrench": np.ones(6)}),
+    "scout ExplicitModel.V": (ScoutExplicit().V, {"q": np.zeros(18), "v": np.zeros(18)}),
+    "pollard ExplicitModel.margin": (PollardExplicit().margin, {"pose": POSE}),
     "pollard load": (pollard_pin.load, {"specification": None, "inertia": "printed"}),
     "pollard inverse_kinematics": (
         POLLARD.inverse_kinematics,
@@ -220,6 +244,20 @@ CALLS = {
         loop_dynamics.inverse_dynamics,
         {"robot": POLLARD, "q": Q, "v": V, "a": A},
     ),
+    "closures.load": (
+        closures.load,
+        {"urdf": DATA / "five_bar.urdf", "closures": DATA / "five_bar.yaml", "root_joint": None},
+    ),
+    "load_model": (
+        loading.load_model,
+        {"text": SCOUT.urdf.replace("meshes", "."), "root_joint": None},
+    ),
+    "frame_id": (loading.frame_id, {"model": SCOUT.model, "name": "left_sole"}),
+    "check_physical": (
+        inertia.check_physical,
+        {"link": "arm", "mass": 1.0, "com": np.zeros(3), "centroidal": np.eye(3)},
+    ),
+    "cubic": (cubic, {"t": [0, 1, 2], "value": [0, 1, 0]}),
     "interpolate": (interpolate, {"t": [0, 1, 2], "value": [0, 1, 0], "method": "cubic"}),
 }
 
