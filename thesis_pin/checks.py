@@ -15,6 +15,9 @@ from thesis_pin.errors import BadInput, UnknownName
 
 Kind = TypeVar("Kind")
 
+MOST = 100_000_000
+"""Largest number of samples or steps that can be asked for; more is a slip of the pen."""
+
 
 def choice(kind: str, value: Any, known: Sequence[str]) -> str:
     """One of some names.
@@ -83,13 +86,20 @@ def real(
 
 
 def whole(name: str, value: Any, least: int, *, error: type[BadInput] = BadInput) -> int:
-    """A whole number of at least ``least``.
+    """A whole number of at least ``least`` and at most :data:`MOST`.
 
     Raises:
-        BadInput: It is no whole number (2.0 isn't one either), or too small.
+        BadInput: It is no whole number (2.0 isn't one either), too small or too large.
     """
-    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
-        raise error(f"{name} is {shown(value)}", allowed=f"a whole number of at least {least}")
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, Integral)
+        or not least <= int(value) <= MOST
+    ):
+        raise error(
+            f"{name} is {shown(value)}",
+            allowed=f"a whole number of at least {least}, at most {MOST:,}",
+        )
     return int(value)
 
 

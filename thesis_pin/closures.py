@@ -100,6 +100,8 @@ class ClosureFile(Strict):
         except yaml.YAMLError as error:
             reason = " ".join(str(error).split())
             raise BadInput(f"the {FILE_KIND} isn't valid YAML: {reason}", where=where) from None
+        except RecursionError:
+            raise BadInput(f"the {FILE_KIND} is nested too deeply", where=where) from None
         # key_lines knows TOML's "key = …"; a YAML key at the start of a line is its twin.
         lines = key_lines("\n".join(line.replace(":", " =", 1) for line in text.splitlines()))
         return validate(FILE_KIND, cls, data, where=where, lines=lines)

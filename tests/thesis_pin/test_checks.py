@@ -38,13 +38,13 @@ def test_what_is_no_number_or_outside_is_refused(value):
         real("x", value, low=0, high=3, unit="s", error=TrajectoryError)
 
 
-@given(st.integers(2, 10**9))
+@given(st.integers(2, 10**8))
 def test_a_whole_number_passes_as_an_int(value):
     assert whole("n", value, 2) == value
     assert type(whole("n", np.int64(value), 2)) is int
 
 
-@pytest.mark.parametrize("value", [None, "2", True, 1, 2.0, math.nan, [2], np.array([2])])
+@pytest.mark.parametrize("value", [None, "2", True, 1, 10**9, 2.0, math.nan, [2], np.array([2])])
 def test_what_is_no_whole_number_or_too_small_is_refused(value):
     with pytest.raises(BadInput, match="a whole number of at least 2"):
         whole("n", value, 2)
