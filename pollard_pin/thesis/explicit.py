@@ -29,7 +29,7 @@ from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.mechanics import Mechanics
 from pollard_pin.thesis.motion_symbols import Drive
 from pollard_pin.thesis.rates import moving
-from pollard_pin.thesis.state import CHAIN_0, POSE, State, ball_angles
+from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, ball_angles
 from thesis_pin.arrays import finite_array
 from thesis_pin.editions import EditionEnvironment
 from thesis_pin.equations import Edition
@@ -43,7 +43,7 @@ ROW_NAMES = ("k_2", "k_6", "k_7", "k_12", "k_18", "k_25")
 SIDE_ROW_NAMES = ("k_2i", "k_6i", "k_7i")
 """Rows of a side chain: θ21i, θ65i, θ76i."""
 
-_SIDE_ANGLES = ("theta_21", "theta_65", "theta_76")
+_SIDE_ANGLES = SIDE[:3]  # those behind them are a ball joint's
 ANGLES = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in _SIDE_ANGLES))
 """The thesis's symbols in the order of :data:`pollard_pin.specification.JOINT_NAMES`."""
 

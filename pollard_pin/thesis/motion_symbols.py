@@ -29,11 +29,11 @@ from typing import Self
 
 import numpy as np
 
-from pollard_pin.thesis.bodies import BODIES, JOINTS, centre, origin, own_frame, spin, turned
+from pollard_pin.thesis.bodies import BODIES, centre, origin, own_frame, spin, turned
 from pollard_pin.thesis.loops import PATHS, between
 from pollard_pin.thesis.rates import coefficient, derivative, explicit_rates, joint_rates, moving
 from pollard_pin.thesis.references import References
-from pollard_pin.thesis.state import POSE, State, own_name
+from pollard_pin.thesis.state import CHAIN_0, JOINTS, POSE, State, own_name
 from thesis_pin.evaluation import evaluate
 from thesis_pin.formula import Node, Symbol
 from thesis_pin.values import ZERO, Value, imaginary, matrix, scalar, vector
@@ -45,16 +45,16 @@ ROWS = {
 }
 """k_n that are rows: θ̇ = k_nᵀ q̇ (3.7 – 3.120)."""
 
-_CHAIN = ("theta_21", "theta_43", "theta_54", "theta_1615", "theta_1716", "theta_1817")
-_SIDE = ("theta_21i", "theta_65i", "theta_76i")
+SIDE_I = ("theta_21i", "theta_65i", "theta_76i")
+"""Angles of a side chain without its ball joint: β (3.137)."""
 VECTORS: dict[str, tuple[str, str]] = {
     "1": ("1", "theta_21"),
-    **{str(n): ("2", angle) for n, angle in zip((3, 4, 5), _CHAIN, strict=False)},
-    **{str(n): ("3", angle) for n, angle in zip((8, 9, 10, 11), _CHAIN, strict=False)},
-    **{str(n): ("4", angle) for n, angle in zip((13, 14, 15, 16, 17), _CHAIN, strict=False)},
-    **{str(n): ("5", angle) for n, angle in zip(range(19, 25), _CHAIN, strict=True)},
+    **{str(n): ("2", angle) for n, angle in zip((3, 4, 5), CHAIN_0, strict=False)},
+    **{str(n): ("3", angle) for n, angle in zip((8, 9, 10, 11), CHAIN_0, strict=False)},
+    **{str(n): ("4", angle) for n, angle in zip((13, 14, 15, 16, 17), CHAIN_0, strict=False)},
+    **{str(n): ("5", angle) for n, angle in zip(range(19, 25), CHAIN_0, strict=True)},
     "1i": ("1i", "theta_21i"),
-    **{f"{n}i": ("2i", angle) for n, angle in zip((3, 4, 5), _SIDE, strict=True)},
+    **{f"{n}i": ("2i", angle) for n, angle in zip((3, 4, 5), SIDE_I, strict=True)},
 }
 """k_n that are vectors: body and the angle whose rate they multiply (3.6 – 3.118)."""
 
@@ -219,13 +219,12 @@ class MotionSymbols(References):
         if sub in _SPINS:
             frame, angle = _SPINS[sub]
             along = {own_name(angle, i): self.state.rates[own_name(angle, i)]}
-            moving = replace(self.state, along=along)
         elif sub in PATHS:
             frame = sub
-            moving = replace(self.state, along={k: self.state.rates[k] for k in JOINTS})
+            along = {name: self.state.rates[name] for name in JOINTS}
         else:
             return None
-        return vector(spin(turned(moving, frame, i)))
+        return vector(spin(turned(replace(self.state, along=along), frame, i)))
 
     def _axis(self, symbol: Symbol, i: str) -> Value | None:
         column = "ijk".index(symbol.base)
@@ -256,7 +255,7 @@ class MotionSymbols(References):
         """θ = (θ21, θ43, θ54) and β = (θ21i, θ65i, θ76i) as vectors (3.79, 3.137)."""
         if not symbol.bold or symbol.sub or symbol.dots:
             return None
-        names = _CHAIN[:3] if symbol.base == "theta" else _SIDE
+        names = CHAIN_0[:3] if symbol.base == "theta" else SIDE_I
         if symbol.base == "beta" and not i:
             return None
         return vector(np.stack([self.state.number(name, i) for name in names], axis=-1))
@@ -282,9 +281,9 @@ class MotionSymbols(References):
         if number not in ROWS and number not in VECTORS:
             return None
         if number.endswith("i"):
-            groups: list[tuple[str, ...]] = [_SIDE, _CHAIN[:3]]
+            groups: list[tuple[str, ...]] = [SIDE_I, CHAIN_0[:3]]
         else:
-            groups = [_CHAIN[:3], *((angle,) for angle in _CHAIN[3:])]
+            groups = [CHAIN_0[:3], *((angle,) for angle in CHAIN_0[3:])]
         if primes >= len(groups):
             return None
         k = Symbol("k", number, kept="i")
