@@ -322,6 +322,14 @@ def test_the_document_is_current(report):
     )
 
 
+def test_what_holds_and_what_fails_are_far_apart(report):
+    """As docs/audit/README.md says; the border of 1e-9 lies between."""
+    right = [row.residual_printed for row in report.rows if row.verdict == "holds"]
+    right += [row.residual_corrected for row in report.failures]
+    assert max(right) < 2e-10
+    assert min(row.residual_printed for row in report.failures) > 1e-3
+
+
 def test_the_page_renders_every_formula_and_stays_small(report):
     page = audit_page.page(report)
     assert page.count("<article") == len(report.rows)
