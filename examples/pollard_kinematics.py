@@ -11,7 +11,8 @@ pose = np.array([0.45, 0.05, 0.05, *np.radians([10, -5, 20])])  # x, y, z, Ïˆ, Î
 found = robot.inverse_kinematics(pose, "useful")
 print(f"{int(found.valid.sum())} of {len(found.branches)} useful branches reach the pose;")
 print(
-    f"tip within {found.tool_residual.max():.0e} m, loops within {found.loop_residual.max():.0e} m"
+    f"tip within {found.position_residual.max():.0e} m, "
+    f"loops within {found.loop_residual.max():.0e} m"
 )
 
 best = robot.inverse_kinematics(pose)  # elbows up and outwards

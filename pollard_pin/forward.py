@@ -25,7 +25,7 @@ import numpy as np
 from pollard_pin.geometry import Branch, Geometry, pose_from_placement
 from pollard_pin.posture import Posture
 from pollard_pin.specification import ACTUATORS
-from thesis_pin.arrays import finite_array, wrap
+from thesis_pin.arrays import finite_array, spread, wrap
 from thesis_pin.errors import Unreachable
 from thesis_pin.tolerances import TOLERANCES
 
@@ -79,7 +79,9 @@ class Assemblies:
         Raises:
             Unreachable: Some motor angles have no mode at all.
         """
-        reference = finite_array("reference", reference, 12)
+        reference = spread(
+            "reference", finite_array("reference", reference, 12), self.angles.shape[:-2]
+        )
         self.require()
         gap = np.abs(wrap(self.angles - reference[..., None, :]))
         distance = np.where(np.isnan(gap), np.inf, gap).sum(axis=-1)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from pollard_pin.specification import Specification
 from pollard_pin.urdf import anchors
+from thesis_pin.branches import label
+from thesis_pin.checks import choice, shown
 from thesis_pin.errors import BadInput
 from thesis_pin.rotations import euler_rate_matrix, rotation
 
@@ -39,7 +41,7 @@ class Branch(NamedTuple):
     f2: int
 
     def __str__(self) -> str:
-        return "".join("+" if sign > 0 else "-" for sign in self)
+        return label(self)
 
     @classmethod
     def parse(cls, text: str) -> Branch:
@@ -48,7 +50,7 @@ class Branch(NamedTuple):
         Raises:
             BadInput: It isn't seven signs.
         """
-        if len(text) != 7 or set(text) - {"+", "-"}:
+        if not isinstance(text, str) or len(text) != 7 or set(text) - {"+", "-"}:
             raise BadInput(
                 f"{text!r} isn't a branch",
                 allowed=f"seven signs for {', '.join(cls._fields)}",
@@ -65,6 +67,47 @@ USEFUL_BRANCHES = tuple(b for b in ALL_BRANCHES if b.f0 == b.f1 == b.f2 == 1)
 
 DEFAULT_BRANCH = Branch(e0=-1, f0=1, w=1, e1=-1, f1=1, e2=1, f2=1)
 """Elbow of chain 0 up, elbows of the side chains outwards."""
+
+
+_KNOWN = frozenset(ALL_BRANCHES)
+
+
+def one_branch(branch: Any) -> Branch:
+    """A branch label, checked.
+
+    Raises:
+        BadInput: It isn't a :class:`Branch` of seven signs.
+    """
+    try:
+        known = isinstance(branch, Branch) and branch in _KNOWN
+    except TypeError:  # a sign that can't be hashed is no sign
+        known = False
+    if not known:
+        given = branch if isinstance(branch, Branch) else f"a {type(branch).__name__}"
+        raise BadInput(
+            f"branch is {given if isinstance(given, str) else tuple(given)}",
+            allowed="a pollard_pin.Branch of seven signs, each 1 or -1",
+            remedy=f'Make one with Branch.parse("{DEFAULT_BRANCH}") or Branch(*signs)',
+        )
+    return branch
+
+
+def branch_labels(branches: Any) -> tuple[Branch, ...]:
+    """Several branch labels: ``"all"``, ``"useful"`` or a sequence of them.
+
+    Raises:
+        UnknownName: No set has this name.
+        BadInput: There is no label, or one of them is none.
+    """
+    if isinstance(branches, str):
+        named = {"all": ALL_BRANCHES, "useful": USEFUL_BRANCHES}
+        return named[choice("set of branches", branches, list(named))]
+    if not isinstance(branches, list | tuple) or not branches:
+        raise BadInput(
+            f"branch is {'empty' if isinstance(branches, list | tuple) else shown(branches)}",
+            allowed='a pollard_pin.Branch, a list of them, "useful" or "all"',
+        )
+    return tuple(one_branch(branch) for branch in branches)
 
 
 @dataclass(frozen=True)

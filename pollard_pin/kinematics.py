@@ -22,7 +22,7 @@ import numpy as np
 
 from pollard_pin.geometry import Branch, Geometry
 from pollard_pin.solutions import Solutions
-from thesis_pin.arrays import finite_array, wrap
+from thesis_pin.arrays import finite_array, spread, wrap
 from thesis_pin.tolerances import TOLERANCES
 
 _CHUNK = 2048  # samples whose intermediates stay in a core's cache
@@ -59,7 +59,7 @@ def inverse_kinematics(
     roll = np.zeros(count)
     if reference is not None:
         given = finite_array("reference", reference, 12)
-        roll = np.broadcast_to(given[..., 3], stack).reshape(count)
+        roll = spread("reference", given, stack)[..., 3].reshape(count)
     angles = np.empty((count, len(branches), 12))
     cosines = np.empty((count, len(branches), 3))
     if count < _FEW:

@@ -13,11 +13,11 @@ from pollard_pin import dynamics, forward, kinematics, rates, singularity
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import closures
 from pollard_pin.geometry import (
-    ALL_BRANCHES,
     DEFAULT_BRANCH,
-    USEFUL_BRANCHES,
     Branch,
     Geometry,
+    branch_labels,
+    one_branch,
     pose_from_placement,
 )
 from pollard_pin.posture import Posture
@@ -25,9 +25,10 @@ from pollard_pin.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
 from pollard_pin.urdf import urdf
 from thesis_pin import loop_dynamics, loops
-from thesis_pin.arrays import finite_array
+from thesis_pin.arrays import finite_array, spread, together, vector
+from thesis_pin.checks import choice, instance
 from thesis_pin.closures import ClosedRobot
-from thesis_pin.errors import UnknownName
+from thesis_pin.errors import WrongShape
 from thesis_pin.inertia import Reading
 from thesis_pin.loading import model_folder
 from thesis_pin.trajectory import JointTrajectory
@@ -57,8 +58,7 @@ def load(
     """
     if not isinstance(specification, Specification):
         specification = Specification.read(specification)
-    if inertia not in ("physical", "printed"):
-        raise UnknownName("inertia", inertia, ("physical", "printed"))
+    choice("inertia", inertia, ("physical", "printed"))
     return Pollard(specification, inertia)
 
 
@@ -108,14 +108,11 @@ class Pollard(ClosedRobot):
             Angles ``(..., 12)`` on one branch, ``(..., branches, 12)`` on several.
         """
         if isinstance(branch, Branch):
-            return kinematics.inverse_kinematics(self.geometry, pose, (branch,), reference)
-        named = {"all": ALL_BRANCHES, "useful": USEFUL_BRANCHES}
-        if isinstance(branch, str):
-            if branch not in named:
-                raise UnknownName("set of branches", branch, list(named))
-            branch = named[branch]
+            return kinematics.inverse_kinematics(
+                self.geometry, pose, (one_branch(branch),), reference
+            )
         return kinematics.inverse_kinematics(
-            self.geometry, pose, tuple(branch), reference, squeeze=False
+            self.geometry, pose, branch_labels(branch), reference, squeeze=False
         )
 
     def forward_kinematics(self, motors: Any, reference: Any = None) -> Any:
@@ -143,7 +140,7 @@ class Pollard(ClosedRobot):
 
     def branch_of(self, q: Any) -> Branch:
         """Label of a closed configuration ``(12,)``."""
-        return forward.branch_of(self.geometry, finite_array("q", q, 12))
+        return forward.branch_of(self.geometry, vector("q", q, 12))
 
     def joint_motion(
         self,
@@ -167,7 +164,7 @@ class Pollard(ClosedRobot):
             Unreachable: A pose has no solution on the branch within the limits.
             SingularPose: Rates don't exist at a pose.
         """
-        solution = self.inverse_kinematics(pose, branch).require()
+        solution = self.inverse_kinematics(pose, one_branch(branch)).require()
         return solution.angles, *self._derivatives(solution.posture, pose, rate, acceleration)
 
     def rates(self, pose: Any, rate: Any, branch: Branch = DEFAULT_BRANCH) -> np.ndarray:
@@ -187,9 +184,7 @@ class Pollard(ClosedRobot):
         shape = posture.shape
         acceleration = np.zeros(6) if acceleration is None else acceleration
         pose, rate, acceleration = (
-            np.ascontiguousarray(
-                np.broadcast_to(finite_array(name, value, 6), (*shape, 6)).reshape(-1, 6).T
-            )
+            np.ascontiguousarray(spread(name, finite_array(name, value, 6), shape).reshape(-1, 6).T)
             for name, value in (("pose", pose), ("rate", rate), ("acceleration", acceleration))
         )
         v = rates.joint_rates(posture, *rates.tool_twist(posture, pose[3:5], rate))
@@ -211,7 +206,7 @@ class Pollard(ClosedRobot):
 
     def mobility(self, q: Any) -> loops.Mobility:
         """Degrees of freedom by rank at one configuration ``(12,)``."""
-        return loops.mobility(self, finite_array("q", q, 12))
+        return loops.mobility(self, q)
 
     # -- dynamics ------------------------------------------------------------
 
@@ -228,7 +223,12 @@ class Pollard(ClosedRobot):
             SingularPose: The forces aren't determined.
         """
         q, v, a = (finite_array(name, x, 12) for name, x in (("q", q), ("v", v), ("a", a)))
-        if posture is None:
+        q, v, a = map(np.ascontiguousarray, together(q=q, v=v, a=a))
+        if posture is not None:
+            instance("posture", posture, Posture, "Pollard.posture()")
+            if posture.shape != q.shape[:-1]:
+                raise WrongShape("q", q.shape, f"{(*posture.shape, 12)}, as posture")
+        else:
             posture = Posture.of(self.geometry, q)
             dynamics.refuse_open_loops(posture, q, v, a)
         return dynamics.inverse_dynamics(self._pool, posture, q, v, a)
@@ -236,6 +236,7 @@ class Pollard(ClosedRobot):
     def tree_torques(self, q: Any, v: Any, a: Any) -> np.ndarray:
         """RNEA of the open tree over a stack, ``(n, 12)`` each [N·m]."""
         q, v, a = (finite_array(name, x, None, 12) for name, x in (("q", q), ("v", v), ("a", a)))
+        q, v, a = map(np.ascontiguousarray, together(q=q, v=v, a=a))
         return dynamics.tree_torques(self._pool, q, v, a)
 
     def forward_dynamics(self, q: Any, v: Any, torque: Any) -> np.ndarray:
@@ -255,11 +256,13 @@ class Pollard(ClosedRobot):
 
     def three_torques(self, q: Any, joint_force: Any) -> dynamics.ThreeTorques:
         """The thesis's three base torques; see :func:`pollard_pin.dynamics.three_torques`."""
-        return dynamics.three_torques(self.rate_jacobian(q), np.asarray(joint_force))
+        return dynamics.three_torques(
+            self.rate_jacobian(q), finite_array("joint_force", joint_force, 12)
+        )
 
     def energy(self, q: Any, v: Any) -> np.ndarray:
         """Kinetic plus potential energy [J], shape ``(...)``."""
-        q, v = finite_array("q", q, 12), finite_array("v", v, 12)
+        q, v = together(q=finite_array("q", q, 12), v=finite_array("v", v, 12))
         data = self.model.createData()
         values = [
             pin.computeKineticEnergy(self.model, data, one, rate)

@@ -18,8 +18,9 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from pollard_pin.specification import Specification
-from thesis_pin.arrays import finite_array
-from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
+from thesis_pin.arrays import finite_array, vector
+from thesis_pin.checks import choice, instance, real, shown, whole
+from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 
 Timing = Literal["constant-rate", "rest-to-rest"]
 TIMINGS: tuple[str, ...] = get_args(Timing)
@@ -67,6 +68,8 @@ class Path:
     def at(self, time: Any) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""
         time = np.atleast_1d(finite_array("time", time))
+        if time.ndim != 1 or not time.size:
+            raise WrongShape("time", time.shape, "(n,), n at least 1")
         slack = 1e-9 * self.duration
         if (time < -slack).any() or (time > self.duration + slack).any():
             raise TrajectoryError(
@@ -82,8 +85,7 @@ class Path:
         Raises:
             TrajectoryError: Fewer than two samples.
         """
-        if count < 2:
-            raise TrajectoryError(f"{count} samples", allowed="at least 2")
+        count = whole("samples", count, 2, error=TrajectoryError)
         return self.at(np.linspace(0.0, self.duration, count))
 
 
@@ -100,11 +102,9 @@ def timing_law(timing: str, duration: float, time: np.ndarray) -> Triple:
         UnknownName: No such law.
         TrajectoryError: The duration isn't positive.
     """
-    if timing not in TIMINGS:
-        raise UnknownName("timing", timing, TIMINGS)
-    if not 1e-6 <= duration <= 1e6:
-        raise TrajectoryError(f"the duration is {duration:g} s", allowed="1e-6 to 1e6 s")
-
+    choice("timing", timing, TIMINGS)
+    duration = real("the duration", duration, low=1e-6, high=1e6, unit="s", error=TrajectoryError)
+    time = finite_array("time", time, None)
     tau, one = time / duration, np.ones_like(time)
     if timing == "constant-rate":
         return tau, one / duration, 0 * one
@@ -149,17 +149,17 @@ def appendix_b(
 
     Source: Pollard thesis, appendix B.
     """
+    if specification is not None:
+        instance("specification", specification, Specification, "Specification.read()")
     assumed = (specification or Specification.read()).assumptions
-    place = finite_array(
-        "placement", assumed.placement.position if placement is None else placement, 3
-    )
-    tool = finite_array(
+    place = vector("placement", assumed.placement.position if placement is None else placement, 3)
+    tool = vector(
         "orientation",
         np.radians(assumed.placement.orientation_deg) if orientation is None else orientation,
         3,
     )
-    seconds = assumed.motion.duration if duration is None else float(duration)
-    law = timing or assumed.motion.timing
+    seconds = assumed.motion.duration if duration is None else duration
+    law = assumed.motion.timing if timing is None else timing
     timing_law(law, seconds, np.zeros(1))
 
     def curve(s: np.ndarray) -> Triple:
@@ -188,7 +188,7 @@ def appendix_b(
 
 def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") -> Path:
     """A straight line between two poses (x, y, z, ψ, θ, φ)."""
-    first, last = finite_array("start", start, 6), finite_array("end", end, 6)
+    first, last = vector("start", start, 6), vector("end", end, 6)
 
     def curve(s: np.ndarray) -> Triple:
         step = np.broadcast_to(last - first, (len(s), 6))
@@ -216,8 +216,8 @@ def arc(
     Raises:
         TrajectoryError: The three points lie on a line.
     """
-    first, last = finite_array("start", start, 6), finite_array("end", end, 6)
-    middle = finite_array("via", via, 3)
+    first, last = vector("start", start, 6), vector("end", end, 6)
+    middle = vector("via", via, 3)
     one, two = middle - first[:3], last[:3] - first[:3]
     normal = np.cross(one, two)
     area = float(np.linalg.norm(normal))
@@ -249,9 +249,10 @@ def arc(
 
 def _single(name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str) -> Path:
     timing_law(timing, duration, np.zeros(1))
+    duration = float(duration)
     return Path(
         name,
-        float(duration),
+        duration,
         lambda time: along(curve, timing_law(timing, duration, time)),
         {"path": name, "duration": float(duration), "timing": timing},
     )
@@ -293,8 +294,13 @@ def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
     Raises:
         TrajectoryError: There is none, or pose or rate jumps between two of them.
     """
-    if not paths:
-        raise TrajectoryError("a path needs at least one segment")
+    if not isinstance(paths, list | tuple) or not paths:
+        raise TrajectoryError(
+            f"segments are {'empty' if isinstance(paths, list | tuple) else shown(paths)}",
+            allowed="a list of at least one path",
+        )
+    for path in paths:
+        instance("a segment", path, Path, "line(), arc() or through()")
     for number, (before, after) in enumerate(itertools.pairwise(paths), start=1):
         end, start = before.at(before.duration), after.at(0.0)
         for what, one, two in (

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from pollard_pin.dynamics import PollardDynamics, ThreeTorques, three_torques
-from pollard_pin.geometry import DEFAULT_BRANCH, POSE_NAMES, Branch
+from pollard_pin.geometry import DEFAULT_BRANCH, POSE_NAMES, Branch, one_branch
 from pollard_pin.model import Pollard
 from pollard_pin.motion import joint_trajectory
 from pollard_pin.motor_limits import MotorUse
@@ -25,7 +25,7 @@ from pollard_pin.specification import (
     JOINT_SYMBOLS,
 )
 from thesis_pin import __version__
-from thesis_pin.errors import UnknownName
+from thesis_pin.checks import choice, instance
 from thesis_pin.inertia import Reading
 from thesis_pin.report import ActuatorSummary, summarise
 from thesis_pin.trajectory import JointTrajectory
@@ -256,7 +256,7 @@ class TrajectoryReport:
             "motor_limits": self.motor_use.document(),
             "margin": {"least": float(self.solutions.margin[least]), "time": float(time[least])},
             "residual": {
-                "tool": float(self.solutions.tool_residual.max()),
+                "tool": float(self.solutions.position_residual.max()),
                 "loops": float(self.solutions.loop_residual.max()),
             },
             "other_inertia": {"reading": reading, "peak_torque": other},
@@ -286,8 +286,10 @@ def trajectory_report(
     Raises:
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
     """
-    if motors not in ("six", "three"):
-        raise UnknownName("number of actuators", motors, ("six", "three"))
+    instance("robot", robot, Pollard, "pollard_pin.load()")
+    instance("path", path, Path, "load_path() or appendix_b()")
+    choice("number of actuators", motors, ("six", "three"))
+    branch = one_branch(branch)
     motion = path.sample(samples)
     joints, solutions = joint_trajectory(robot, motion, branch, path)
     posture = solutions.posture

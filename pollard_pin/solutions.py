@@ -11,7 +11,8 @@ import numpy as np
 from pollard_pin.geometry import Branch, Geometry, pose_rotation
 from pollard_pin.posture import Posture
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin.errors import SingularPose, Unreachable
+from thesis_pin.checks import element
+from thesis_pin.errors import SingularPose, Unreachable, WrongShape
 from thesis_pin.tolerances import TOLERANCES
 
 _CONDITIONS = ("chain 0", "chain 1", "chain 2")
@@ -66,7 +67,7 @@ class Solutions:
         return Posture.of(self.geometry, self.angles)
 
     @property
-    def tool_residual(self) -> np.ndarray:
+    def position_residual(self) -> np.ndarray:
         """Distance of the spray tip from the pose asked for [m], shape ``(...)``."""
         return np.linalg.norm(self.posture.tip - self.pose[..., :3], axis=-1)
 
@@ -103,9 +104,14 @@ class Solutions:
         """Say in words why a solution doesn't exist, or that it does.
 
         Args:
-            index: Which element of the stack (and which branch).
+            index: Which element of the stack (and which branch); nothing for a
+                single result.
+
+        Raises:
+            BadInput: The index doesn't pick one element.
         """
-        index = (index,) if isinstance(index, int) else index
+        axes = "poses, then branches" if len(self.branches) > 1 else "poses"
+        index = element(index, self.reachable.shape, axes)
         cosines = self.cosines[index]
         if not self.reachable[index]:
             return "unreachable: " + self._gap(index, cosines)
@@ -162,6 +168,8 @@ class Solutions:
             Unreachable: No branch reaches the pose within the limits.
             SingularPose: Every branch that does is singular.
         """
+        if self.pose.size != 6:
+            raise WrongShape("pose", self.pose.shape, "(6,), one pose")
         valid = np.atleast_1d(self.valid)
         if not valid.any():
             near = int(np.argmax(np.atleast_1d(self.margin)))

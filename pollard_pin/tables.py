@@ -13,7 +13,7 @@ from pollard_pin.model import Pollard
 from pollard_pin.report import TrajectoryReport
 from pollard_pin.solutions import Solutions
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin import loops
+from thesis_pin import branches, loops
 from thesis_pin.closures import ClosedRobot
 from thesis_pin.command_line import print_table, print_text
 from thesis_pin.errors import Unreachable
@@ -84,31 +84,25 @@ def _values(assumption: dict[str, Any]) -> str:
     return f" ({', '.join(parts)})" if 0 < len(parts) <= 4 else ""
 
 
-def ik_document(solutions: Solutions) -> dict[str, Any]:
+def ik_document(robot: Pollard, solutions: Solutions) -> dict[str, Any]:
     """Inverse kinematics of one pose on several branches, JSON-ready."""
-    branches = []
-    for k, branch in enumerate(solutions.branches):
-        exists = bool(solutions.reachable[k])
-        branches.append(
-            {
-                "branch": str(branch),
-                "reachable": exists,
-                "valid": bool(solutions.valid[k]),
-                "angles": solutions.angles[k] if exists else None,
-                "margin": float(solutions.margin[k]) if np.isfinite(solutions.margin[k]) else None,
-                "tool_residual": float(solutions.tool_residual[k]) if exists else None,
-                "loop_residual": solutions.loop_residual[k] if exists else None,
-                "rod_angles": solutions.rod_angles[k] if exists else None,
-                "explanation": solutions.explain(k),
-            }
-        )
-    return {
-        "schema": "pollard-pin/inverse-kinematics",
-        "version": 1,
-        "joints": list(JOINT_NAMES),
-        "pose": solutions.pose.reshape(6),
-        "branches": branches,
+    own = {
+        "margin": (solutions.margin, True),
+        "loop_residual": (solutions.loop_residual, False),
+        "rod_angles": (solutions.rod_angles, False),
     }
+    return branches.document(
+        "pollard-pin",
+        robot.specification.name,
+        joints=JOINT_NAMES,
+        coordinates=POSE_NAMES,
+        pose=solutions.pose.reshape(6),
+        branches=[
+            branches.branch(solutions, k, str(one), solutions.explain(k), **own)
+            for k, one in enumerate(solutions.branches)
+        ],
+        explanation=_best(solutions),
+    )
 
 
 def print_solutions(solutions: Solutions) -> None:
@@ -123,12 +117,17 @@ def print_solutions(solutions: Solutions) -> None:
         if rows:
             columns = ("branch", *(JOINT_SYMBOLS[j] for j in joints))
             print_table(columns, rows, title=f"{title}, degrees")
+    print_text(_best(solutions))
+
+
+def _best(solutions: Solutions) -> str:
+    """How many branches are valid, and what can be said of the best."""
     labels = solutions.branches
     best = labels.index(DEFAULT_BRANCH) if DEFAULT_BRANCH in labels else 0
     best = best if solutions.valid[best] else int(np.argmax(solutions.valid))
-    print_text(
-        f"{int(solutions.valid.sum())} of {len(solutions.branches)} branches are valid. "
-        f"{solutions.branches[best]}: {solutions.explain(best)}."
+    return (
+        f"{int(solutions.valid.sum())} of {len(labels)} branches are valid. "
+        f"{labels[best]}: {solutions.explain(best)}."
     )
 
 

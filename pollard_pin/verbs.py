@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 def _branch(arguments: argparse.Namespace) -> Branch:
     from pollard_pin.geometry import DEFAULT_BRANCH, Branch
 
-    return Branch.parse(arguments.branch) if arguments.branch else DEFAULT_BRANCH
+    return DEFAULT_BRANCH if arguments.branch is None else Branch.parse(arguments.branch)
 
 
 def _path(arguments: argparse.Namespace, specification: Any) -> Path:
@@ -105,10 +105,12 @@ def ik(arguments: argparse.Namespace) -> int:
     robot = load(arguments.specification, inertia=arguments.inertia)
     pose = np.array(arguments.pose)
     pose[3:] = np.radians(pose[3:])
-    branches = (_branch(arguments),) if arguments.branch else USEFUL_BRANCHES
-    solutions = robot.inverse_kinematics(pose, branches)
+    labels = USEFUL_BRANCHES if arguments.branch is None else (_branch(arguments),)
+    solutions = robot.inverse_kinematics(pose, labels)
     solutions.require_one(allow_singular=arguments.allow_singular)
-    return show(arguments, lambda: ik_document(solutions), lambda: print_solutions(solutions))
+    return show(
+        arguments, lambda: ik_document(robot, solutions), lambda: print_solutions(solutions)
+    )
 
 
 def fk(arguments: argparse.Namespace) -> int:

@@ -7,6 +7,7 @@ import numpy as np
 from pollard_pin.report import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
 from pollard_pin.urdf import TOOL_FRAME
+from thesis_pin.checks import instance
 from thesis_pin.drawing import (
     CLOSED,
     OPEN,
@@ -41,6 +42,7 @@ def path_scene(report: TrajectoryReport) -> Scene:
     Args:
         report: The report; at most :data:`MOST_SAMPLES` of its samples are shown.
     """
+    instance("report", report, TrajectoryReport, "trajectory_report()")
     robot, keep = report.robot, thinned(report.joints.time, MOST_SAMPLES)
     q = report.joints.q[keep]
     zone = margin_zone(report)[keep]

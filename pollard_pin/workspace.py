@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.geometry import DEFAULT_BRANCH, Branch
+from pollard_pin.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.model import Pollard
 from pollard_pin.posture import Posture
 from pollard_pin.singularity import LENGTH, actuation
 from thesis_pin import __version__
-from thesis_pin.arrays import finite_array
+from thesis_pin.arrays import finite_array, vector
+from thesis_pin.checks import function, instance, whole
 from thesis_pin.errors import BadInput
 from thesis_pin.tolerances import TOLERANCES
 
@@ -130,14 +131,18 @@ def evaluate_workspace(
     Raises:
         BadInput: The grid is empty or has more than 20 million positions.
     """
+    instance("robot", robot, Pollard, "pollard_pin.load()")
+    branch, jobs = one_branch(branch), whole("jobs", jobs, 1)
+    if progress is not None:
+        function("progress", progress, "progress(done, total)")
     axes = tuple(np.atleast_1d(finite_array(n, v)) for n, v in zip("xyz", (x, y, z), strict=True))
-    tool = finite_array("orientation", orientation, 3)
+    tool = vector("orientation", orientation, 3)
     shape = tuple(len(axis) for axis in axes)
     total = int(np.prod(shape))
-    if any(axis.ndim != 1 for axis in axes) or not 0 < total <= _MOST or jobs < 1:
+    if any(axis.ndim != 1 for axis in axes) or not 0 < total <= _MOST:
         raise BadInput(
-            f"a grid of shape {shape} on {jobs} threads",
-            allowed=f"1 to {_MOST:,} positions, at least one thread",
+            f"a grid of shape {shape}",
+            allowed=f"1 to {_MOST:,} positions",
             remedy="Use fewer points an axis",
         )
     points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)

@@ -24,6 +24,9 @@ from scipy.optimize import nnls
 from scipy.spatial import ConvexHull
 
 from scout_pin.specification import Specification
+from thesis_pin.arrays import finite_array, vector
+from thesis_pin.checks import instance, real
+from thesis_pin.errors import BadInput, WrongShape
 
 FRICTION_EDGES = 8
 """Edges of the pyramid inside each corner's friction cone; it gives away at most
@@ -55,6 +58,7 @@ class Contact:
     @classmethod
     def of(cls, specification: Specification, side: str) -> Contact:
         """Contact of the ``"left"`` or ``"right"`` sole of a specification."""
+        instance("specification", specification, Specification, "Specification.read()")
         return cls.from_outline(
             np.array(specification.leg(side).sole),
             specification.assumptions.floor_friction.coefficient,
@@ -63,6 +67,8 @@ class Contact:
     @classmethod
     def from_outline(cls, outline: np.ndarray, friction: float) -> Contact:
         """Contact of a sole with the given corners [m], ``(n, 2)``, and friction."""
+        outline = _corners("outline", outline)
+        friction = real("friction", friction, low=1e-6)
         hull = outline[ConvexHull(outline).vertices]
         length = float(np.linalg.norm(np.ptp(outline, axis=0))) / 2
         angle = 2 * np.pi * np.arange(FRICTION_EDGES) / FRICTION_EDGES
@@ -84,7 +90,7 @@ class Contact:
 
     def scale(self, wrench: np.ndarray) -> np.ndarray:
         """Wrenches with forces multiplied by :attr:`length` [N·m], ``(..., 6)``."""
-        return wrench * np.repeat([self.length, 1.0], 3)
+        return finite_array("wrench", wrench, 6) * np.repeat([self.length, 1.0], 3)
 
     def margin(self, wrench: np.ndarray) -> np.ndarray:
         """How far wrenches are inside the cone [N·m], negative outside.
@@ -111,22 +117,35 @@ class Contact:
             Its size [N·m, forces scaled], zero if the wrench is admissible, and
             the wrench itself (unscaled), shape ``(6,)``.
         """
-        target = self.scale(wrench)
+        target = self.scale(vector("wrench", wrench, 6))
         weights, size = nnls(self.rays.T, target)
         missing = target - self.rays.T @ weights
         return float(size), missing / np.repeat([self.length, 1.0], 3)
 
     def friction_used(self, wrench: np.ndarray) -> np.ndarray:
         """Tangential over admissible force, ``(..., 6)`` → ``(...)``; NaN without load."""
+        wrench = finite_array("wrench", wrench, 6)
         loaded = wrench[..., 2] > 0
         limit = self.friction * np.where(loaded, wrench[..., 2], np.nan)
         return np.hypot(wrench[..., 0], wrench[..., 1]) / limit
 
     def centre_of_pressure(self, wrench: np.ndarray) -> np.ndarray:
         """Point of the sole where the pressure acts [m], ``(..., 6)`` → ``(..., 2)``."""
+        wrench = finite_array("wrench", wrench, 6)
         loaded = wrench[..., 2] > 0
         force = np.where(loaded, wrench[..., 2], np.nan)
         return np.stack([-wrench[..., 4] / force, wrench[..., 3] / force], axis=-1)
+
+
+def _corners(name: str, points: Any) -> np.ndarray:
+    """Corners that span an area, ``(n, 2)`` or ``(n, 3)``; Qhull takes no others."""
+    corners = finite_array(name, points, None, None)
+    flat = corners[..., :2]
+    if corners.ndim != 2 or corners.shape[1] not in (2, 3):
+        raise WrongShape(name, corners.shape, "(n, 2) or (n, 3)")
+    if len(flat) < 3 or np.linalg.matrix_rank(flat - flat[0]) < 2:
+        raise BadInput(f"the corners of {name} span no area", allowed="three or more, not in line")
+    return corners
 
 
 def in_sole_axes(rotation: np.ndarray, wrench: np.ndarray) -> np.ndarray:
@@ -148,5 +167,7 @@ def support_polygon(*soles: Any) -> np.ndarray:
 
     Source: Scout thesis, section 6.2.
     """
-    points = np.concatenate([np.asarray(sole, dtype=float)[:, :2] for sole in soles])
+    if not soles:
+        raise BadInput("there is no sole", allowed="the corners of at least one")
+    points = np.concatenate([_corners("sole", sole)[:, :2] for sole in soles])
     return points[ConvexHull(points).vertices]

@@ -24,8 +24,9 @@ from scout_pin.model import Scout
 from scout_pin.rates import leg_rates
 from scout_pin.screws import LegScrews
 from scout_pin.specification import SIDES
+from thesis_pin.checks import element, instance
 from thesis_pin.elementwise import blocks
-from thesis_pin.errors import TrajectoryError
+from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.rotations import quaternions
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.trajectory import BodyMotion, JointTrajectory
@@ -94,6 +95,7 @@ class ContactDynamics:
         In single support about the stance foot's origin, in its axes; in double
         support only the size is known, and the wrench is NaN.
         """
+        (sample,) = element(sample, (len(self.support),), "samples")
         if self.support[sample].all():
             return float(self.double_violation[sample]), np.full(6, np.nan)
         k = int(np.argmax(self.support[sample]))
@@ -107,12 +109,30 @@ def joint_trajectory(robot: Scout, motion: Motion) -> JointTrajectory:
         Unreachable: Some pose has no valid branch.
         SingularPose: A leg's Jacobian loses rank on the way.
     """
+    instance("robot", robot, Scout, "scout_pin.load()")
+    instance("motion", motion, Motion, "Gait.sample()")
     q = robot.follow(motion.torso, motion.left_foot, motion.right_foot)
     feet = (motion.left_foot, motion.right_foot)
     v, a = np.empty(q.shape), np.empty(q.shape)
     for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):
         v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
     return JointTrajectory(motion.time, q, v, a)
+
+
+def walking(robot: Scout) -> Scout:
+    """The biped, if its root is a free flyer.
+
+    Raises:
+        BadInput: It is no :class:`Scout`, or has the thesis's eighteen coordinates.
+    """
+    instance("robot", robot, Scout, "scout_pin.load()")
+    if robot.root != "free_flyer":
+        raise BadInput(
+            f"the robot's root is {robot.root!r}",
+            allowed="'free_flyer'",
+            remedy="Load it with scout_pin.load(), and convert with to_free_flyer()",
+        )
+    return robot
 
 
 def free_flyer_state(
@@ -154,10 +174,17 @@ def inverse_dynamics(
         joints: Its joint trajectory; None computes it.
 
     Raises:
+        BadInput: The robot's root is no free flyer, or the joints aren't this motion's.
         TrajectoryError: At some sample no foot is in support.
         Unreachable, SingularPose: See :func:`joint_trajectory`.
     """
-    joints = joint_trajectory(robot, motion) if joints is None else joints
+    walking(robot)
+    if joints is None:
+        joints = joint_trajectory(robot, motion)
+    instance("motion", motion, Motion, "Gait.sample()")
+    instance("joints", joints, JointTrajectory, "joint_trajectory()")
+    if np.shape(joints.q) != (len(motion.time), 12):
+        raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
     if not motion.support.any(axis=1).all():
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")

@@ -13,13 +13,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from scipy.interpolate import PPoly
 
 from thesis_pin.arrays import finite_array
-from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
+from thesis_pin.checks import choice, real, whole
+from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.interpolation import jumps
 from thesis_pin.rotations import euler_placement
 from thesis_pin.specification import Strict
@@ -136,6 +137,7 @@ class Gait:
 
         At an instant where phases meet, a foot of either bears load.
         """
+        t = _times(t)
         result = np.zeros((len(t), 2), dtype=bool)
         for phase in self.phases:
             inside = (t >= phase.start) & (t <= phase.end)
@@ -165,8 +167,7 @@ class Gait:
         Args:
             samples: Number of evenly spaced times.
         """
-        if samples < 2:
-            raise BadInput(f"{samples} samples", allowed="at least 2")
+        samples = whole("samples", samples, 2)
         changes = [p.start for p in self.phases] + [p.end for p in self.phases]
         changes += [x for curves in self.curves.values() for curve in curves for x in curve.x]
         side = 1e-9 * (self.end - self.start)
@@ -179,7 +180,7 @@ class Gait:
 
         A foot's lift-off and landing count too: a foot can't start in an instant.
         """
-        unit = self.time_unit if time_unit is None else time_unit
+        unit = self._unit(time_unit)
         found = []
         for body, curves in self.curves.items():
             for coordinate, curve in zip(COORDINATES, curves, strict=True):
@@ -191,7 +192,8 @@ class Gait:
 
     def body(self, name: str, t: np.ndarray, time_unit: float | None = None) -> BodyMotion:
         """Motion of one body at times t; derivatives are per second."""
-        unit = self.time_unit if time_unit is None else time_unit
+        choice("body", name, BODIES)
+        t, unit = _times(t), self._unit(time_unit)
         values, rates, second = (
             np.stack([curve(t, order) for curve in self.curves[name]], axis=-1) / unit**order
             for order in (0, 1, 2)
@@ -210,12 +212,8 @@ class Gait:
             TrajectoryError: A time is outside the gait, or a foot in support isn't
                 flat on the floor, or moves.
         """
-        t = finite_array("t", t, None)
-        if t.ndim != 1 or not t.size:
-            raise WrongShape("t", t.shape, "(n,), n at least 1")
-        unit = self.time_unit if time_unit is None else time_unit
-        if not 1e-6 <= unit <= 1e6:
-            raise BadInput(f"time unit {unit} s", allowed="a positive number, 1e-6 to 1e6 s")
+        t = _times(t)
+        unit = self._unit(time_unit)
         if t.min() < self.start or t.max() > self.end:
             raise TrajectoryError(
                 f"t from {t.min():g} to {t.max():g}",
@@ -225,6 +223,12 @@ class Gait:
         bodies = {name: self.body(name, t, unit) for name in BODIES}
         self._check_stance()
         return Motion(time=t * unit, t=t, support=self.support(t), **bodies)
+
+    def _unit(self, time_unit: float | None) -> float:
+        """Seconds in a unit of t: what was given, or the gait's own."""
+        if time_unit is None:
+            return self.time_unit
+        return real("the time unit", time_unit, low=1e-6, high=1e6, unit="s")
 
     def _check_stance(self) -> None:
         """A foot that bears load must rest flat on the floor z = 0."""
@@ -256,3 +260,11 @@ class Gait:
                         allowed=f"{limit:g} m or rad: at rest",
                         remedy="Correct the curve, or the phase's support",
                     )
+
+
+def _times(t: Any) -> np.ndarray:
+    """Times of samples, shape ``(n,)``."""
+    t = finite_array("t", t, None)
+    if t.ndim != 1 or not t.size:
+        raise WrongShape("t", t.shape, "(n,), n at least 1")
+    return t

@@ -14,6 +14,7 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.gait import BODIES, COORDINATES, Gait, Phase
+from thesis_pin.checks import choice
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
 from thesis_pin.samples import Row, check_increasing, check_width, numbers, read_rows
@@ -158,8 +159,8 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
         SpecificationError: The TOML is invalid; carries every problem.
         TrajectoryError: The samples of a CSV file make no motion.
     """
-    if interpolation is not None and interpolation not in METHODS:
-        raise UnknownName("interpolation", interpolation, list(METHODS))
+    if interpolation is not None:
+        choice("interpolation", interpolation, list(METHODS))
     if not isinstance(source, str | Path):
         raise BadInput(f"{source!r} isn't a gait", allowed=f"{', '.join(PRESETS)} or a path")
     if str(source) in PRESETS:

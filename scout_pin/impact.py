@@ -11,10 +11,12 @@ import numpy as np
 import pinocchio as pin
 
 from scout_pin.contact import in_sole_axes
-from scout_pin.dynamics import free_flyer_state, joint_trajectory
+from scout_pin.dynamics import free_flyer_state, joint_trajectory, walking
 from scout_pin.gait import Gait
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
+from thesis_pin.arrays import vector
+from thesis_pin.checks import choice
 
 
 @dataclass(frozen=True)
@@ -64,8 +66,10 @@ def touchdown_impact(
     Returns:
         The impact.
     """
-    model, data = robot.model, robot.model.createData()
-    other = SIDES[1 - SIDES.index(side)]
+    model = walking(robot).model
+    data = model.createData()
+    q, v = vector("q", q, model.nq), vector("v", v, model.nv)
+    other = SIDES[1 - SIDES.index(choice("side", side, SIDES))]
     pin.computeJointJacobians(model, data, q)
     pin.updateFramePlacements(model, data)
     rows = {

@@ -22,7 +22,7 @@ import numpy as np
 from scout_pin.geometry import LegGeometry
 from scout_pin.solutions import BRANCHES as BRANCHES
 from scout_pin.solutions import LegSolutions as LegSolutions
-from thesis_pin.arrays import finite_array, pose_array, wrap
+from thesis_pin.arrays import finite_array, pose_array, spread, wrap
 from thesis_pin.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
 from thesis_pin.errors import Unreachable
 from thesis_pin.tolerances import TOLERANCES
@@ -55,7 +55,7 @@ def leg_inverse_kinematics(
     stack = target.shape[:-2]
     count = math.prod(stack)
     if reference is not None:
-        reference = np.broadcast_to(finite_array("reference", reference, 6), (*stack, 6))
+        reference = spread("reference", finite_array("reference", reference, 6), stack)
         reference = reference.reshape(count, 6)
     work = _few if count < FEW else _many
     theta, excess, sine_axis, sine_hip = work(leg, target.reshape(count, 16), reference)

@@ -14,8 +14,9 @@ from scout_pin.contact import Contact
 from scout_pin.geometry import LegGeometry
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
-from thesis_pin.arrays import check_rigid, finite_array, pose_array
-from thesis_pin.errors import BadInput, SingularPose, UnknownName
+from thesis_pin.arrays import check_rigid, finite_array, pose_array, together
+from thesis_pin.checks import choice
+from thesis_pin.errors import BadInput, SingularPose
 from thesis_pin.inertia import Reading
 from thesis_pin.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.rotations import euler_placement, euler_rate_matrix, invert
@@ -53,10 +54,8 @@ def load(
     """
     if not isinstance(specification, Specification):
         specification = Specification.read(specification)
-    if root not in ("free_flyer", "thesis"):
-        raise UnknownName("root", root, ("free_flyer", "thesis"))
-    if inertia not in ("physical", "printed"):
-        raise UnknownName("inertia", inertia, ("physical", "printed"))
+    choice("root", root, ("free_flyer", "thesis"))
+    choice("inertia", inertia, ("physical", "printed"))
     return Scout(specification, root, inertia)
 
 
@@ -135,17 +134,14 @@ class Scout(LoadedRobot):
             q ``(..., 19)``, v ``(..., 18)``, a ``(..., 18)``; the root's velocity is
             linear then angular, in the torso's axes, as Pinocchio has it.
         """
-        q = finite_array("q", q, 18)
-        v = None if v is None else finite_array("v", v, 18)
-        a = None if a is None else finite_array("a", a, 18)
-        zero = np.zeros(q.shape)
-        rates, second = (zero if v is None else v), (zero if a is None else a)
+        q, rates, second = _motion(finite_array("q", q, 18), v, a)
         matrix, omega, alpha = euler_placement(
             "xyz", q[..., 3:6], rates[..., 3:6], second[..., 3:6]
         )
         position = np.concatenate([q[..., :3], _quaternion(matrix), q[..., 6:]], axis=-1)
         if v is None:
             return position, None, None
+        v, a = rates, None if a is None else second
         local = _in_axes(matrix, np.stack([v[..., :3], omega], axis=-2))
         velocity = np.concatenate([local[..., 0, :], local[..., 1, :], v[..., 6:]], axis=-1)
         if a is None:
@@ -172,7 +168,7 @@ class Scout(LoadedRobot):
         Raises:
             SingularPose: φ_B = ±90°, where θ_B and ψ_B can't be told apart.
         """
-        q = finite_array("q", q, 19)
+        q, given, second = _motion(finite_array("q", q, 19), v, a)
         if not np.linalg.norm(q[..., 3:7], axis=-1).all():
             raise BadInput("a quaternion in q[3:7] is zero", allowed="unit quaternions")
         matrix = _rotation_matrix(q[..., 3:7])
@@ -195,7 +191,7 @@ class Scout(LoadedRobot):
         position = np.concatenate([q[..., :3], angles, q[..., 7:]], axis=-1)
         if v is None:
             return position, None, None
-        v = finite_array("v", v, 18)
+        v, a = given, None if a is None else second
         linear = np.einsum("...ij,...j->...i", matrix, v[..., :3])
         omega = np.einsum("...ij,...j->...i", matrix, v[..., 3:6])
         inverse = np.linalg.inv(euler_rate_matrix("xyz", angles))
@@ -203,7 +199,6 @@ class Scout(LoadedRobot):
         velocity = np.concatenate([linear, rates, v[..., 6:]], axis=-1)
         if a is None:
             return position, velocity, None
-        a = finite_array("a", a, 18)
         moving = a[..., :3] + np.cross(v[..., 3:6], v[..., :3])
         bias = euler_placement("xyz", angles, rates, np.zeros(rates.shape))[2]
         alpha = np.einsum("...ij,...j->...i", matrix, a[..., 3:6])
@@ -321,7 +316,7 @@ class Scout(LoadedRobot):
         Source: Scout thesis, 3.1 (last equation) and B.4.
         """
         placement = pose_array("foot", foot)
-        outline = np.array(self.specification.leg(side).sole)
+        outline = np.array(self.specification.leg(choice("side", side, SIDES)).sole)
         turned = np.einsum("...ij,kj->...ki", placement[..., :3, :2], outline)
         return turned + placement[..., None, :3, 3]
 
@@ -330,9 +325,17 @@ class Scout(LoadedRobot):
         return self.forward_kinematics(np.zeros(12))
 
     def _leg(self, side: str) -> LegGeometry:
-        if side not in self.legs:
-            raise UnknownName("side", side, SIDES)
-        return self.legs[side]
+        return self.legs[choice("side", side, SIDES)]
+
+
+def _motion(q: np.ndarray, v: Any, a: Any) -> tuple[np.ndarray, ...]:
+    """q, v and a checked and in one stack; what isn't given is zero."""
+    if v is None and a is not None:
+        raise BadInput("a is given without v", allowed="v alone, or both")
+    v, a = (
+        np.zeros(18) if x is None else finite_array(name, x, 18) for name, x in (("v", v), ("a", a))
+    )
+    return together(q=q, v=v, a=a)
 
 
 def _quaternion(matrix: np.ndarray) -> np.ndarray:

@@ -15,7 +15,10 @@ import numpy as np
 
 from scout_pin.geometry import LegGeometry
 from scout_pin.screws import LegScrews
+from thesis_pin.arrays import finite_array
+from thesis_pin.checks import instance
 from thesis_pin.elementwise import blocks
+from thesis_pin.errors import WrongShape
 from thesis_pin.trajectory import BodyMotion
 from thesis_pin.vectors import cross, rows
 
@@ -41,6 +44,11 @@ def leg_rates(
     Source: Scout thesis, equations (3.16) and (3.24); determinant
     sin γ2 · x_3 x_4 sin γ4 · e·(v × a).
     """
+    instance("leg", leg, LegGeometry, "Scout.legs")
+    instance("foot", foot, BodyMotion, "Gait.body()")
+    theta = finite_array("theta", theta, None, 6)
+    if theta.shape != (len(foot.position), 6):
+        raise WrongShape("theta", theta.shape, f"({len(foot.position)}, 6), as foot")
     rate, second = np.empty(theta.shape), np.empty(theta.shape)
     for part in blocks(len(theta)):
         motion = foot.part(part)

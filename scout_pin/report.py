@@ -13,6 +13,7 @@ from scout_pin.dynamics import (
     free_flyer_state,
     inverse_dynamics,
     joint_trajectory,
+    walking,
 )
 from scout_pin.gait import Gait, Motion, RateJump
 from scout_pin.impact import Impact, impacts
@@ -21,6 +22,7 @@ from scout_pin.servo_limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from scout_pin.stability import momentum, support_margin, zero_moment_point
 from thesis_pin import __version__
+from thesis_pin.checks import instance
 from thesis_pin.report import ActuatorSummary, summarise
 from thesis_pin.trajectory import JointTrajectory
 
@@ -274,6 +276,8 @@ def gait_report(
     Raises:
         TrajectoryError, Unreachable, SingularPose, NoSupportForce: The motion is impossible.
     """
+    walking(robot)
+    instance("gait", gait, Gait, "scout_pin.load_gait()")
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     joints = joint_trajectory(robot, motion)

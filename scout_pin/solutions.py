@@ -9,6 +9,8 @@ import numpy as np
 
 from scout_pin.forward import leg_forward_kinematics
 from scout_pin.geometry import LegGeometry
+from thesis_pin.branches import label
+from thesis_pin.checks import element
 from thesis_pin.tolerances import TOLERANCES
 
 BRANCHES = tuple((e, two, knee) for e in (1, -1) for two in (1, -1) for knee in (1, -1))
@@ -102,10 +104,14 @@ class LegSolutions:
         Args:
             index: Which pose of the stack.
             branch: Number of a branch in :data:`BRANCHES`; None speaks of the pose.
+
+        Raises:
+            BadInput: There is no such pose or branch.
         """
-        index = (index,) if isinstance(index, int) else index
+        index = element(index, self.target.shape[:-2], "poses")
+        branch = None if branch is None else element(branch, (8,), "branches")[0]
         if branch is not None:
-            text = f"branch {BRANCHES[branch]} is {self._explain_branch(index, branch)}"
+            text = f"branch {label(BRANCHES[branch])} is {self._explain_branch(index, branch)}"
         elif (valid := self.valid[index]).any():
             text = f"{int(valid.sum())} of 8 branches are valid"
         elif (reachable := self.reachable[index]).any():
@@ -113,7 +119,7 @@ class LegSolutions:
             best = int(np.argmin(beyond.max(axis=-1)))
             text = (
                 f"reachable, but outside the joint limits in each of the "
-                f"{int(reachable.sum())} branches; the nearest, {BRANCHES[best]}, "
+                f"{int(reachable.sum())} branches; the nearest, {label(BRANCHES[best])}, "
                 f"is {self._explain_branch(index, best)}"
             )
         else:

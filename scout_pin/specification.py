@@ -13,6 +13,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, field_validator
 
+from thesis_pin.checks import choice
 from thesis_pin.errors import NonPhysicalInertia
 from thesis_pin.inertia import Convention, Reading, centroidal_inertia, check_physical
 from thesis_pin.specification import (
@@ -174,7 +175,12 @@ class Specification(Strict):
         return read_toml("specification", cls, SCOUT_PATH if path is None else path)
 
     def leg(self, side: str) -> Leg:
-        """The leg of one side."""
+        """The leg of one side.
+
+        Raises:
+            UnknownName: There is no such side.
+        """
+        choice("side", side, SIDES)
         return self.legs.left if side == "left" else self.legs.right
 
     @property

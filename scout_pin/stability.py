@@ -12,7 +12,8 @@ from scout_pin.contact import support_polygon
 from scout_pin.gait import Motion
 from scout_pin.model import Scout
 from thesis_pin.arrays import finite_array
-from thesis_pin.errors import NoSupportForce
+from thesis_pin.checks import instance, real
+from thesis_pin.errors import NoSupportForce, WrongShape
 
 GRAVITY = 9.81
 """Pinocchio's default, [m/s²]."""
@@ -41,6 +42,8 @@ def zero_moment_point(
 
     Source: Scout thesis, section 6.2, equation (6.1).
     """
+    mass = real("mass", mass, low=0.0, unit="kg")
+    ground_height = real("ground_height", ground_height, unit="m")
     com = finite_array("com", com, 3)
     rate = finite_array("momentum_rate", momentum_rate, 6)
     weight = mass * GRAVITY
@@ -70,6 +73,8 @@ def pressure_point(motion: Motion, wrench: np.ndarray) -> np.ndarray:
     Raises:
         NoSupportForce: The floor doesn't push at some sample.
     """
+    wrench = finite_array("wrench", wrench, None, 2, 6)
+    instance("motion", motion, Motion, "Gait.sample()")
     feet = np.stack([motion.left_foot.position, motion.right_foot.position], axis=1)
     force = wrench[..., :3].sum(axis=1)
     moment = (wrench[..., 3:] + np.cross(feet, wrench[..., :3])).sum(axis=1)
@@ -130,6 +135,11 @@ def support_margin(robot: Scout, motion: Motion, points: np.ndarray) -> np.ndarr
     Returns:
         Margins [m], positive inside, shape ``(n,)``.
     """
+    instance("robot", robot, Scout, "scout_pin.load()")
+    instance("motion", motion, Motion, "Gait.sample()")
+    points = finite_array("points", points, None, 2)
+    if points.shape != (len(motion.time), 2):
+        raise WrongShape("points", points.shape, f"({len(motion.time)}, 2), as motion")
     margins = np.empty(len(points))
     feet = {"left": motion.left_foot.placement, "right": motion.right_foot.placement}
     for samples, polygon in polygons(robot, motion, feet):

@@ -6,11 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from scout_pin.gait import COORDINATES
 from scout_pin.kinematics import BRANCHES, LegSolutions
 from scout_pin.specification import JOINT_SYMBOLS
+from thesis_pin import branches
 from thesis_pin.command_line import print_table, print_text
 
 if TYPE_CHECKING:  # inverse kinematics alone needs no report
+    from scout_pin.model import Scout
     from scout_pin.report import GaitReport
 
 
@@ -61,35 +64,36 @@ def print_report(report: GaitReport) -> None:
     print_text("", *report.verdict())
 
 
-def ik_document(solutions: LegSolutions) -> dict[str, Any]:
-    """Inverse kinematics of one pose on every branch, JSON-ready."""
-    branches = [
-        {
-            "signs": list(BRANCHES[k]),
-            "reachable": bool(solutions.reachable[k]),
-            "valid": bool(solutions.valid[k]),
-            "angles": solutions.angles[k] if solutions.reachable[k] else None,
-            "reach_excess": float(solutions.excess[k]),
-            "position_residual": float(solutions.position_residual[k])
-            if solutions.reachable[k]
-            else None,
-        }
-        for k in range(8)
-    ]
-    return {
-        "schema": "scout-pin/leg-branches",
-        "version": 1,
-        "joints": list(solutions.geometry.names),
-        "branches": branches,
-        "explanation": solutions.explain(),
-    }
+def ik_document(robot: Scout, solutions: LegSolutions, pose: np.ndarray) -> dict[str, Any]:
+    """Inverse kinematics of one foot pose on every branch, JSON-ready.
+
+    Args:
+        robot: The biped.
+        solutions: All branches of one pose.
+        pose: The pose as asked for: x, y, z [m], pitch, roll, yaw [rad], ``(6,)``.
+    """
+    excess = (solutions.excess, True)
+    return branches.document(
+        "scout-pin",
+        robot.specification.name,
+        joints=solutions.geometry.names,
+        coordinates=COORDINATES,
+        pose=pose,
+        branches=[
+            branches.branch(
+                solutions, k, branches.label(signs), solutions.explain((), k), reach_excess=excess
+            )
+            for k, signs in enumerate(BRANCHES)
+        ],
+        explanation=solutions.explain(),
+    )
 
 
 def print_solutions(solutions: LegSolutions) -> None:
     """Print joint angles of one pose, a row a branch."""
     rows = []
     for k, signs in enumerate(BRANCHES):
-        label = "".join("+" if sign > 0 else "-" for sign in signs)
+        label = branches.label(signs)
         if not solutions.reachable[k]:
             rows.append((label, *[""] * 6, f"{solutions.excess[k] * 1e3:.1f} mm off"))
             continue

@@ -58,13 +58,14 @@ def ik(arguments: argparse.Namespace) -> int:
     from thesis_pin.rotations import euler_placement, transform
 
     robot = load(arguments.specification, inertia=arguments.inertia)
-    zero = np.zeros(3)
-    rotation = euler_placement("xyz", np.radians(arguments.rotation), zero, zero)[0]
-    pose = transform(rotation, np.array(arguments.position))
-    solutions = robot.leg_inverse_kinematics(arguments.side, pose)
+    pose, zero = np.concatenate([arguments.position, np.radians(arguments.rotation)]), np.zeros(3)
+    rotation = euler_placement("xyz", pose[3:], zero, zero)[0]
+    solutions = robot.leg_inverse_kinematics(arguments.side, transform(rotation, pose[:3]))
     if not solutions.reachable.any():
         raise Unreachable(solutions.explain(), where=f"{arguments.side} foot")
-    return show(arguments, lambda: ik_document(solutions), lambda: print_solutions(solutions))
+    return show(
+        arguments, lambda: ik_document(robot, solutions, pose), lambda: print_solutions(solutions)
+    )
 
 
 def info(arguments: argparse.Namespace) -> int:

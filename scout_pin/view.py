@@ -10,6 +10,7 @@ from scout_pin.dynamics import free_flyer_state
 from scout_pin.report import GaitReport
 from scout_pin.specification import JOINT_NAMES, SIDES
 from scout_pin.stability import polygons
+from thesis_pin.checks import instance
 from thesis_pin.drawing import axis_placements, joint_placements, robot_items
 from thesis_pin.report import PALETTE
 from thesis_pin.scene import (
@@ -47,6 +48,7 @@ def gait_scene(report: GaitReport) -> Scene:
     Args:
         report: The report; at most :data:`MOST_SAMPLES` of its samples are shown.
     """
+    instance("report", report, GaitReport, "gait_report()")
     robot, keep = report.robot, thinned(report.joints.time, MOST_SAMPLES)
     q = free_flyer_state(report.motion.torso, report.joints)[0][keep]
     height = float(report.com[:, 2].mean())

@@ -23,12 +23,16 @@ def finite_array(name: str, value: Any, *shape: int | None) -> np.ndarray:
         Array of shape ``(..., *shape)``.
 
     Raises:
+        BadInput: It holds something else than real numbers, or rows of unequal length.
         WrongShape: The last axes differ.
         NotFinite: Some entry is NaN or infinite.
     """
     allowed = f"(..., {', '.join('n' if size is None else str(size) for size in shape)})"
     try:
-        array = np.asarray(value, dtype=float)
+        array = np.asarray(value)
+        if array.dtype.kind not in "fiubO":  # text and complex numbers would pass as floats
+            raise TypeError(f"its entries are {array.dtype.name}")
+        array = np.asarray(array, dtype=float)
     except (TypeError, ValueError) as error:
         raise BadInput(f"{name} isn't an array of numbers ({error})", allowed=allowed) from None
     last = array.shape[array.ndim - len(shape) :] if shape else ()
@@ -39,6 +43,18 @@ def finite_array(name: str, value: Any, *shape: int | None) -> np.ndarray:
     if not np.isfinite(array).all():
         index = tuple(int(k) for k in np.argwhere(~np.isfinite(array))[0])
         raise NotFinite(name, index)
+    return array
+
+
+def vector(name: str, value: Any, size: int) -> np.ndarray:
+    """Turn a value into one float vector ``(size,)``, no stack.
+
+    Raises:
+        WrongShape, NotFinite, BadInput: As :func:`finite_array`; or it is a stack.
+    """
+    array = finite_array(name, value, None)
+    if array.shape != (size,):
+        raise WrongShape(name, array.shape, f"({size},)")
     return array
 
 
@@ -58,9 +74,9 @@ def pose_array(name: str, pose: Any) -> np.ndarray:
         BadInput: The rotation part isn't a rotation or the last row isn't 0 0 0 1.
     """
     if hasattr(pose, "homogeneous"):
-        return np.asarray(pose.homogeneous)
-    if isinstance(pose, list | tuple) and pose and hasattr(pose[0], "homogeneous"):
-        return np.stack([np.asarray(one.homogeneous) for one in pose])
+        return finite_array(name, pose.homogeneous, 4, 4)
+    if isinstance(pose, list | tuple) and pose and all(hasattr(p, "homogeneous") for p in pose):
+        return finite_array(name, [one.homogeneous for one in pose], 4, 4)
     array = finite_array(name, pose, 4, 4)
     check_rigid(name, array.reshape(-1, 16).T, array.shape[:-2])
     return array
@@ -116,6 +132,41 @@ def _rigid_error(xp: Elementwise, m: Any) -> Any:
         wrong = abs(m[12]) + abs(m[13]) + abs(m[14]) + abs(m[15] - 1.0)
         error = xp.where(wrong > 0.0, error + 2.0, error)
     return error
+
+
+def together(**vectors: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Vectors broadcast to one stack; each keeps its last axis.
+
+    Args:
+        **vectors: Name → array ``(..., n)``, n of its own.
+
+    Raises:
+        BadInput: Their stacks differ; says all of them.
+    """
+    try:
+        stack = np.broadcast_shapes(*(vector.shape[:-1] for vector in vectors.values()))
+    except ValueError:
+        given = ", ".join(f"{name} has shape {array.shape}" for name, array in vectors.items())
+        raise BadInput(given, allowed="equal stacks, or single ones") from None
+    return tuple(np.broadcast_to(one, (*stack, one.shape[-1])) for one in vectors.values())
+
+
+def spread(name: str, vector: np.ndarray, stack: tuple[int, ...]) -> np.ndarray:
+    """A vector, or one for each element of a stack, broadcast to that stack.
+
+    Args:
+        name: Name of the argument, for messages.
+        vector: Shape ``(n,)`` or ``(..., n)``.
+        stack: Shape of the stack.
+
+    Raises:
+        WrongShape: It doesn't fit the stack.
+    """
+    shape = (*stack, vector.shape[-1])
+    try:
+        return np.broadcast_to(vector, shape)
+    except ValueError:
+        raise WrongShape(name, vector.shape, f"{shape}, or one for all") from None
 
 
 def skew(vector: np.ndarray) -> np.ndarray:

@@ -66,7 +66,7 @@ def run_verb(
     from thesis_pin.command_line import OK, print_entries, print_table, print_text, write_file
     from thesis_pin.report import json_bytes
 
-    only = known(arguments.equation, catalogue, robot) if arguments.equation else None
+    only = known(arguments.equation, catalogue, robot) if arguments.equation is not None else None
     report = audit(only=only, progress=progress_bar)
     if arguments.html:
         write_file(arguments.html, page(report).encode())

@@ -26,6 +26,7 @@ import pinocchio as pin
 import yaml
 from pydantic import Field, field_validator
 
+from thesis_pin.checks import shown
 from thesis_pin.errors import BadInput, ModelError, UnknownName
 from thesis_pin.joint_types import replace_joints
 from thesis_pin.loading import LoadedRobot, check_urdf, frame_id
@@ -92,11 +93,15 @@ class ClosureFile(Strict):
     @classmethod
     def parse(cls, text: str, *, where: str = "<text>") -> ClosureFile:
         """The same for text already in memory."""
+        if not isinstance(text, str):
+            raise BadInput(f"the {FILE_KIND} is {shown(text)}", allowed="text", where=where)
         try:
             data = yaml.load(text, Loader=_UniqueKeys)
         except yaml.YAMLError as error:
             reason = " ".join(str(error).split())
             raise BadInput(f"the {FILE_KIND} isn't valid YAML: {reason}", where=where) from None
+        except RecursionError:
+            raise BadInput(f"the {FILE_KIND} is nested too deeply", where=where) from None
         # key_lines knows TOML's "key = …"; a YAML key at the start of a line is its twin.
         lines = key_lines("\n".join(line.replace(":", " =", 1) for line in text.splitlines()))
         return validate(FILE_KIND, cls, data, where=where, lines=lines)
@@ -255,11 +260,7 @@ def load(urdf: str | Path, closures: str | Path, root_joint: Any = None) -> Clos
         UnknownName: It names a frame or joint the URDF doesn't have.
         ModelError: The URDF isn't a sound tree, or a motor or loop makes no sense.
     """
-    try:
-        text = Path(urdf).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it isn't UTF-8 text"
-        raise BadInput(f"can't read the URDF: {reason}", where=str(urdf)) from None
+    text = read_text("URDF", urdf)
     content = ClosureFile.read(closures)
     check_urdf(text, where=str(urdf))  # once more below, but here its messages name the file
     folder = Path(urdf).resolve().parent

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import argparse
 import os
+import stat
 import sys
 import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from thesis_pin.checks import MOST, shown
 from thesis_pin.errors import BadInput, ThesisPinError
 
 if TYPE_CHECKING:
@@ -29,6 +31,13 @@ class Parser(argparse.ArgumentParser):
         kwargs.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
         kwargs.setdefault("allow_abbrev", False)
         super().__init__(*args, **kwargs)
+
+    def parse_args(self, args=None, namespace=None):
+        """As argparse does, but refuse ``--flag=--``, of which argparse makes an empty list."""
+        for word in sys.argv[1:] if args is None else args:
+            if word.startswith("--") and word.endswith("=--"):
+                self.error(f"argument {word[:-3]}: '--' is no value")
+        return super().parse_args(args, namespace)
 
 
 def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None) -> int:
@@ -51,6 +60,12 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
     except ThesisPinError as error:
         print(f"{parser.prog}: error: {error}", file=sys.stderr)
         return BAD_INPUT
+    except MemoryError:
+        print(
+            f"{parser.prog}: error: there isn't enough memory for this; ask for less at once",
+            file=sys.stderr,
+        )
+        return BAD_INPUT
     except BrokenPipeError:
         # The reader of our output has left; there is nobody to tell.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -71,15 +86,33 @@ def check_targets(parsed: argparse.Namespace) -> None:
         if target is None or target == "-":
             continue
         path = Path(target)
-        if not target or path.is_dir():
+        if not target or _kind(target, option) == "folder":
             raise BadInput(
                 f"can't write it: {target!r} isn't the name of a file", where=f"--{option}"
             )
         if not path.parent.is_dir():
             raise BadInput(f"can't write it: no folder {path.parent}", where=str(path))
     out = getattr(parsed, "out", None)
-    if out is not None and (not out or (Path(out).exists() and not Path(out).is_dir())):
+    if out is not None and (not out or _kind(out, "out") == "file"):
         raise BadInput(f"can't make the folder: {out!r} isn't a folder", where="--out")
+
+
+def _kind(name: str, option: str) -> str:
+    """What stands at a path: ``"folder"``, ``"file"`` or nothing.
+
+    Raises:
+        BadInput: No path can have this name, or it can't be looked at.
+    """
+    try:
+        mode = os.stat(name).st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return ""
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise BadInput(
+            f"can't write {shown(name)}: {reason}", where=f"--{option}", allowed="a path"
+        ) from None
+    return "folder" if stat.S_ISDIR(mode) else "file"
 
 
 def number(name: str, *, positive: bool = False) -> Callable[[str], float]:
@@ -98,17 +131,18 @@ def number(name: str, *, positive: bool = False) -> Callable[[str], float]:
     return read
 
 
-def count(name: str, least: int) -> Callable[[str], int]:
-    """An argparse type: a whole number of at least ``least``."""
+def count(name: str, least: int, most: int = MOST) -> Callable[[str], int]:
+    """An argparse type: a whole number from ``least`` to ``most``."""
 
     def read(text: str) -> int:
         try:
             value = int(text)
         except ValueError:
             value = least - 1
-        if value < least:
+        if not least <= value <= most:
             raise argparse.ArgumentTypeError(
-                f"{name} is {text!r}; allowed: a whole number of at least {least}"
+                f"{name} is {shown(text)}; allowed: a whole number of at least {least}"
+                + (f", at most {most}" if value > most else "")
             )
         return value
 
@@ -151,10 +185,11 @@ def write_file(target: str | Path, content: bytes) -> None:
             stream.write(content)
         os.chmod(stream.name, 0o644)
         os.replace(stream.name, path)
-    except OSError as error:
+    except (OSError, ValueError) as error:
         if "stream" in locals():
             Path(stream.name).unlink(missing_ok=True)
-        raise BadInput(f"can't write it: {error.strerror}", where=str(path)) from None
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise BadInput(f"can't write it: {reason}", where=str(path)) from None
 
 
 def write_folder(folder: str | Path, files: Mapping[str, bytes]) -> None:

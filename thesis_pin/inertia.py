@@ -7,10 +7,12 @@ inertia tensor (−∫xy dm) or products of inertia (+∫xy dm).
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
+from thesis_pin.arrays import finite_array, vector
+from thesis_pin.checks import choice, real
 from thesis_pin.errors import NonPhysicalInertia
 
 Convention = Literal["tensor_about_com", "tensor_about_joint", "products_about_joint"]
@@ -48,7 +50,9 @@ def centroidal_inertia(
         Centroidal tensor in the joint frame's axes [kg·m²], shape ``(3, 3)``.
         It isn't checked; see :func:`check_physical`.
     """
-    tensor = np.array(matrix, dtype=float)
+    choice("inertia convention", convention, get_args(Convention))
+    choice("inertia", reading, get_args(Reading))
+    tensor = finite_array("matrix", matrix, 3, 3).copy()
     if reading == "printed" or convention == "tensor_about_com":
         return tensor
     if convention == "products_about_joint":
@@ -82,10 +86,12 @@ def check_physical(link: str, mass: float, com: np.ndarray, centroidal: np.ndarr
     Raises:
         NonPhysicalInertia: With eigenvalues and principal moments.
     """
+    mass, com = real("mass", mass, unit="kg"), vector("com", com, 3)
+    centroidal = finite_array("centroidal", centroidal, 3, 3)
     principal = np.linalg.eigvalsh(centroidal)
     # About the centre of mass the pseudo-inertia is block diagonal, so its sign
     # is that of the mass and of the second moments ½ tr(I) − I.
     if mass > 0 and principal[0] > 0 and principal[0] + principal[1] >= principal[2]:
         return
-    eigenvalues = np.linalg.eigvalsh(pseudo_inertia(mass, np.asarray(com), centroidal))
+    eigenvalues = np.linalg.eigvalsh(pseudo_inertia(mass, com, centroidal))
     raise NonPhysicalInertia(link, eigenvalues.tolist(), principal.tolist())

@@ -13,7 +13,25 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
 
 from thesis_pin.arrays import finite_array
-from thesis_pin.errors import TrajectoryError, UnknownName
+from thesis_pin.checks import choice
+from thesis_pin.errors import TrajectoryError
+
+
+def _nodes(t: ArrayLike, value: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and values of a curve, checked; each ``(n,)``."""
+    nodes, values = finite_array("t", t, None), finite_array("value", value, None)
+    if nodes.ndim != 1 or values.shape != nodes.shape or nodes.size < 2:
+        raise TrajectoryError(
+            f"{nodes.size} nodes and {values.size} values",
+            allowed="as many values as nodes, at least 2",
+        )
+    if (np.diff(nodes) <= 0).any():
+        k = int(np.argmax(np.diff(nodes) <= 0))
+        raise TrajectoryError(
+            f"time goes from {nodes[k]:g} to {nodes[k + 1]:g} at node {k + 1}",
+            allowed="strictly increasing t",
+        )
+    return nodes, values
 
 
 def quadratic(t: ArrayLike, value: ArrayLike) -> PPoly:
@@ -29,7 +47,7 @@ def quadratic(t: ArrayLike, value: ArrayLike) -> PPoly:
     Source: Scout thesis, appendix C, equations C.2–C.5. The 3m equations are
     solved piece by piece: each piece starts with the slope of the one before.
     """
-    nodes, values = np.asarray(t, dtype=float), np.asarray(value, dtype=float)
+    nodes, values = _nodes(t, value)
     width, rise = np.diff(nodes), np.diff(values)
     coefficients = np.zeros((3, len(width)))
     slope = rise[0] / width[0]
@@ -42,24 +60,24 @@ def quadratic(t: ArrayLike, value: ArrayLike) -> PPoly:
 
 def linear(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Straight lines between the nodes; C⁰, so rates jump at every node."""
-    nodes, values = np.asarray(t, dtype=float), np.asarray(value, dtype=float)
+    nodes, values = _nodes(t, value)
     return PPoly(np.stack([np.diff(values) / np.diff(nodes), values[:-1]]), nodes)
 
 
 def cubic(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Cubic spline, C², at rest at both ends."""
-    return CubicSpline(t, value, bc_type="clamped")
+    return CubicSpline(*_nodes(t, value), bc_type="clamped")
 
 
 def free(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Cubic spline through samples of a motion that goes on at both ends (not-a-knot), C²."""
-    return CubicSpline(t, value, bc_type="not-a-knot")
+    return CubicSpline(*_nodes(t, value), bc_type="not-a-knot")
 
 
 def quintic(t: ArrayLike, value: ArrayLike) -> PPoly:
     """Quintic spline, C⁴, with zero rate and acceleration at both ends."""
     ends = [(1, 0.0), (2, 0.0)]
-    return PPoly.from_spline(make_interp_spline(t, value, k=5, bc_type=(ends, ends)))
+    return PPoly.from_spline(make_interp_spline(*_nodes(t, value), k=5, bc_type=(ends, ends)))
 
 
 METHODS: dict[str, Callable[[ArrayLike, ArrayLike], PPoly]] = {
@@ -88,21 +106,8 @@ def interpolate(t: ArrayLike, value: ArrayLike, method: str = "quadratic") -> PP
         TrajectoryError: Too few nodes, unequal lengths or t not increasing.
         NotFinite: A node or value is NaN or infinite.
     """
-    if method not in METHODS:
-        raise UnknownName("interpolation", method, list(METHODS))
-    nodes, values = finite_array("t", t, None), finite_array("value", value, None)
-    if nodes.ndim != 1 or values.shape != nodes.shape or nodes.size < 2:
-        raise TrajectoryError(
-            f"{nodes.size} nodes and {values.size} values",
-            allowed="as many values as nodes, at least 2",
-        )
-    if (np.diff(nodes) <= 0).any():
-        k = int(np.argmax(np.diff(nodes) <= 0))
-        raise TrajectoryError(
-            f"time goes from {nodes[k]:g} to {nodes[k + 1]:g} at node {k + 1}",
-            allowed="strictly increasing t",
-        )
-    return METHODS[method](nodes, values)
+    choice("interpolation", method, list(METHODS))
+    return METHODS[method](t, value)
 
 
 def constant(start: float, end: float, value: float) -> PPoly:

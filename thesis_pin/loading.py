@@ -20,6 +20,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pinocchio as pin
 
+from thesis_pin.checks import instance, shown
 from thesis_pin.errors import ModelError, UnknownName
 from thesis_pin.inertia import check_physical
 
@@ -55,6 +56,8 @@ def check_urdf(text: str, *, where: str = "URDF") -> None:
             limits or axes, a moving link without mass.
         NonPhysicalInertia: With the link, its eigenvalues and by how much.
     """
+    if not isinstance(text, str):
+        raise ModelError(f"the URDF is {shown(text)}", where=where, allowed="its text")
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
@@ -103,6 +106,12 @@ def load_model(text: str, root_joint: Any = None, *, where: str = "URDF") -> pin
         if isinstance(root_joint, list):
             return _on_chain(root_joint, pin.buildModelFromXML(text))
         return pin.buildModelFromXML(text, root_joint)
+    except (TypeError, IndexError) as error:  # Pinocchio's bindings know the types of joints
+        raise ModelError(
+            f"root_joint is {shown(root_joint)}",
+            where=where,
+            allowed="None, a Pinocchio joint model, or a list of (name, joint model)",
+        ) from error
     except (RuntimeError, ValueError) as error:
         raise ModelError(f"Pinocchio can't read it ({error})", where=where) from None
 
@@ -121,14 +130,16 @@ def _on_chain(joints: list[tuple[str, Any]], model: pin.Model) -> pin.Model:
 
 def frame_id(model: pin.Model, name: str, *, where: str = "") -> int:
     """Index of a frame; unlike Pinocchio's, it raises :class:`UnknownName`."""
-    if not model.existFrame(name):
+    instance("model", model, pin.Model, "load_model()")
+    if not isinstance(name, str) or not model.existFrame(name):
         raise UnknownName("frame", name, [frame.name for frame in model.frames], where=where)
     return model.getFrameId(name)
 
 
 def joint_id(model: pin.Model, name: str, *, where: str = "") -> int:
     """Index of a joint; unlike Pinocchio's, it raises :class:`UnknownName`."""
-    if not model.existJointName(name):
+    instance("model", model, pin.Model, "load_model()")
+    if not isinstance(name, str) or not model.existJointName(name):
         raise UnknownName("joint", name, list(model.names)[1:], where=where)
     return model.getJointId(name)
 

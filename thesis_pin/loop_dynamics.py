@@ -13,7 +13,6 @@ its condition how well; λ follows from the rest.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -21,9 +20,10 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
-from thesis_pin.arrays import finite_array
+from thesis_pin.arrays import finite_array, together, vector
+from thesis_pin.checks import function, instance, real
 from thesis_pin.closures import ClosedRobot
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, ThesisPinError
 from thesis_pin.loops import (
     constraint_drift,
     constraints,
@@ -34,6 +34,9 @@ from thesis_pin.loops import (
 )
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.trajectory import JointTrajectory
+
+_SHORTEST = 1e-9
+"""Least duration and step of a simulation [s]."""
 
 
 @dataclass(frozen=True)
@@ -85,13 +88,16 @@ def inverse_dynamics(
     Raises:
         BadInput: The motion opens a loop (see :func:`close`, :func:`follow`).
     """
-    model = robot.model
-    q = finite_array("q", q, model.nq)
-    v, a = finite_array("v", v, model.nv), finite_array("a", a, model.nv)
-    stack = np.broadcast_shapes(q.shape[:-1], v.shape[:-1], a.shape[:-1])
-    q, v, a = (
-        np.broadcast_to(x, (*stack, x.shape[-1])).reshape(-1, x.shape[-1]) for x in (q, v, a)
+    model = instance("robot", robot, ClosedRobot, "closures.load()").model
+    q, v, a = together(
+        q=finite_array("q", q, model.nq),
+        v=finite_array("v", v, model.nv),
+        a=finite_array("a", a, model.nv),
     )
+    stack = q.shape[:-1]
+    if not q.size:
+        raise BadInput("the stack is empty", allowed="at least one sample")
+    q, v, a = (x.reshape(-1, x.shape[-1]) for x in (q, v, a))
     data, count = model.createData(), len(q)
     tau, matrices = np.empty((count, model.nv)), np.empty((count, robot.equations, model.nv))
     rotations = np.empty((count, len(robot.loops), 3, 3))
@@ -118,10 +124,8 @@ def forward_dynamics(robot: ClosedRobot, q: Any, v: Any, torque: Any) -> np.ndar
     Pinocchio's ``constraintDynamics``; the loops' own drift isn't corrected here, see
     :func:`simulate`.
     """
-    q, v = finite_array("q", q, robot.model.nq), finite_array("v", v, robot.model.nv)
-    torque = finite_array("torque", torque, len(robot.actuators))
-    stepper = ForwardDynamics(robot)
-    return each(robot, stepper, q, v, torque)
+    instance("robot", robot, ClosedRobot, "closures.load()")
+    return each(robot, ForwardDynamics(robot), q=q, v=v, torque=torque)
 
 
 class ForwardDynamics:
@@ -176,13 +180,16 @@ def simulate(
         The motion, one row a step.
 
     Raises:
-        BadInput: Duration or step isn't positive, or q doesn't close the loops.
+        BadInput: Duration or step isn't positive, q doesn't close the loops, or ``torque``
+            fails or returns something else than ``(motors,)`` finite numbers.
         Unreachable: A step left the loops too far open to close again.
     """
-    if not (duration > 0 and step > 0 and math.isfinite(duration / step)):
-        raise BadInput(f"duration {duration} s in steps of {step} s", allowed="both positive")
-    model, dynamics = robot.model, ForwardDynamics(robot)
-    q, v = finite_array("q", q, model.nq).copy(), finite_array("v", v, model.nv)
+    model = instance("robot", robot, ClosedRobot, "closures.load()").model
+    duration = real("duration", duration, low=_SHORTEST, unit="s")
+    step = real("step", step, low=_SHORTEST, unit="s")
+    asked = _asked(torque, len(robot.actuators))
+    q, v = vector("q", q, model.nq).copy(), vector("v", v, model.nv)
+    dynamics = ForwardDynamics(robot)
     opening = float(np.abs(residual(robot, q)).max(initial=0.0))
     if opening > TOLERANCES.loop_closure:
         raise BadInput(f"the loops are open by {opening:.2e}", remedy="Close them with close()")
@@ -190,7 +197,7 @@ def simulate(
     time = np.append(np.arange(0.0, duration - 1e-9 * step, step), duration)
 
     def slope(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
-        return dynamics(q, v, torque(t, q, v))
+        return dynamics(q, v, asked(t, q, v))
 
     rows = [(q, v, slope(0.0, q, v))]
     for now, width in zip(time[:-1], np.diff(time), strict=True):
@@ -208,6 +215,26 @@ def simulate(
         v = project_rates(robot, dynamics.data, q, v)
         rows.append((q, v, slope(now + width, q, v)))
     return JointTrajectory(time, *(np.array(column) for column in zip(*rows, strict=True)))
+
+
+def _asked(
+    torque: Callable[[float, np.ndarray, np.ndarray], Any], motors: int
+) -> Callable[[float, np.ndarray, np.ndarray], np.ndarray]:
+    """The user's torques, with one clear error if they can't be used."""
+    function("torque", torque, "torque(t, q, v)")
+
+    def call(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        try:
+            value = torque(t, q.copy(), v.copy())  # what it does to them stays its own
+        except ThesisPinError:
+            raise
+        except Exception as error:
+            raise BadInput(
+                f"torque(t, q, v) fails: {type(error).__name__}: {error}", where=f"t = {t:g} s"
+            ) from error
+        return vector(f"what torque(t, q, v) returns at t = {t:g} s", value, motors)
+
+    return call
 
 
 def _check_motion(

@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
-from thesis_pin.arrays import finite_array
+from thesis_pin.arrays import finite_array, together, vector
+from thesis_pin.checks import instance, whole
 from thesis_pin.closures import ClosedRobot
 from thesis_pin.errors import BadInput, SingularPose, Unreachable
 from thesis_pin.tolerances import TOLERANCES
@@ -27,7 +28,7 @@ _AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
 def residual(robot: ClosedRobot, q: np.ndarray) -> np.ndarray:
     """Opening of the loops [m], [rad], shape ``(..., equations)``; zero when closed."""
-    return each(robot, lambda q: constraints(robot, robot.model.createData(), q)[0], q)
+    return each(robot, lambda q: constraints(robot, robot.model.createData(), q)[0], q=q)
 
 
 def jacobian(robot: ClosedRobot, q: np.ndarray) -> np.ndarray:
@@ -36,7 +37,7 @@ def jacobian(robot: ClosedRobot, q: np.ndarray) -> np.ndarray:
     For ball joints (3d) that holds in open configurations too; for welds (6d) the
     rows are the relative twist, which is d residual only where the loop is closed.
     """
-    return each(robot, lambda q: constraints(robot, robot.model.createData(), q)[1], q)
+    return each(robot, lambda q: constraints(robot, robot.model.createData(), q)[1], q=q)
 
 
 def residual_derivative(robot: ClosedRobot, q: np.ndarray) -> np.ndarray:
@@ -50,12 +51,14 @@ def residual_derivative(robot: ClosedRobot, q: np.ndarray) -> np.ndarray:
         gap, matrix, _ = constraints(robot, robot.model.createData(), q)
         return _derivative(robot, gap, matrix)
 
-    return each(robot, one, q)
+    return each(robot, one, q=q)
 
 
 def drift(robot: ClosedRobot, q: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Ȧ v of closed loops, shape ``(..., equations)``: their acceleration at v̇ = 0."""
-    return each(robot, lambda q, v: constraint_drift(robot, robot.model.createData(), q, v), q, v)
+    return each(
+        robot, lambda q, v: constraint_drift(robot, robot.model.createData(), q, v), q=q, v=v
+    )
 
 
 @dataclass(frozen=True)
@@ -84,7 +87,8 @@ class Mobility:
 
 def mobility(robot: ClosedRobot, q: np.ndarray) -> Mobility:
     """Degrees of freedom at one configuration ``(nq,)``."""
-    _, values, rows = np.linalg.svd(jacobian(robot, q))
+    instance("robot", robot, ClosedRobot, "closures.load()")
+    _, values, rows = np.linalg.svd(jacobian(robot, vector("q", q, robot.model.nq)))
     rank = int((values > TOLERANCES.rank * values[0]).sum()) if values.size else 0
     nv = robot.model.nv
     driven = np.linalg.svd(rows[rank:, list(robot.actuated)], compute_uv=False)
@@ -118,17 +122,16 @@ def close(
     Raises:
         Unreachable: The steps don't converge: no closed configuration near the guess.
     """
-    guess = finite_array("guess", guess, robot.model.nq)
+    iterations = whole("iterations", iterations, 1)
     if motors is None:
-        return each(robot, lambda q: newton_close(robot, q, slice(None), iterations), guess)
-    motors = finite_array("motors", motors, len(robot.actuators))
+        return each(robot, lambda q: newton_close(robot, q, slice(None), iterations), guess=guess)
 
     def one(q: np.ndarray, positions: np.ndarray) -> np.ndarray:
         q = q.copy()
         q[robot.actuated_q] = positions
         return newton_close(robot, q, robot.passive, iterations)
 
-    return each(robot, one, guess, motors)
+    return each(robot, one, guess=guess, motors=motors)
 
 
 def follow(
@@ -152,13 +155,21 @@ def follow(
         Unreachable: A sample can't be closed.
         SingularPose: The motors don't determine the passive joints at a sample.
     """
+    instance("robot", robot, ClosedRobot, "closures.load()")
     count, nv = len(robot.actuators), robot.model.nv
     motors, rates, accelerations = (
         finite_array(name, value, None, count)
         for name, value in (("motors", motors), ("rates", rates), ("accelerations", accelerations))
     )
+    time = finite_array("time", time, None)
+    shapes = [x.shape for x in (time, motors, rates, accelerations)]
+    if shapes != [(len(time),), *[(len(time), count)] * 3] or not len(time):
+        raise BadInput(
+            f"time, motors, rates and accelerations have shapes {', '.join(map(str, shapes))}",
+            allowed=f"(n,), then three times (n, {count}), n at least 1",
+        )
     q, v, a = np.empty((len(motors), robot.model.nq)), *np.zeros((2, len(motors), nv))
-    data, current = robot.model.createData(), finite_array("guess", guess, robot.model.nq)
+    data, current = robot.model.createData(), vector("guess", guess, robot.model.nq)
     for k, positions in enumerate(motors):
         current = q[k] = close(robot, current, positions)
         matrix = constraints(robot, data, current)[1]
@@ -170,14 +181,28 @@ def follow(
         v[k, robot.passive] = -np.linalg.lstsq(passive, matrix @ v[k])[0]
         known = constraint_drift(robot, data, current, v[k]) + matrix @ a[k]
         a[k, robot.passive] = -np.linalg.lstsq(passive, known)[0]
-    return JointTrajectory(finite_array("time", time, None), q, v, a)
+    return JointTrajectory(time, q, v, a)
 
 
-def each(robot: ClosedRobot, function: Callable[..., np.ndarray], *arrays: Any) -> np.ndarray:
-    """Apply a function of single samples over broadcast stacks."""
-    arrays = tuple(np.asarray(array, dtype=float) for array in arrays)
-    stack = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
-    flat = [np.broadcast_to(x, (*stack, x.shape[-1])).reshape(-1, x.shape[-1]) for x in arrays]
+def each(robot: ClosedRobot, function: Callable[..., np.ndarray], **vectors: Any) -> np.ndarray:
+    """Apply a function of single samples over broadcast stacks.
+
+    Args:
+        robot: The robot.
+        function: Takes one sample of each vector, in their order.
+        **vectors: ``q`` or ``guess`` ``(..., nq)``, ``v`` ``(..., nv)``, ``motors`` or
+            ``torque`` ``(..., motors)``.
+
+    Raises:
+        BadInput: A vector has another size or isn't finite, stacks differ or are empty.
+    """
+    model = instance("robot", robot, ClosedRobot, "closures.load()").model
+    sizes = {"q": model.nq, "guess": model.nq, "v": model.nv}
+    motors = len(robot.actuators)
+    given = {name: finite_array(name, x, sizes.get(name, motors)) for name, x in vectors.items()}
+    arrays = together(**given)
+    stack = arrays[0].shape[:-1]
+    flat = [x.reshape(-1, x.shape[-1]) for x in arrays]
     results = [function(*sample) for sample in zip(*flat, strict=True)]
     if not results:
         raise BadInput("the stack is empty", allowed="at least one sample")

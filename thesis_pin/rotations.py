@@ -11,19 +11,28 @@ from __future__ import annotations
 
 import numpy as np
 
+from thesis_pin.arrays import finite_array
+from thesis_pin.checks import choice, whole
+from thesis_pin.errors import BadInput
+
 _PLANE = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
 
 def _real_or_complex(value: np.ndarray | float) -> np.ndarray:
     """Floats, or complex numbers as they are: a complex step differentiates exactly."""
-    array = np.asarray(value)
-    return array if array.dtype.kind == "c" else array.astype(float)
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind not in "fciubO":
+            raise TypeError(f"its entries are {array.dtype.name}")
+        return array if array.dtype.kind == "c" else array.astype(float)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"an angle or distance isn't a number ({error})") from None
 
 
 def rotation(axis: str, angle: np.ndarray | float) -> np.ndarray:
     """Rotation about the axis ``"x"``, ``"y"`` or ``"z"``: ``(...)`` → ``(..., 3, 3)``."""
     angle = _real_or_complex(angle)
-    first, second = _PLANE[axis]
+    first, second = _PLANE[choice("axis", axis, tuple(_PLANE))]
     matrix = np.zeros((*angle.shape, 3, 3), dtype=angle.dtype)
     cosine, sine = np.cos(angle), np.sin(angle)
     fixed = 3 - first - second
@@ -35,6 +44,7 @@ def rotation(axis: str, angle: np.ndarray | float) -> np.ndarray:
 
 def rotation_derivative(axis: str, angle: np.ndarray | float, order: int = 1) -> np.ndarray:
     """Derivative of :func:`rotation` with respect to its angle, of any order ≥ 1."""
+    order = whole("order", order, 1)
     # Each derivative advances the rotation by a quarter turn in its plane.
     result = rotation(axis, _real_or_complex(angle) + order * np.pi / 2)
     fixed = 3 - sum(_PLANE[axis])
@@ -53,7 +63,8 @@ def transform(rotation_part: np.ndarray, translation: np.ndarray) -> np.ndarray:
 
 def translation(axis: str, distance: np.ndarray | float) -> np.ndarray:
     """T_z1, T_z2, T_z3: homogeneous translation [m] along ``axis``."""
-    distance = np.asarray(distance, dtype=float)
+    choice("axis", axis, tuple(_PLANE))
+    distance = finite_array("distance", distance)
     vector = np.zeros((*distance.shape, 3))
     vector[..., "xyz".index(axis)] = distance
     return transform(np.broadcast_to(np.eye(3), (*distance.shape, 3, 3)), vector)

@@ -83,8 +83,10 @@ def read_text(kind: str, path: str | Path) -> str:
         raise BadInput(f"{path!r} isn't the name of a {kind} file", allowed="a path")
     try:
         return Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it isn't UTF-8 text"
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        if isinstance(error, UnicodeDecodeError):
+            reason = "it isn't UTF-8 text"
         raise BadInput(f"can't read the {kind}: {reason}", where=str(path)) from None
 
 
@@ -94,6 +96,8 @@ def parse_toml(kind: str, schema: type[File], text: str, *, where: str = "<text>
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise BadInput(f"the {kind} isn't valid TOML: {error}", where=where) from None
+    except RecursionError:
+        raise BadInput(f"the {kind} is nested too deeply", where=where) from None
     return validate(kind, schema, data, where=where, lines=key_lines(text))
 
 

@@ -31,6 +31,7 @@ from typing import Any
 
 import numpy as np
 
+from thesis_pin.checks import instance, real, shown
 from thesis_pin.command_line import write_file
 from thesis_pin.errors import BadInput
 from thesis_pin.scene import Item, Scene
@@ -49,6 +50,8 @@ def html(scene: Scene, *, speed: float = 1.0) -> bytes:
         scene: What to show.
         speed: Playing speed at first; 1 is real time.
     """
+    instance("scene", scene, Scene, "gait_scene(), path_scene() or Scene()")
+    speed = real("speed", speed, low=1e-3, high=1e3)
     return render(
         "view.html",
         title=scene.title,
@@ -63,6 +66,8 @@ def write_html(scene: Scene, target: str | Path, *, speed: float = 1.0) -> None:
     Raises:
         BadInput: The file can't be written.
     """
+    if not isinstance(target, str | Path) or not str(target):
+        raise BadInput(f"target is {shown(target)}", allowed="the name of a file")
     write_file(target, html(scene, speed=speed))
 
 

@@ -59,7 +59,7 @@ def test_a_hundred_thousand_poses_and_16_branches_reach_pose_and_close_both_loop
         worst = np.maximum(
             worst,
             [
-                found.tool_residual[some].max(),
+                found.position_residual[some].max(),
                 found.rotation_residual[some].max(),
                 found.loop_residual[some].max(),
             ],
@@ -73,7 +73,7 @@ def test_random_specifications_reach_pose_and_close_both_loops(rng):
         found = robot.inverse_kinematics(random_poses(rng, 500), "useful")
         some = found.reachable
         assert some.mean() > 0.2
-        assert found.tool_residual[some].max() < 1e-12
+        assert found.position_residual[some].max() < 1e-12
         assert found.rotation_residual[some].max() < 1e-12
         assert found.loop_residual[some].max() < 1e-12
 
@@ -108,7 +108,7 @@ def test_whatever_the_pose_a_solution_reaches_it_or_says_why_not(position, turn)
     found = THESIS_ROBOT.inverse_kinematics([*position, *turn], "useful")
     for k in range(16):
         if found.reachable[k]:
-            assert found.tool_residual[k] < 1e-12
+            assert found.position_residual[k] < 1e-12
             assert found.rotation_residual[k] < 1e-12
             assert found.loop_residual[k].max() < 1e-12
         else:
@@ -164,7 +164,7 @@ def test_a_straight_wrist_keeps_the_reference_roll_and_still_reaches_the_pose(ro
         reference = start.copy()
         reference[3] = roll
         found = robot.inverse_kinematics(pose, reference=reference)
-        assert found.tool_residual < 1e-12
+        assert found.position_residual < 1e-12
         assert found.rotation_residual < 1e-12
         assert str(found.singularity) == "wrist straight"
         assert found.angles[3] == pytest.approx(roll)
