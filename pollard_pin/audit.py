@@ -41,7 +41,8 @@ COMMAND = "pollard-pin audit --markdown docs/audit/pollard.md"
 EFFECTS = (
     "Effects say what a reader meets who follows that one line and is right elsewhere: the change",
     "of D q̈ + V q̇ + C at the closed states, relative to each state's largest component (median",
-    "and worst), and the largest change of a motor's torque on the default path.",
+    "and worst), and the largest change of a motor's torque on the default path, where no",
+    "denominator of the thesis's formulas is near zero.",
 )
 _STATES, _SEED = 32, 20172
 

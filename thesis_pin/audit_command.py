@@ -37,7 +37,9 @@ def add_verb(verbs: Any, example: str, run: Callable[[argparse.Namespace], int])
         description="A computed verdict on every printed equation of the thesis.",
         epilog=f"Example: {example}",
     )
-    verb.add_argument("--equation", metavar="ID", help="explain one equation")
+    verb.add_argument(
+        "--equation", metavar="ID", help="explain one equation; also by its number or symbol"
+    )
     verb.add_argument("--every", action="store_true", help="list every failing line")
     verb.add_argument("--json", metavar="FILE|-", help="write all rows as JSON")
     verb.add_argument("--html", metavar="FILE", help="write a page with rendered formulas")
@@ -64,7 +66,7 @@ def run_verb(
     from thesis_pin.progress import track
     from thesis_pin.report import json_bytes
 
-    only = [known(arguments.equation, catalogue, robot)] if arguments.equation is not None else None
+    only = known(arguments.equation, catalogue, robot) if arguments.equation is not None else None
     report = audit(only=only, progress=lambda rows, total: track(rows, "auditing", total))
     if arguments.html:
         write_file(arguments.html, page(report).encode())
@@ -75,8 +77,9 @@ def run_verb(
     if arguments.json == "-":
         return OK
     if only:
-        row = report.rows[0]
-        print_entries(faces.explain(row, report.causes.get(row.cause)))
+        for k, row in enumerate(report.rows):
+            print_text(*[""] * (k > 0))
+            print_entries(faces.explain(row, report.causes.get(row.cause)))
         return OK
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])
@@ -109,8 +112,10 @@ def _without_verdict(report: Report) -> Iterator[tuple[str, str]]:
             yield f"  {section.name}: {next(way for way in ways if len(way) < 20)}", reason
 
 
-def known(identity: str, catalogue: Catalogue, robot: str) -> str:
-    """The full id of an equation.
+def known(identity: str, catalogue: Catalogue, robot: str) -> list[str]:
+    """The full ids of what is asked for: an id, a printed number or a symbol.
+
+    A number can stand beside several lines, and a symbol can be defined in several places.
 
     Raises:
         BadInput: There is none; names the nearest.
@@ -118,7 +123,12 @@ def known(identity: str, catalogue: Catalogue, robot: str) -> str:
     listed = list(catalogue.by_id)
     full = identity if identity.startswith(f"{robot}:") else f"{robot}:{identity}"
     if full in listed:
-        return full
+        return [full]
+    number = identity.strip("()")
+    found = [one.id for one in catalogue.equations if number in one.number]
+    found = found or [name for name in listed if name.split(":", 2)[2] == identity]
+    if found:
+        return found
     near = difflib.get_close_matches(full, listed, n=5, cutoff=0.5)
     raise BadInput(
         f"no equation is called {identity!r}",

@@ -9,9 +9,11 @@ from dataclasses import dataclass
 
 from thesis_pin.audit_report import (
     KIND_NOTE,
+    VERDICT_NOTE,
     chapter_table,
     effect_text,
     kind_table,
+    place_text,
     residual_text,
     summary_lines,
     used_causes,
@@ -41,6 +43,7 @@ def page(report: Report) -> str:
         "audit.html",
         report=report,
         summary=list(summary_lines(report)),
+        reading=" ".join((*VERDICT_NOTE, *report.effects)).replace("*", ""),
         tables=list(_tables(report)),
         causes=[(cause, len(rows)) for cause, rows in used_causes(report)],
         rows=articles,
@@ -98,7 +101,7 @@ def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, obj
         if value is not None:
             yield label, residual_text(value)
     for place in row.places:
-        yield "where", markup(f"<code>{html.escape(place)}</code>")
+        yield "where", markup(f"<code>{html.escape(place_text(place))}</code>")
     texts = (
         *(("kind", ", ".join(row.kinds)), ("cause", cause), ("effect", effect_text(row))),
         *(("finding", row.reason), ("note", row.note)),

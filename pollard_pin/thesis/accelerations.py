@@ -22,15 +22,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from pollard_pin.thesis.loops import frame, opening, side
+from pollard_pin.thesis.loops import element, opening, side
 from pollard_pin.thesis.rates import ROWS, moving
-from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, own_name
+from pollard_pin.thesis.state import CHAIN_0, JOINTS, POSE, SIDE, State, own_name
 from thesis_pin.values import STEP
 
 # 32 points can't tell the 34th Taylor term from the second; at this radius it is below rounding.
 _POINTS, _RADIUS = 32, 0.4
 _TURNS = np.exp(2j * np.pi * np.arange(_POINTS) / _POINTS)
-_Function = Callable[[State], np.ndarray]
+_Part = Callable[[State, str], np.ndarray]
 
 
 class Circle:
@@ -48,11 +48,11 @@ class Circle:
     """
 
     def __init__(self, state: State, i: str) -> None:
-        moving = (*POSE, *CHAIN_0, *(f"{name}{i}" for name in SIDE if i))
-        rates = {name: state.rates[name] for name in moving}
+        names = (*POSE, *CHAIN_0, *(f"{name}{i}" for name in SIDE if i))
+        rates = {name: state.rates[name] for name in names}
         bends = {
             name: np.broadcast_to(state.accelerations.get(name, 0.0), (state.size,))
-            for name in moving
+            for name in names
         }
         fastest = np.max([np.ones(state.size), *map(np.abs, rates.values())], axis=0)
         sharpest = np.sqrt(np.max([np.ones(state.size), *map(np.abs, bends.values())], axis=0))
@@ -62,7 +62,7 @@ class Circle:
             {name: np.tile(value, _POINTS) for name, value in given.items()}
             for given in (state.constants, state.variables)
         )
-        for name in moving:
+        for name in names:
             variables[name] = (
                 variables[name] + (rates[name] * time + bends[name] * time**2 / 2).ravel()
             )
@@ -91,8 +91,7 @@ def accelerating(state: State) -> State:
     """
     pose = {name: state.accelerations[name] for name in POSE}
     later = moving(state.step(state.rates).step(pose, rates=True))
-    joints = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in SIDE))
-    found = {name: np.imag(later.rates[name]) / STEP for name in joints}
+    found = {name: np.imag(later.rates[name]) / STEP for name in JOINTS}
     return replace(state, accelerations={**pose, **found})
 
 
@@ -104,42 +103,36 @@ _FIRST = {
 """Angle → number of the first of the pose's six G; the seventh is the rest."""
 
 
-def _entry(name: str, row: int, column: int) -> Callable[[State, str], np.ndarray]:
-    def of(state: State, i: str) -> np.ndarray:
-        found = frame(state, name.replace("i", i))
-        assert found is not None
-        return np.asarray(found[:, row - 1, column - 1])
-
-    return of
+def _entry(letter: str, row: int, column: int) -> _Part:
+    return lambda state, i: np.asarray(element(state, letter, i, row, column))
 
 
 def _along(state: State, axis: int, i: str) -> np.ndarray:
     return side(state, 4 if i else 2, i)[:, axis]
 
 
-_Part = Callable[[State, str], np.ndarray]
 _TANGENTS: dict[str, tuple[_Part, _Part]] = {
     "theta_54": (
         lambda s, i: _along(s, 1, i) * np.cos(s.variables["theta_43"]),
         lambda s, i: _along(s, 0, i),
     ),
-    "theta_1817": (lambda s, i: -_entry("T_LDn2", 1, 3)(s, i), _entry("T_LDn2", 1, 2)),
+    "theta_1817": (lambda s, i: -_entry("b", 1, 3)(s, i), _entry("b", 1, 2)),
     "theta_1716": (
-        _entry("T_LDn2", 1, 3),
-        lambda s, i: _entry("T_LDn2", 1, 1)(s, i) * np.sin(s.variables["theta_1817"]),
+        _entry("b", 1, 3),
+        lambda s, i: _entry("b", 1, 1)(s, i) * np.sin(s.variables["theta_1817"]),
     ),
-    "theta_1615": (_entry("T_LDn3", 3, 2), _entry("T_LDn3", 2, 2)),
+    "theta_1615": (_entry("c", 3, 2), _entry("c", 2, 2)),
     "theta_76i": (
         lambda s, i: _along(s, 1, i) * np.cos(s.variables[f"theta_65{i}"]),
         lambda s, i: _along(s, 0, i),
     ),
-    "theta_1110i": (lambda s, i: -_entry("T_LDi", 3, 2)(s, i), _entry("T_LDi", 3, 1)),
-    "theta_109i": (lambda s, i: -_entry("T_LDi2", 3, 1)(s, i), _entry("T_LDi2", 3, 3)),
-    "theta_98i": (_entry("T_LDi3", 2, 1), _entry("T_LDi3", 1, 1)),
+    "theta_1110i": (lambda s, i: -_entry("d", 3, 2)(s, i), _entry("d", 3, 1)),
+    "theta_109i": (lambda s, i: -_entry("e", 3, 1)(s, i), _entry("e", 3, 3)),
+    "theta_98i": (_entry("f", 2, 1), _entry("f", 1, 1)),
 }
 """Angle → what its tangent is the quotient of."""
 _ROOTS = {angle: below for angle, (_, below) in _TANGENTS.items()}
-_ROOTS["theta_1716"] = _entry("T_LDn2", 1, 1)
+_ROOTS["theta_1716"] = _entry("b", 1, 1)
 """Angle → what the thesis's denominator is the cube of."""
 
 

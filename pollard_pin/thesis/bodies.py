@@ -16,7 +16,7 @@ from pollard_pin.specification import LINK_NAMES, Specification
 from pollard_pin.thesis.dual import Dual
 from pollard_pin.thesis.loops import PATHS, placement
 from pollard_pin.thesis.rates import joint_rates
-from pollard_pin.thesis.state import CHAIN_0, CONSTANTS_I, LENGTHS_0, SIDE, Matrices, State
+from pollard_pin.thesis.state import CONSTANTS_I, LENGTHS_0, Matrices, State
 from thesis_pin import lagrangian
 from thesis_pin.inertia import Reading
 
@@ -66,14 +66,14 @@ def inertia(state: State, body: str) -> np.ndarray:
 def bodies(state: State) -> dict[str, lagrangian.Body]:
     """All bodies with their Jacobians by the pose, on closed states."""
     rates = joint_rates(state)
-    moving = [
+    along_pose = [
         replace(state, along={name: row[..., k] for name, row in rates.items()}) for k in range(6)
     ]
     found = {}
     for body in BODIES:
         frame, i = own_frame(body)
-        linear = np.stack([centre(s, body).slope for s in moving], axis=-1)
-        angular = np.stack([spin(turned(s, frame, i)) for s in moving], axis=-1)
+        linear = np.stack([centre(s, body).slope for s in along_pose], axis=-1)
+        angular = np.stack([spin(turned(s, frame, i)) for s in along_pose], axis=-1)
         where = centre(state, body)
         mass = state.constants[f"mass {body}"]
         found[body] = lagrangian.Body(mass, inertia(state, body), linear, angular, where)
@@ -108,7 +108,3 @@ def constants_of(specification: Specification, reading: Reading) -> dict[str, np
         # The arm's centre is given from frame 2i, the thesis counts from 3i.
         found[f"centre 1{i}"] = specification.com(f"chain{i}_arm") + np.array([0, 0, side.z_32])
     return {name: np.asarray(value, dtype=float)[None] for name, value in found.items()}
-
-
-JOINTS = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in SIDE))
-"""All angles that move with the pose."""

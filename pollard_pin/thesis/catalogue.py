@@ -18,9 +18,8 @@ NOTATION = Notation(
     chains=frozenset({*"kmJKLMNUVE", "omega", "bb:D", "bb:V", "bb:C"}),
 )
 
-_FOLDER = Path(__file__).parent
 FILES = tuple(
-    path
+    Path(__file__).with_name(f"{name}.toml")
     for name in (
         "section_2_1",
         "section_2_4",
@@ -44,7 +43,6 @@ FILES = tuple(
         "appendix_a",
         "appendix_b",
     )
-    if (path := _FOLDER / f"{name}.toml").exists()
 )
 
 

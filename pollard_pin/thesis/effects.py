@@ -23,7 +23,7 @@ from thesis_pin.equations import Catalogue, Equation
 from thesis_pin.formula import FormulaError, Symbol
 
 _SEED = 20174
-_PATH = 41  # samples, of which those near a zero of the formulas' denominators drop out
+_PATH = 121  # samples, of which those near a zero of the formulas' denominators drop out
 _ROUNDING = 1e-9  # relative change, or N·m, below which a line has no effect
 
 
@@ -88,7 +88,7 @@ def along_path() -> Mechanics:
     """
     model, path = ExplicitModel(), appendix_b().sample(_PATH)
     regular = model.margin(path.pose) > AWAY
-    return model.mechanics(*(x[regular][::3] for x in (path.pose, path.rate, path.acceleration)))
+    return model.mechanics(*(x[regular] for x in (path.pose, path.rate, path.acceleration)))
 
 
 class _Model:

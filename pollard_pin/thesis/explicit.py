@@ -22,13 +22,14 @@ import numpy as np
 from pollard_pin.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import load
 from pollard_pin.specification import Specification
+from pollard_pin.thesis import margins
 from pollard_pin.thesis.accelerations import accelerating
 from pollard_pin.thesis.bodies import constants_of
 from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.mechanics import Mechanics
 from pollard_pin.thesis.motion_symbols import Drive
 from pollard_pin.thesis.rates import moving
-from pollard_pin.thesis.state import CHAIN_0, POSE, State, ball_angles
+from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, ball_angles
 from thesis_pin.arrays import finite_array
 from thesis_pin.editions import EditionEnvironment
 from thesis_pin.equations import Edition
@@ -42,7 +43,7 @@ ROW_NAMES = ("k_2", "k_6", "k_7", "k_12", "k_18", "k_25")
 SIDE_ROW_NAMES = ("k_2i", "k_6i", "k_7i")
 """Rows of a side chain: θ21i, θ65i, θ76i."""
 
-_SIDE_ANGLES = ("theta_21", "theta_65", "theta_76")
+_SIDE_ANGLES = SIDE[:3]  # those behind them are a ball joint's
 ANGLES = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in _SIDE_ANGLES))
 """The thesis's symbols in the order of :data:`pollard_pin.specification.JOINT_NAMES`."""
 
@@ -60,7 +61,7 @@ class ExplicitModel:
         specification: The robot; None for the thesis's.
         inertia: Reading of the printed inertias.
         edition: "corrected" or "printed".
-        branch: Which solution of the inverse kinematics.
+        branch: Which solution of the inverse kinematics, or its label.
 
     Attributes:
         substituted: After an evaluation: ids of lines that can't be followed as the
@@ -73,13 +74,13 @@ class ExplicitModel:
         *,
         inertia: Reading = "physical",
         edition: Edition = "corrected",
-        branch: Branch = DEFAULT_BRANCH,
+        branch: Branch | str = DEFAULT_BRANCH,
     ) -> None:
         if edition not in ("corrected", "printed"):
             raise UnknownName("edition", edition, ("corrected", "printed"))
         self.robot = load(specification, inertia=inertia)
         self.edition: Edition = edition
-        self.branch = branch
+        self.branch = Branch.parse(branch) if isinstance(branch, str) else branch
         self.constants = constants_of(self.robot.specification, inertia)
         self.substituted: dict[str, str] = lost_coefficients()
 
@@ -157,15 +158,11 @@ class ExplicitModel:
     def margin(self, pose: Any) -> np.ndarray:
         """Smallest sine or cosine that the thesis's formulas divide by, ``(...)``.
 
-        X, b_12, b_11, c_22 and X_i vanish where cos θ43, sin or cos θ1817, cos θ1716,
-        cos θ1615 or cos θ65i do. The mechanism isn't singular there, and the closed form
-        of :meth:`pollard_pin.Pollard.rates` has no such denominators: below about 0.05
-        the explicit model loses digits that nothing else does.
+        Below about 0.05 the explicit model loses digits that nothing else does; what has
+        none left is refused. See :mod:`pollard_pin.thesis.margins`.
         """
         found = self.robot.inverse_kinematics(finite_array("pose", pose, 6), self.branch).require()
-        cosines = np.cos(found.angles[..., [1, 3, 4, 5, 7, 10]])
-        divisors = np.concatenate([cosines, np.sin(found.angles[..., [5]])], axis=-1)
-        return np.asarray(np.abs(divisors).min(axis=-1))
+        return np.asarray(margins.divisors(found.angles).min(axis=-1))
 
     # -- dynamics ------------------------------------------------------------------
 
@@ -207,8 +204,9 @@ class ExplicitModel:
 
         Raises:
             Unreachable: A pose has no solution on the branch.
+            SingularPose: The thesis's formulas divide by zero at a pose.
         """
-        angles = self.robot.inverse_kinematics(pose, self.branch).require().angles
+        angles = self._angles(pose)
         variables = dict(zip(POSE, pose.T, strict=True))
         variables |= dict(zip(CHAIN_0, angles[:, :6].T, strict=True))
         for i, start in (("1", 6), ("2", 9)):
@@ -221,6 +219,11 @@ class ExplicitModel:
             state = state.with_(**ball_angles(state, i))
         still = np.zeros((len(pose), 6))
         return Mechanics(moving(state), Drive(a, still[:, :3], still))
+
+    def _angles(self, pose: np.ndarray) -> np.ndarray:
+        angles = self.robot.inverse_kinematics(pose, self.branch).require().angles
+        margins.require(pose, angles)
+        return angles
 
     def environment(self, mechanics: Mechanics) -> EditionEnvironment:
         """The thesis's symbols at some states, in this edition."""
@@ -258,7 +261,7 @@ class ExplicitModel:
         last = side_count if chain else count
         if number not in range(1, last + 1):
             raise UnknownName("number", number, [str(k) for k in range(1, last + 1)])
-        symbol = Symbol(letter, f"{number}i" if chain else str(number), kept="i")
+        symbol = Symbol(letter, f"{int(number)}i" if chain else f"{int(number)}", kept="i")
         i = str(chain or "")
         return self._batch(lambda model, mechanics: model._number(mechanics, symbol, i), pose)
 
@@ -277,6 +280,7 @@ class ExplicitModel:
             if array.shape != pose.shape:
                 raise WrongShape(name, array.shape, f"that of the pose, {pose.shape}")
             flat.append(array.reshape(-1, 6))
+        self._angles(flat[0])  # an impossible pose is named by its place in the whole batch
         parts = [
             of(self, self.mechanics(*(x[start : start + _CHUNK] for x in flat)))
             for start in range(0, max(len(flat[0]), 1), _CHUNK)

@@ -22,13 +22,13 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from pollard_pin.thesis.bodies import origin
-from pollard_pin.thesis.motion_symbols import Drive, MotionSymbols
+from pollard_pin.thesis.motion_symbols import SIDE_I, Drive, MotionSymbols
 from pollard_pin.thesis.rates import derivative
-from pollard_pin.thesis.state import POSE, Matrices, State, own_name
+from pollard_pin.thesis.state import CHAIN_0, POSE, Matrices, State, own_name
 from thesis_pin.formula import Symbol
 from thesis_pin.values import Value, matrix, vector
 
-_CHAIN, _SIDE = ("theta_21", "theta_43", "theta_54"), ("theta_21i", "theta_65i", "theta_76i")
+_ARM = CHAIN_0[:3]
 _ROTATIONS = ("theta", "psi", "phi")
 
 
@@ -51,16 +51,16 @@ def _ball(state: State, i: str) -> Matrices:
 
 _Point = Callable[[State, str], Matrices]
 _COLUMNS: dict[str, tuple[_Point, Sequence[str]]] = {
-    "ABC": (_wrist, _CHAIN),
+    "ABC": (_wrist, _ARM),
     "DEF": (_wrist_of_tip, _ROTATIONS),
-    "GHI": (_rod_end, _SIDE),
-    "JKL": (_ball, _CHAIN),
+    "GHI": (_rod_end, SIDE_I),
+    "JKL": (_ball, _ARM),
 }
 _MATRICES: dict[str, tuple[_Point, Sequence[str]]] = {
-    "theta": (_wrist, _CHAIN),
+    "theta": (_wrist, _ARM),
     "q": (_wrist_of_tip, POSE),
-    "beta": (_rod_end, _SIDE),
-    **dict.fromkeys("123", (_ball, _CHAIN)),
+    "beta": (_rod_end, SIDE_I),
+    **dict.fromkeys("123", (_ball, _ARM)),
 }
 """By subscript; k, being an index elsewhere, arrives as each of its values."""
 

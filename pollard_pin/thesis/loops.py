@@ -41,6 +41,22 @@ def frame(state: State, name: str) -> Matrices | None:
     return found
 
 
+def element(state: State, letter: str, i: str, row: int, column: int) -> Matrices:
+    """Element of the transform a letter stands for: b_13 of T_LDn2, e_31 of T_LDi2.
+
+    None for a side chain's where no chain is meant.
+    """
+    found = frame(state, _LETTERS[letter].replace("i", i))
+    return None if found is None else found[..., row - 1, column - 1]
+
+
+_LETTERS = {
+    **{"a": "T_LDn", "b": "T_LDn2", "c": "T_LDn3"},
+    **{"d": "T_LDi", "e": "T_LDi2", "f": "T_LDi3"},
+}
+"""What the elements of a transform are called (2.25 – 2.127)."""
+
+
 def _product(state: State, *moves: str) -> Matrices:
     result: Matrices = np.eye(4)
     for move, name in zip(moves[::2], moves[1::2], strict=True):

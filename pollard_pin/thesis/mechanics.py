@@ -17,7 +17,8 @@ import numpy as np
 
 from pollard_pin.thesis.accelerations import accelerating
 from pollard_pin.thesis.bodies import BODIES, bodies, inertia, own_frame, random_constants
-from pollard_pin.thesis.motion_symbols import Drive, MotionSymbols
+from pollard_pin.thesis.k_symbols import KSymbols
+from pollard_pin.thesis.motion_symbols import Drive
 from pollard_pin.thesis.rates import joint_rates
 from pollard_pin.thesis.state import POSE, State
 from thesis_pin import lagrangian
@@ -29,7 +30,7 @@ MOTORS = ("theta_21", "theta_211", "theta_212")
 """Angles the three base motors turn (3.146)."""
 
 
-class Mechanics(MotionSymbols):
+class Mechanics(KSymbols):
     """All symbols of chapter 3 at closed states."""
 
     @cached_property
@@ -44,7 +45,7 @@ class Mechanics(MotionSymbols):
         return np.stack(np.broadcast_arrays(*parts), axis=-1)
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
-        """See :meth:`MotionSymbols.partial`; ∂L/∂q̇ is the momentum, without a step."""
+        """As its parent does; ∂L/∂q̇ is the momentum, without a step."""
         of = of.bound(indices) if isinstance(of, Symbol) else of
         if isinstance(of, Symbol) and of.base == "L" and by is not None and by.dots:
             mass = lagrangian.mass_matrix(self._chosen(of, indices.get("i", "")))

@@ -6,15 +6,9 @@ symbol                    reference
 R, r                      products of transforms; differences of their origins
 v, ω                      their derivatives along the joints' rates
 i, j, k with a frame      columns of that frame's rotation
-k_1, k_3 … (vectors)      ∂r_G/∂θ by the one angle they multiply
-k_2, k_6 … (rows)         joint rates of the closed mechanism
-J_n, J'_n of a k_n        its derivatives by the angles of a chain
 a dot, ∂/∂q_j             complex step in time, or along q_j with the loops closed
 ∂/∂θ                      complex step of that angle alone
 ========================  ====================================================
-
-A derivative by one angle, or of k', needs k as a formula in pose *and* angles:
-there the rates are eliminated one joint after the other, as 2.5 and 2.8 do.
 
 Source: Pollard thesis, 3.2 to 3.5.
 """
@@ -29,34 +23,17 @@ from typing import Self
 
 import numpy as np
 
-from pollard_pin.thesis.bodies import BODIES, JOINTS, centre, origin, own_frame, spin, turned
+from pollard_pin.thesis.bodies import BODIES, centre, origin, own_frame, spin, turned
 from pollard_pin.thesis.loops import PATHS, between
-from pollard_pin.thesis.rates import coefficient, derivative, explicit_rates, joint_rates, moving
+from pollard_pin.thesis.rates import derivative, explicit_rates, joint_rates, moving
 from pollard_pin.thesis.references import References
-from pollard_pin.thesis.state import POSE, State, own_name
+from pollard_pin.thesis.state import CHAIN_0, JOINTS, POSE, State, own_name
 from thesis_pin.evaluation import evaluate
 from thesis_pin.formula import Node, Symbol
 from thesis_pin.values import ZERO, Value, imaginary, matrix, scalar, vector
 
-ROWS = {
-    **{"2": "theta_21", "6": "theta_43", "7": "theta_54"},
-    **{"12": "theta_1615", "18": "theta_1716", "25": "theta_1817"},
-    **{"2i": "theta_21i", "6i": "theta_65i", "7i": "theta_76i"},
-}
-"""k_n that are rows: θ̇ = k_nᵀ q̇ (3.7 – 3.120)."""
-
-_CHAIN = ("theta_21", "theta_43", "theta_54", "theta_1615", "theta_1716", "theta_1817")
-_SIDE = ("theta_21i", "theta_65i", "theta_76i")
-VECTORS: dict[str, tuple[str, str]] = {
-    "1": ("1", "theta_21"),
-    **{str(n): ("2", angle) for n, angle in zip((3, 4, 5), _CHAIN, strict=False)},
-    **{str(n): ("3", angle) for n, angle in zip((8, 9, 10, 11), _CHAIN, strict=False)},
-    **{str(n): ("4", angle) for n, angle in zip((13, 14, 15, 16, 17), _CHAIN, strict=False)},
-    **{str(n): ("5", angle) for n, angle in zip(range(19, 25), _CHAIN, strict=True)},
-    "1i": ("1i", "theta_21i"),
-    **{f"{n}i": ("2i", angle) for n, angle in zip((3, 4, 5), _SIDE, strict=True)},
-}
-"""k_n that are vectors: body and the angle whose rate they multiply (3.6 – 3.118)."""
+SIDE_I = ("theta_21i", "theta_65i", "theta_76i")
+"""Angles of a side chain without its ball joint: β (3.137)."""
 
 _SPINS = {
     **{"21": ("2", "theta_21"), "43": ("4", "theta_43"), "54": ("5", "theta_54")},
@@ -219,13 +196,12 @@ class MotionSymbols(References):
         if sub in _SPINS:
             frame, angle = _SPINS[sub]
             along = {own_name(angle, i): self.state.rates[own_name(angle, i)]}
-            moving = replace(self.state, along=along)
         elif sub in PATHS:
             frame = sub
-            moving = replace(self.state, along={k: self.state.rates[k] for k in JOINTS})
+            along = {name: self.state.rates[name] for name in JOINTS}
         else:
             return None
-        return vector(spin(turned(moving, frame, i)))
+        return vector(spin(turned(replace(self.state, along=along), frame, i)))
 
     def _axis(self, symbol: Symbol, i: str) -> Value | None:
         column = "ijk".index(symbol.base)
@@ -236,7 +212,7 @@ class MotionSymbols(References):
             return None
         return vector(turned(self.state, *frame)[..., column])
 
-    _of_i = _of_j = _axis
+    _of_i = _of_j = _of_k = _axis
 
     def _length(self, symbol: Symbol, i: str) -> Value | None:
         """Lengths whose index differs from chapter 2's, and components of r_G'."""
@@ -256,80 +232,9 @@ class MotionSymbols(References):
         """θ = (θ21, θ43, θ54) and β = (θ21i, θ65i, θ76i) as vectors (3.79, 3.137)."""
         if not symbol.bold or symbol.sub or symbol.dots:
             return None
-        names = _CHAIN[:3] if symbol.base == "theta" else _SIDE
+        names = CHAIN_0[:3] if symbol.base == "theta" else SIDE_I
         if symbol.base == "beta" and not i:
             return None
         return vector(np.stack([self.state.number(name, i) for name in names], axis=-1))
 
     _of_theta = _of_beta = _angles
-
-    # -- k and its derivatives ---------------------------------------------------
-
-    def _of_k(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.sup or symbol.sub == "0":
-            return self._axis(symbol, i)
-        if symbol.dots or symbol.primes:
-            return None
-        if symbol.sub in ROWS:
-            return vector(self.rows[own_name(ROWS[symbol.sub], i)])
-        if symbol.sub not in VECTORS:
-            return None
-        body, angle = (own_name(name, i) for name in VECTORS[symbol.sub])
-        return vector(derivative(lambda s: centre(s, body), self.state, {angle: 1.0}))
-
-    def _columns(self, number: str, primes: int, i: str) -> Value | None:
-        """J_n, J'_n …: ∂k_n by three angles at once, or by one for each further prime."""
-        if number not in ROWS and number not in VECTORS:
-            return None
-        if number.endswith("i"):
-            groups: list[tuple[str, ...]] = [_SIDE, _CHAIN[:3]]
-        else:
-            groups = [_CHAIN[:3], *((angle,) for angle in _CHAIN[3:])]
-        if primes >= len(groups):
-            return None
-        k = Symbol("k", number, kept="i")
-        slopes = [
-            imaginary(self.moved(own_name(name, i)).lookup(k, {"i": i} if i else {})).array
-            for name in groups[primes]
-        ]
-        if len(slopes) == 1:
-            return vector(slopes[0])
-        return matrix(np.stack(np.broadcast_arrays(*slopes), axis=-1))
-
-    def _derivative_matrix(self, symbol: Symbol, i: str) -> Value | None:
-        """J_8, J'_9, J_θ1 (the matrix of k_1; J_1 is an inertia) or a column, J_81."""
-        if symbol.sup or symbol.dots:
-            return None
-        name = symbol.sub.removeprefix("theta")
-        found = self._columns(name, symbol.primes, i)
-        if found is not None:
-            return found
-        chain = "i" if name.endswith("i") else ""
-        digits = name.removesuffix("i")
-        if digits[-1:] not in ("1", "2", "3"):
-            return None
-        whole = self._columns(digits[:-1] + chain, symbol.primes, i)
-        if whole is None or whole.rank != 2:
-            return None
-        return vector(whole.array[..., int(digits[-1]) - 1])
-
-    # -- coefficients -------------------------------------------------------------
-
-    def _of_V(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.dots or symbol.primes or symbol.sup:
-            return None
-        if not symbol.sub and not symbol.bold:  # "each V": all denominators of chain 0
-            names = ("V_1", "V_8", "V_15", "V_23", "V_29", "V_36")
-            found = [coefficient(self.state, name, "") for name in names]
-            return scalar(np.sum([np.asarray(x) for x in found], axis=0))
-        return self._coefficient(symbol, i)
-
-    def _coefficient(self, symbol: Symbol, i: str) -> Value | None:
-        own = symbol.sub.removesuffix("i")
-        if symbol.dots or symbol.primes or not own.isdigit():
-            return None
-        rates = self.rows if symbol.base == "E" else None
-        found = coefficient(self.state, f"{symbol.base}_{own}", i, rates)
-        return None if found is None else scalar(found)
-
-    _of_E = _coefficient

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.thesis.loops import frame, opening, side
+from pollard_pin.thesis.loops import element, opening, side
 from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, inverse, own_name
 
 Along = Mapping[str, float | np.ndarray]
@@ -67,26 +67,17 @@ def _third(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarr
     return x**2, numerator
 
 
-def _element(state: State, name: str, row: int, column: int) -> Any:
-    found = frame(state, name)
-    assert found is not None
-    return found[..., row - 1, column - 1]
-
-
 def _quotient(
     letter: str, angle: str, above: tuple[int, int], below: tuple[int, int], sign: int
 ) -> _Relation:
     """From tan θ = sign · above / below, two elements of one transform."""
 
     def relation(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
-        name = {"b": "T_LDn2", "c": "T_LDn3", "d": f"T_LD{i}"}
-        name |= {"e": f"T_LD{i}2", "f": f"T_LD{i}3"}
-
         def up(s: State) -> Any:
-            return _element(s, name[letter], *above)
+            return element(s, letter, i, *above)
 
         def down(s: State) -> Any:
-            return _element(s, name[letter], *below)
+            return element(s, letter, i, *below)
 
         first, second = up(state), down(state)
         square = np.cos(state.variables[angle + i]) ** 2
@@ -103,11 +94,11 @@ def _quotient(
 def _yaw(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
     """(2.66): from tan θ1716 = b13 csc θ1817 / b11."""
     theta, last = state.variables["theta_1716"], state.variables["theta_1817"]
-    b_11, b_13 = (_element(state, "T_LDn2", 1, k) for k in (1, 3))
+    b_11, b_13 = (element(state, "b", "", 1, k) for k in (1, 3))
 
     def numerator(along: Along) -> np.ndarray:
         rate_11, rate_13 = (
-            derivative(lambda s, k=k: _element(s, "T_LDn2", 1, k), state, along)  # type: ignore[misc]
+            derivative(lambda s, k=k: element(s, "b", "", 1, k), state, along)  # type: ignore[misc]
             for k in (1, 3)
         )
         turned = along.get("theta_1817", 0.0) / np.tan(last)
@@ -230,9 +221,9 @@ def joint_rates(state: State) -> dict[str, np.ndarray]:
                 chain @ s.transform("ball_i", i)
             )
 
-        moving = [{name: result[name][..., k] for name in CHAIN_0} for k in range(6)]
+        given = [{name: result[name][..., k] for name in CHAIN_0} for k in range(6)]
         names = [name + i for name in SIDE]
-        result |= dict(zip(names, _solve(loop, state, names, moving), strict=True))
+        result |= dict(zip(names, _solve(loop, state, names, given), strict=True))
     return result
 
 

@@ -25,7 +25,7 @@ from collections.abc import Callable
 import numpy as np
 
 from pollard_pin.thesis import accelerations
-from pollard_pin.thesis.loops import between, frame, opening, side
+from pollard_pin.thesis.loops import between, element, frame, opening, side
 from pollard_pin.thesis.rates import coefficient
 from pollard_pin.thesis.state import TRANSFORMS, VARIABLES, State
 from thesis_pin.formula import FormulaError, Node, Symbol
@@ -130,12 +130,8 @@ def _transform(state: State, _: str, name: str) -> Value | None:
 
 
 def _element(state: State, i: str, letter: str, row: str, column: str) -> Value | None:
-    renamed = {"a": "T_LDn", "b": "T_LDn2", "c": "T_LDn3"}
-    renamed |= {"d": f"T_LD{i}", "e": f"T_LD{i}2", "f": f"T_LD{i}3"}
-    found = frame(state, renamed[letter])
-    if found is None:  # an element of a side chain where no chain is meant
-        return None
-    return scalar(found[..., int(row) - 1, int(column) - 1])
+    found = element(state, letter, i, int(row), int(column))
+    return None if found is None else scalar(found)
 
 
 def _fourier(state: State, _: str, letter: str, kind: str) -> Value:

@@ -31,7 +31,9 @@ POSE = ("x", "y", "z", "psi", "theta", "phi")
 """Task coordinates (2.3)."""
 CHAIN_0 = ("theta_21", "theta_43", "theta_54", "theta_1615", "theta_1716", "theta_1817")
 SIDE = ("theta_21", "theta_65", "theta_76", "theta_98", "theta_109", "theta_1110")
-VARIABLES = (*POSE, *CHAIN_0, *(f"{name}{i}" for i in "12" for name in SIDE))
+JOINTS = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in SIDE))
+"""All angles, which move with the pose; those of a ball joint are a side chain's last three."""
+VARIABLES = (*POSE, *JOINTS)
 """All angles [rad] and task coordinates [m, rad]."""
 LENGTHS_0 = ("z_10", "x_32", "x_65", "x_1514", "x_1918")
 CONSTANTS_I = ("y_10", "z_32", "x_43", "x_87", "x_1211", "z_1312", "beta_54", "beta_1413")

@@ -322,6 +322,14 @@ def test_the_document_is_current(report):
     )
 
 
+def test_what_holds_and_what_fails_are_far_apart(report):
+    """As docs/audit/README.md says; the border of 1e-9 lies between."""
+    right = [row.residual_printed for row in report.rows if row.verdict == "holds"]
+    right += [row.residual_corrected for row in report.failures]
+    assert max(right) < 2e-10
+    assert min(row.residual_printed for row in report.failures) > 1e-3
+
+
 def test_the_page_renders_every_formula_and_stays_small(report):
     page = audit_page.page(report)
     assert page.count("<article") == len(report.rows)
@@ -341,6 +349,27 @@ def test_the_command_explains_one_equation_by_its_short_id(capsys):
     shown = capsys.readouterr().out
     assert "misprint" in shown
     assert "numbered one lower" in shown
+
+
+@pytest.mark.parametrize(
+    ("asked", "ids"),
+    [
+        ("2.60", [f"2.5.3:E_{k}" for k in (7, 10, 8, 11, 9, 12)]),
+        ("(3.154)", ["3.7:3.154"]),
+        ("V_22", ["D:V_22"]),
+    ],
+)
+def test_the_command_explains_the_lines_of_a_printed_number_or_symbol(asked, ids, capsys):
+    assert main(["audit", "--equation", asked]) == 0
+    shown = capsys.readouterr().out
+    found = [line.split()[1] for line in shown.splitlines() if line.startswith("equation ")]
+    assert found == [f"pollard:{name}" for name in ids]
+
+
+def test_a_whole_statement_isnt_shown_twice(capsys):
+    assert main(["audit", "--equation", "2.4.2:Z"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "where the whole statement kind" in shown
 
 
 def test_the_command_writes_all_rows_as_json(tmp_path, capsys):

@@ -9,7 +9,14 @@ from pollard_pin.specification import LINK_NAMES, SKEWED_PATH, Specification
 from pollard_pin.thesis import ExplicitModel
 from pollard_pin.thesis.claims_dynamics import largest_relative, projected_terms, random_motion
 from thesis_pin import loops
-from thesis_pin.errors import NotFinite, UnknownName, Unreachable, WrongShape
+from thesis_pin.errors import (
+    BadInput,
+    NotFinite,
+    SingularPose,
+    UnknownName,
+    Unreachable,
+    WrongShape,
+)
 
 
 @pytest.fixture(scope="module")
@@ -139,6 +146,12 @@ def test_stacks_of_any_shape_and_single_poses_agree(thesis):
     assert thesis.D(np.zeros((0, 6))).shape == (0, 6, 6)
 
 
+def test_a_branch_can_be_given_by_its_label(thesis):
+    pose = random_motion(thesis, 1)[0][0]
+    by_label = ExplicitModel(branch=str(thesis.branch))
+    np.testing.assert_array_equal(by_label.rows(pose), thesis.rows(pose))
+
+
 def test_the_printed_edition_fails_where_the_audit_says_so():
     printed, corrected = ExplicitModel(edition="printed"), ExplicitModel()
     pose, v, _ = random_motion(corrected, 4)
@@ -165,6 +178,8 @@ def test_where_the_tool_axis_lies_in_chain_0s_plane_the_formulas_divide_by_zero(
     pose = np.array([0.45, 0.0, 0.0, 0.0, 0.0, 0.0])
     assert thesis.margin(pose) < 1e-12
     assert np.isfinite(thesis.robot.rates(pose, np.ones(6))).all()
+    with pytest.raises(SingularPose, match=r"pose \[1\].*divide by cos θ1615"):
+        thesis.rows([random_motion(thesis, 1)[0][0], pose])
     assert thesis.margin(random_motion(thesis, 10)[0]).min() > 0.05
 
 
@@ -183,6 +198,8 @@ def test_where_the_tool_axis_lies_in_chain_0s_plane_the_formulas_divide_by_zero(
         (lambda m, x: m.V(x, np.zeros((2, 6))), WrongShape, "pose"),
         (lambda m, x: m.C(x * np.nan), NotFinite, "pose"),
         (lambda m, x: m.C(x + 5.0), Unreachable, ""),
+        (lambda m, x: m.C([x] * 200 + [x + 5.0]), Unreachable, "pose [200]"),
+        (lambda m, x: ExplicitModel(branch="+-"), BadInput, "seven signs"),
     ],
 )
 def test_bad_input_is_named(thesis, call, error, words):
