@@ -17,7 +17,7 @@ import numpy as np
 from pollard_pin.mjcf import mjcf
 from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
 from thesis_pin.inertia import Reading
-from thesis_pin.urdf import bar, cylinder, inertial, joint, robot, sphere
+from thesis_pin.urdf import bar, cylinder, inertial, joint, robot, sphere, write_files
 
 JOINT_AXES = ("y", "y", "z", "x", "z", "x", "z", "y", "z", "z", "y", "z")
 """Axes of :data:`JOINT_NAMES` in their own frames."""
@@ -84,13 +84,7 @@ def files(specification: Specification) -> dict[str, str]:
 
 def write(specification: Specification, folder: str | Path) -> list[Path]:
     """Write every generated file into a folder and return their paths."""
-    written = []
-    for name, text in files(specification).items():
-        path = Path(folder) / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", newline="\n")
-        written.append(path)
-    return written
+    return write_files(files(specification), folder)
 
 
 class _Tree:

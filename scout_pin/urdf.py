@@ -15,7 +15,16 @@ import numpy as np
 
 from scout_pin.specification import JOINT_NAMES, LINK_NAMES, SIDES, Leg, Link, Specification
 from thesis_pin.inertia import Reading
-from thesis_pin.urdf import bar, cylinder, extruded_polygon, inertial, joint, mesh, robot
+from thesis_pin.urdf import (
+    bar,
+    cylinder,
+    extruded_polygon,
+    inertial,
+    joint,
+    mesh,
+    robot,
+    write_files,
+)
 
 JOINT_AXES = ("z", "y", "z", "z", "z", "x")
 """Axes of joints 1 to 6 in their own frames. The thesis prints z for joint 6
@@ -71,13 +80,7 @@ def files(specification: Specification) -> dict[str, str]:
 
 def write(specification: Specification, folder: str | Path) -> list[Path]:
     """Write every generated file below a folder and return their paths."""
-    written = []
-    for name, text in files(specification).items():
-        path = Path(folder) / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", newline="\n")
-        written.append(path)
-    return written
+    return write_files(files(specification), folder)
 
 
 def _elements(specification: Specification, reading: Reading) -> Iterator[str]:

@@ -6,7 +6,8 @@ Numbers are printed with the fewest digits that read back to the same double.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -167,3 +168,22 @@ def extruded_polygon(outline: Sequence[Sequence[float]], height: float) -> str:
         a, b = k + 1, (k + 1) % count + 1
         lines += [f"f {a} {b} {b + count}", f"f {a} {b + count} {a + count}"]
     return "\n".join(lines) + "\n"
+
+
+def write_files(files: Mapping[str, str], folder: str | Path) -> list[Path]:
+    """Write generated files below a folder, with the same line ends everywhere.
+
+    Args:
+        files: File name → text.
+        folder: Where to; folders are made if need be.
+
+    Returns:
+        The files' paths.
+    """
+    written = []
+    for name, text in files.items():
+        path = Path(folder) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8", newline="\n")
+        written.append(path)
+    return written
