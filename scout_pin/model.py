@@ -263,10 +263,8 @@ class Scout(LoadedRobot):
         sides = []
         for number, side in enumerate(SIDES):
             start = None if given is None else given[..., 6 * number : 6 * number + 6]
-            solutions = self.leg_inverse_kinematics(
-                side, world_to_torso @ placements[number + 1], start
-            )
-            sides.append(kinematics.choose_branch(solutions, side, start))
+            target = world_to_torso @ placements[number + 1]
+            sides.append(kinematics.one_branch(self.legs[side], side, target, start))
         return np.concatenate(np.broadcast_arrays(*sides), axis=-1)
 
     def follow(
