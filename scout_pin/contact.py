@@ -24,6 +24,7 @@ from scipy.optimize import nnls
 from scipy.spatial import ConvexHull
 
 from scout_pin.specification import Specification
+from thesis_pin.elementwise import blocks
 
 FRICTION_EDGES = 8
 """Edges of the pyramid inside each corner's friction cone; it gives away at most
@@ -99,7 +100,11 @@ class Contact:
         Returns:
             Margins, shape ``(...)``.
         """
-        return -(self.scale(wrench) @ self.facets.T).max(axis=-1)
+        flat = self.scale(wrench).reshape(-1, 6)
+        margin = np.empty(len(flat))
+        for part in blocks(len(flat), 1024):  # a row of the product is some hundred facets
+            margin[part] = -(flat[part] @ self.facets.T).max(axis=-1)
+        return margin.reshape(wrench.shape[:-1])
 
     def violation(self, wrench: np.ndarray) -> tuple[float, np.ndarray]:
         """Least wrench that something other than the floor would have to add.

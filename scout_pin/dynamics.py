@@ -62,11 +62,11 @@ class ContactDynamics:
     @cached_property
     def contact_margin(self) -> np.ndarray:
         """Distance of each foot's wrench inside its cone [N·m], ``(n, 2)``; NaN off the floor."""
-        margin = np.stack(
-            [contact.margin(self.sole_wrench[:, k]) for k, contact in enumerate(self.contacts)],
-            axis=1,
-        )
-        return np.where(self.support, margin, np.nan)
+        margin = np.full(self.support.shape, np.nan)
+        for k, contact in enumerate(self.contacts):
+            standing = self.support[:, k]
+            margin[standing, k] = contact.margin(self.sole_wrench[standing, k])
+        return margin
 
     @cached_property
     def admissible(self) -> np.ndarray:
