@@ -32,6 +32,7 @@ def joint_trajectory(
     motion: ToolMotion,
     branch: Branch = DEFAULT_BRANCH,
     path: Path | None = None,
+    start: np.ndarray | None = None,
 ) -> tuple[JointTrajectory, Solutions]:
     """Angles, rates and accelerations of the twelve joints along a path.
 
@@ -40,6 +41,8 @@ def joint_trajectory(
         motion: Sampled path.
         branch: Which solution; it is kept all along.
         path: Where the samples come from, to look closer where they are far apart.
+        start: Angles of the first sample but for whole turns [rad], ``(12,)``; None for
+            those in (−π, π].
 
     Returns:
         The joint trajectory, its angles without jumps of a whole turn, and the
@@ -51,6 +54,8 @@ def joint_trajectory(
     """
     solution, v, a = _solve(robot, motion, branch)
     q, changes = _unwrapped(solution.angles)
+    if start is not None and (turns := np.rint((start - q[0]) / (2 * np.pi))).any():
+        q = q + 2 * np.pi * turns
     for k, joint, change in _suspicious(motion.time, changes, v):
         if path is None or _breaks(robot, path, motion.time[k : k + 2], branch):
             raise SingularPose(

@@ -12,6 +12,9 @@ diagonal of the sole's bounding box); a margin is then a moment in N·m.
 Source: Scout thesis, 4.5 names the floor's forces; their limits are missing
 there. Wrench cones: Caron, Pham, Nakamura, "Stability of surface contacts for
 humanoid robots", ICRA 2015.
+
+SciPy is imported where it is used: it takes half a second, and a robot can be
+loaded without it.
 """
 
 from __future__ import annotations
@@ -20,8 +23,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import nnls
-from scipy.spatial import ConvexHull
 
 from scout_pin.specification import Specification
 from thesis_pin.elementwise import blocks
@@ -64,6 +65,8 @@ class Contact:
     @classmethod
     def from_outline(cls, outline: np.ndarray, friction: float) -> Contact:
         """Contact of a sole with the given corners [m], ``(n, 2)``, and friction."""
+        from scipy.spatial import ConvexHull
+
         hull = outline[ConvexHull(outline).vertices]
         length = float(np.linalg.norm(np.ptp(outline, axis=0))) / 2
         angle = 2 * np.pi * np.arange(FRICTION_EDGES) / FRICTION_EDGES
@@ -116,6 +119,8 @@ class Contact:
             Its size [N·m, forces scaled], zero if the wrench is admissible, and
             the wrench itself (unscaled), shape ``(6,)``.
         """
+        from scipy.optimize import nnls
+
         target = self.scale(wrench)
         weights, size = nnls(self.rays.T, target)
         missing = target - self.rays.T @ weights
@@ -153,5 +158,7 @@ def support_polygon(*soles: Any) -> np.ndarray:
 
     Source: Scout thesis, section 6.2.
     """
+    from scipy.spatial import ConvexHull
+
     points = np.concatenate([np.asarray(sole, dtype=float)[:, :2] for sole in soles])
     return points[ConvexHull(points).vertices]

@@ -100,14 +100,21 @@ class ContactDynamics:
         return self.contacts[k].violation(self.sole_wrench[sample, k])
 
 
-def joint_trajectory(robot: Scout, motion: Motion) -> JointTrajectory:
+def joint_trajectory(
+    robot: Scout, motion: Motion, reference: np.ndarray | None = None
+) -> JointTrajectory:
     """Inverse kinematics of a whole motion, rates and accelerations included.
+
+    Args:
+        robot: The biped.
+        motion: The sampled gait.
+        reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
 
     Raises:
         Unreachable: Some pose has no valid branch.
         SingularPose: A leg's Jacobian loses rank on the way.
     """
-    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot)
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, reference)
     feet = (motion.left_foot, motion.right_foot)
     v, a = np.empty(q.shape), np.empty(q.shape)
     for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):

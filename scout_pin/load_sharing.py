@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import daqp
 import numpy as np
-from scipy.optimize import nnls
 
 from scout_pin.contact import Contact
 from scout_pin.forward import leg_frames
@@ -107,6 +106,8 @@ class _Programme:
 
 def _missing(total: np.ndarray, maps: list[np.ndarray], contacts: tuple[Contact, ...]) -> float:
     """Size of the least wrench [N·m, forces scaled] two feet can't supply together."""
+    from scipy.optimize import nnls
+
     reference = maps[0]  # distances are measured about the left sole
     rays = [contacts[0].rays, contacts[1].rays @ np.linalg.inv(maps[1]).T @ reference.T]
     return float(nnls(np.concatenate(rays).T, reference @ total)[1])
