@@ -1,11 +1,9 @@
 """Pollard: a three-chain parallel spray robot with closed-form kinematics, on Pinocchio."""
 
-from importlib import import_module
-
 from thesis_pin import __version__
+from thesis_pin.lazy import lazy_names
 
-# Public name → module that defines it, imported on first use: `pollard-pin --help`
-# and users who only read a specification don't wait for Pinocchio.
+# Public name → module that defines it.
 _HOMES = {
     "Specification": "specification",
     "JOINT_NAMES": "specification",
@@ -28,13 +26,4 @@ _HOMES = {
 }
 
 __all__ = [*_HOMES, "__version__"]
-
-
-def __getattr__(name: str) -> object:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__ = lazy_names(__name__, _HOMES)

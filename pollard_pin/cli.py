@@ -8,7 +8,14 @@ from typing import Any
 
 from thesis_pin import __version__
 from thesis_pin.audit_command import add_verb
-from thesis_pin.command_line import Parser, add_view_options, count, number, run
+from thesis_pin.command_line import Parser, count, number, run
+from thesis_pin.options import (
+    add_json,
+    add_report_options,
+    add_robot,
+    add_view_options,
+    later,
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -34,33 +41,16 @@ def parser() -> Parser:
     _add_info(verbs)
     _add_urdf(verbs)
     _add_check(verbs)
-    add_verb(verbs, "pollard-pin audit --equation 2.4.1:A_10", _later("audit"))
+    add_verb(verbs, "pollard-pin audit --equation 2.4.1:A_10", _run("audit"))
     return top
 
 
-def _later(name: str) -> Callable[[argparse.Namespace], int]:
-    """A verb of :mod:`pollard_pin.verbs`, imported when it runs."""
-
-    def call(arguments: argparse.Namespace) -> int:
-        from pollard_pin import verbs
-
-        return int(getattr(verbs, name)(arguments))
-
-    return call
-
-
 def _add_robot(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument(
-        "--specification",
-        metavar="FILE",
-        help="TOML of another three-chain robot (default: the thesis's)",
-    )
-    verb.add_argument(
-        "--inertia",
-        choices=("physical", "printed"),
-        default="physical",
-        help="reading of the printed inertias (default: physical)",
-    )
+    add_robot(verb, "another three-chain robot")
+
+
+def _run(name: str) -> Callable[[argparse.Namespace], int]:
+    return later("pollard_pin.verbs", name)
 
 
 def _add_branch(verb: argparse.ArgumentParser) -> None:
@@ -114,12 +104,8 @@ def _add_trajectory(verbs: Any) -> None:
     verb.add_argument(
         "--samples", type=count("--samples", 2), default=2001, help="samples (default: 2001)"
     )
-    verb.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
-    verb.add_argument("--json", metavar="FILE|-", help="write the report as JSON")
-    verb.add_argument(
-        "--html", metavar="FILE", help="write the report as a page to mail: animation and plots"
-    )
-    verb.set_defaults(run=_later("trajectory"))
+    add_report_options(verb, "a motor exceeds its limits")
+    verb.set_defaults(run=_run("trajectory"))
 
 
 def _add_view(verbs: Any) -> None:
@@ -134,7 +120,7 @@ def _add_view(verbs: Any) -> None:
     _add_branch(verb)
     _add_path(verb)
     add_view_options(verb)
-    verb.set_defaults(run=_later("view"))
+    verb.set_defaults(run=_run("view"))
 
 
 def _add_ik(verbs: Any) -> None:
@@ -158,8 +144,8 @@ def _add_ik(verbs: Any) -> None:
         action="store_true",
         help="answer at singular poses too, with angles that are free set to zero",
     )
-    verb.add_argument("--json", metavar="FILE|-", help="write the solutions as JSON")
-    verb.set_defaults(run=_later("ik"))
+    add_json(verb, "the solutions")
+    verb.set_defaults(run=_run("ik"))
 
 
 def _add_fk(verbs: Any) -> None:
@@ -177,8 +163,8 @@ def _add_fk(verbs: Any) -> None:
         metavar="ANGLE",
         help="θ21 θ211 θ212 θ1615 θ1716 θ1817 [°]",
     )
-    verb.add_argument("--json", metavar="FILE|-", help="write the modes as JSON")
-    verb.set_defaults(run=_later("fk"))
+    add_json(verb, "the modes")
+    verb.set_defaults(run=_run("fk"))
 
 
 def _add_workspace(verbs: Any) -> None:
@@ -212,8 +198,8 @@ def _add_workspace(verbs: Any) -> None:
     )
     verb.add_argument("--jobs", type=count("--jobs", 1), default=2, help="threads (default: 2)")
     verb.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
-    verb.add_argument("--json", metavar="FILE|-", help="write the reachable positions as JSON")
-    verb.set_defaults(run=_later("workspace"))
+    add_json(verb, "the reachable positions")
+    verb.set_defaults(run=_run("workspace"))
 
 
 def _add_info(verbs: Any) -> None:
@@ -224,8 +210,8 @@ def _add_info(verbs: Any) -> None:
         epilog="Example: pollard-pin info --inertia printed",
     )
     _add_robot(verb)
-    verb.add_argument("--json", metavar="FILE|-", help="write it as JSON")
-    verb.set_defaults(run=_later("info"))
+    add_json(verb, "it")
+    verb.set_defaults(run=_run("info"))
 
 
 def _add_urdf(verbs: Any) -> None:
@@ -237,7 +223,7 @@ def _add_urdf(verbs: Any) -> None:
     )
     _add_robot(verb)
     verb.add_argument("--out", metavar="DIR", help="write all files (default: print the URDF)")
-    verb.set_defaults(run=_later("urdf"))
+    verb.set_defaults(run=_run("urdf"))
 
 
 def _add_check(verbs: Any) -> None:
@@ -250,5 +236,5 @@ def _add_check(verbs: Any) -> None:
     )
     verb.add_argument("urdf", help="URDF of the cut-open tree")
     verb.add_argument("closures", help="YAML with closed_loop, type and name_mot")
-    verb.add_argument("--json", metavar="FILE|-", help="write the findings as JSON")
-    verb.set_defaults(run=_later("check"))
+    add_json(verb, "the findings")
+    verb.set_defaults(run=_run("check"))

@@ -45,12 +45,15 @@ class Assemblies:
         angles: Joint angles [rad], shape ``(..., 8, 12)``; NaN past the last mode.
         pose: Poses of the spray tip, shape ``(..., 8, 6)``; NaN likewise.
         residual: Larger opening of the two ball joints [m], shape ``(..., 8)``.
+        outside: Joints that are outside their limits, shape ``(..., 8, 12)``; False past
+            the last mode.
         count: Number of modes, shape ``(...)``.
     """
 
     angles: np.ndarray
     pose: np.ndarray
     residual: np.ndarray
+    outside: np.ndarray
     count: np.ndarray
 
     def require(self) -> None:
@@ -112,11 +115,14 @@ def forward_kinematics(geometry: Geometry, motors: Any) -> Assemblies:
     posture = Posture.of(geometry, angles)
     pose = pose_from_placement(posture.tip, posture.tool_rotation)
     residual = np.linalg.norm(posture.opening, axis=-1).max(axis=-1)
+    beyond = np.maximum(geometry.lower - angles, angles - geometry.upper)
+    outside = beyond > TOLERANCES.joint_limit  # False where there is no mode: NaN
     shape = (*stack, MODES)
     return Assemblies(
         angles.reshape(*shape, 12),
         pose.reshape(*shape, 6),
         residual.reshape(shape),
+        outside.reshape(*shape, 12),
         exists.sum(axis=1).reshape(stack),
     )
 

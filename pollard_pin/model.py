@@ -220,15 +220,17 @@ class Pollard(ClosedRobot):
     ) -> dynamics.PollardDynamics:
         """Six torques and both ball-joint forces of closed motions ``(..., 12)``.
 
-        v and a are taken to keep the loops closed; those of :meth:`joint_motion` do.
-        ``posture`` is that of q, if it is known already.
+        ``posture`` is that of q, for motions of :meth:`joint_motion`: with it, q, v and a
+        are taken to keep the loops closed.
 
         Raises:
-            BadInput: q opens a ball joint.
+            BadInput: q, v or a opens a ball joint.
             SingularPose: The forces aren't determined.
         """
         q, v, a = (finite_array(name, x, 12) for name, x in (("q", q), ("v", v), ("a", a)))
-        posture = posture or Posture.of(self.geometry, q)
+        if posture is None:
+            posture = Posture.of(self.geometry, q)
+            dynamics.refuse_open_loops(posture, q, v, a)
         return dynamics.inverse_dynamics(self._pool, posture, q, v, a)
 
     def tree_torques(self, q: Any, v: Any, a: Any) -> np.ndarray:

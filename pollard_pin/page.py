@@ -38,7 +38,7 @@ def trajectory_page(report: TrajectoryReport) -> bytes:
             title=f"{report.robot.specification.name.capitalize()}: path {report.path.name}",
             subtitle=f"{report.path.duration:.4g} s, branch {report.branch}, "
             f"{report.robot.inertia} inertias, {len(report.joints.time)} samples",
-            good=True,  # what can't be followed raises before there is a report
+            good=report.motor_use.within,  # what can't be followed raises before
             verdict=_verdict(report),
             tiles=_tiles(report),
             plots=_plots(report),
@@ -63,6 +63,7 @@ def _verdict(report: TrajectoryReport) -> list[str]:
         f"{summary['margin']['least']:.3f} (t = {summary['margin']['time']:.3g} s), condition "
         f"number {condition['least']:.1f} to {condition['largest']:.1f}.",
     ]
+    sentences += report.motor_use.sentences()
     if report.three is not None:
         return [
             *sentences,

@@ -25,19 +25,19 @@ TOML::
 
 from __future__ import annotations
 
-import csv
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path as File
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from pollard_pin.path import Path, Timing, arc, joined, line, through
 from thesis_pin.errors import BadInput, TrajectoryError
-from thesis_pin.specification import Key, Positive, Strict, Vector3, read_text, read_toml
+from thesis_pin.samples import check_increasing, check_width, finite, numbers, read_rows
+from thesis_pin.specification import Key, Positive, Strict, Vector3, read_toml
 
 _QUANTITIES = ("time", "x", "y", "z", "psi", "theta", "phi")
 _SUFFIXES = {"time": ("_s",), "x": ("_m",), "y": ("_m",), "z": ("_m",)}
@@ -149,29 +149,17 @@ def read_csv(file: str | File, method: str = "free") -> Path:
         BadInput: It can't be read, a column is missing or a cell isn't a number.
         TrajectoryError: Time doesn't increase, or there are fewer than two rows.
     """
-    text = read_text("path", file)
-    rows = [
-        (number, row)
-        for number, row in enumerate(csv.reader(text.splitlines()), start=1)
-        if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
-    ]
-    if not rows:
-        raise BadInput("the path is empty", where=str(file))
-    header = [cell.strip() for cell in rows[0][1]]
-    if all(_number(cell) is not None for cell in header):
-        places, factors = _bare_columns(header, f"{file}:{rows[0][0]}")
+    rows = read_rows("path", file)
+    header = rows[0].cells
+    bare = all(finite(cell) is not None for cell in header)
+    if bare:
+        places, factors = _bare_columns(header, rows[0].where)
     else:
-        places, factors = _named_columns(header, f"{file}:{rows[0][0]}")
-        rows = rows[1:]
-    table = np.empty((len(rows), 7))
-    for k, (number, row) in enumerate(rows):
-        table[k] = _cells(row, places, len(header), f"{file}:{number}")
-        if k and table[k, 0] <= table[k - 1, 0]:
-            raise TrajectoryError(
-                f"time goes from {table[k - 1, 0]:g} to {table[k, 0]:g} s",
-                where=f"{file}:{number}",
-                allowed="strictly increasing time",
-            )
+        places, factors = _named_columns(header, rows[0].where)
+    check_width(rows)
+    rows = rows if bare else rows[1:]
+    table = numbers(rows, places, _QUANTITIES)
+    check_increasing(rows, table[:, 0])
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} poses", where=str(file), allowed="at least 2")
     table *= factors
@@ -180,15 +168,7 @@ def read_csv(file: str | File, method: str = "free") -> Path:
     return through(table[:, 0], table[:, 1:], method, name=File(file).name)
 
 
-def _number(cell: str) -> float | None:
-    try:
-        value = float(cell)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None
-
-
-def _bare_columns(header: list[str], where: str) -> tuple[list[int], np.ndarray]:
+def _bare_columns(header: Sequence[str], where: str) -> tuple[list[int], np.ndarray]:
     if len(header) != 7:
         raise BadInput(
             f"{len(header)} columns without a header",
@@ -199,7 +179,7 @@ def _bare_columns(header: list[str], where: str) -> tuple[list[int], np.ndarray]
     return list(range(7)), np.ones(7)
 
 
-def _named_columns(header: list[str], where: str) -> tuple[list[int], np.ndarray]:
+def _named_columns(header: Sequence[str], where: str) -> tuple[list[int], np.ndarray]:
     places, factors, missing = [], np.ones(7), []
     for k, quantity in enumerate(_QUANTITIES):
         names = [quantity + suffix for suffix in _SUFFIXES.get(quantity, ("_rad", "_deg"))]
@@ -217,18 +197,3 @@ def _named_columns(header: list[str], where: str) -> tuple[list[int], np.ndarray
             allowed="one column each for time, x, y, z, psi, theta and phi",
         )
     return places, factors
-
-
-def _cells(row: list[str], places: list[int], width: int, where: str) -> list[Any]:
-    if len(row) != width:
-        raise BadInput(f"{len(row)} cells", where=where, allowed=f"{width}, as in the first row")
-    values = []
-    for place in places:
-        value = _number(row[place])
-        if value is None:
-            raise BadInput(
-                f"{row[place]!r} isn't a finite number",
-                where=f"{where}, column {place + 1}",
-            )
-        values.append(value)
-    return values

@@ -15,22 +15,9 @@ from typing import ClassVar
 import numpy as np
 
 from pollard_pin.geometry import Geometry
+from thesis_pin.elementwise import cosine_sine
 from thesis_pin.rotations import rotation
-
-Vector = np.ndarray
-"""Components first: shape ``(3, ...)``."""
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """a × b of vectors with components first; extra axes broadcast from the right."""
-    return np.stack(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )
-
-
-def dot(a: Vector, b: Vector) -> np.ndarray:
-    """a · b of vectors with components first."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+from thesis_pin.vectors import Vector, cross, dot
 
 
 @dataclass(frozen=True)
@@ -83,7 +70,7 @@ class Posture:
         """Posture of configurations, closed or not; angles ``(..., 12)`` [rad]."""
         shape = angles.shape[:-1]
         theta = np.ascontiguousarray(angles.reshape(-1, 12).T)
-        c, s = np.cos(theta), np.sin(theta)
+        c, s = cosine_sine(theta)
         zero = np.zeros_like(c[0])
         alpha_c, alpha_s = c[0] * c[1] - s[0] * s[1], s[0] * c[1] + c[0] * s[1]
         f = np.stack([alpha_c * c[2], s[2], -alpha_s * c[2]])

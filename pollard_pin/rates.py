@@ -17,9 +17,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from pollard_pin.posture import Posture, Vector, cross, dot
+from pollard_pin.posture import Posture
 from thesis_pin.errors import SingularPose
 from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.vectors import Vector, cross, dot
 
 _EY = np.array([0.0, 1.0, 0.0])
 

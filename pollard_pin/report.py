@@ -12,6 +12,7 @@ from pollard_pin.dynamics import PollardDynamics, ThreeTorques, three_torques
 from pollard_pin.geometry import DEFAULT_BRANCH, POSE_NAMES, Branch
 from pollard_pin.model import Pollard
 from pollard_pin.motion import joint_trajectory
+from pollard_pin.motor_limits import MotorUse
 from pollard_pin.path import Path, ToolMotion
 from pollard_pin.reactions import joint_reactions
 from pollard_pin.singularity import LENGTH, Actuation, actuation, rate_jacobian, require_one_sign
@@ -83,6 +84,12 @@ class TrajectoryReport:
     def actuators(self) -> ActuatorSummary:
         """Peaks, RMS, power and work of each motor."""
         return summarise(ACTUATOR_NAMES, self.joints.time, self.torque, self.speed)
+
+    @cached_property
+    def motor_use(self) -> MotorUse:
+        """How far the motors' limits are used; the limits are assumptions."""
+        limits = self.robot.specification.assumptions.joint_limits
+        return MotorUse.of(limits, self.joints.time, self.torque, self.speed)
 
     @cached_property
     def work_done(self) -> np.ndarray:
@@ -246,6 +253,7 @@ class TrajectoryReport:
                 "sign": int(np.sign(self.holding.base_determinant[0])),
                 "smallest": float(np.abs(self.holding.base_determinant).min()),
             },
+            "motor_limits": self.motor_use.document(),
             "margin": {"least": float(self.solutions.margin[least]), "time": float(time[least])},
             "residual": {
                 "tool": float(self.solutions.tool_residual.max()),

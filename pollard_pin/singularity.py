@@ -16,10 +16,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pollard_pin.posture import Posture, cross
+from pollard_pin.posture import Posture
 from pollard_pin.rates import joint_rates, tool_twist
 from pollard_pin.specification import ACTUATORS
 from thesis_pin.errors import SingularPose
+from thesis_pin.vectors import cross
 
 LENGTH = 0.1
 """Length [m] that lengths are divided by before a condition number is taken."""

@@ -56,6 +56,7 @@ def print_report(report: TrajectoryReport) -> None:
         else f"Three motors leave up to {summary['missing_share']:.2%} of the generalized force "
         "unexplained: (3.154) inverts a 3×6 matrix, and these torques are its least-squares "
         "solution. Their work can't balance the energy.",
+        *report.motor_use.sentences(),
         f"Loop reactions: up to {force[0]:.3f} N and {force[1]:.3f} N in the ball joints; the "
         f"most loaded other joint is {JOINT_NAMES[joint]} with "
         f"{summary['peak_joint_force'][joint]:.2f} N.",
@@ -144,6 +145,7 @@ def fk_document(robot: Pollard, modes: Assemblies) -> dict[str, Any]:
                 "pose": modes.pose[k],
                 "angles": modes.angles[k],
                 "residual": float(modes.residual[k]),
+                "outside_limits": [JOINT_NAMES[j] for j in np.flatnonzero(modes.outside[k])],
             }
             for k in range(int(modes.count))
         ],
@@ -160,7 +162,15 @@ def print_modes(robot: Pollard, modes: Assemblies) -> None:
     if rows:
         print_table(("branch", *POSE_NAMES), rows, title="assembly modes, metres and degrees")
     worst = float(np.nanmax(modes.residual))
-    print_text(f"{len(rows)} assembly modes; ball joints closed to {worst:.0e} m.")
+    print_text(
+        f"{len(rows)} assembly modes; ball joints closed to {worst:.0e} m.",
+        *(
+            f"{robot.branch_of(modes.angles[k])} is outside the joint limits: "
+            f"{', '.join(JOINT_SYMBOLS[j] for j in np.flatnonzero(modes.outside[k]))}."
+            for k in range(len(rows))
+            if modes.outside[k].any()
+        ),
+    )
 
 
 def check_document(robot: ClosedRobot) -> dict[str, Any]:
@@ -185,6 +195,7 @@ def check_document(robot: ClosedRobot) -> dict[str, Any]:
             "by_rank": found.freedom,
             "equations": found.equations,
             "independent": found.independent,
+            "held_by_motors": found.held,
             "configuration": closed,
         }
     return {
@@ -218,5 +229,18 @@ def print_check(document: dict[str, Any]) -> None:
     print_text(
         f"Degrees of freedom: {freedom['by_rank']} by rank "
         f"({freedom['independent']} of {freedom['equations']} loop equations are independent), "
-        f"{freedom['counted']} by counting."
+        f"{freedom['counted']} by counting.",
+        _held(len(document["motors"]), freedom["held_by_motors"], freedom["by_rank"]),
     )
+
+
+def _held(motors: int, held: int, freedom: int) -> str:
+    """What the motors hold, in words."""
+    if held < freedom:
+        return (
+            f"The motors hold {held} of them: with all motors still, "
+            f"{freedom - held} can move by itself."
+        )
+    if motors > freedom:
+        return f"The motors hold all of them, {motors - freedom} more than needed."
+    return "The motors hold all of them."

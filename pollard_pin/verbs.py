@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from thesis_pin import verbs
 from thesis_pin.command_line import (
+    LIMIT_VIOLATED,
     OK,
     print_table,
     print_text,
@@ -14,6 +16,7 @@ from thesis_pin.command_line import (
     write_file,
     write_folder,
 )
+from thesis_pin.verbs import show, write_report
 
 if TYPE_CHECKING:
     from pollard_pin.geometry import Branch
@@ -59,31 +62,16 @@ def trajectory(arguments: argparse.Namespace) -> int:
         branch=_branch(arguments),
         motors=arguments.actuators,
     )
-    content = b""
-    if arguments.json or arguments.out:
-        from thesis_pin.report import json_bytes
-
-        content = json_bytes(report.document())
-    page = b""
-    if arguments.html:
-        from pollard_pin.page import trajectory_page
-
-        page = trajectory_page(report)
-    if arguments.out:
-        from pollard_pin.plots import report_files
-        from thesis_pin.report import csv_bytes
-
-        files = {"report.json": content, "samples.csv": csv_bytes(report.columns())}
-        write_folder(arguments.out, files | report_files(report))
-    if arguments.json:
-        write_file(arguments.json, content)
-    if arguments.html:
-        write_file(arguments.html, page)
-    if "-" not in (arguments.json, arguments.html):
+    if write_report(
+        arguments,
+        report,
+        figures=lambda: import_module("pollard_pin.plots").report_files(report),
+        page=lambda: import_module("pollard_pin.page").trajectory_page(report),
+    ):
         from pollard_pin.tables import print_report
 
         print_report(report)
-    return OK
+    return OK if report.motor_use.within or not arguments.strict else LIMIT_VIOLATED
 
 
 def view(arguments: argparse.Namespace) -> int:
@@ -120,13 +108,7 @@ def ik(arguments: argparse.Namespace) -> int:
     branches = (_branch(arguments),) if arguments.branch else USEFUL_BRANCHES
     solutions = robot.inverse_kinematics(pose, branches)
     solutions.require_one(allow_singular=arguments.allow_singular)
-    if arguments.json:
-        from thesis_pin.report import json_bytes
-
-        write_file(arguments.json, json_bytes(ik_document(solutions)))
-    if arguments.json != "-":
-        print_solutions(solutions)
-    return OK
+    return show(arguments, lambda: ik_document(solutions), lambda: print_solutions(solutions))
 
 
 def fk(arguments: argparse.Namespace) -> int:
@@ -139,13 +121,7 @@ def fk(arguments: argparse.Namespace) -> int:
     robot = load(arguments.specification, inertia=arguments.inertia)
     modes = robot.forward_kinematics(np.radians(arguments.motors))
     modes.require()
-    if arguments.json:
-        from thesis_pin.report import json_bytes
-
-        write_file(arguments.json, json_bytes(fk_document(robot, modes)))
-    if arguments.json != "-":
-        print_modes(robot, modes)
-    return OK
+    return show(arguments, lambda: fk_document(robot, modes), lambda: print_modes(robot, modes))
 
 
 def workspace(arguments: argparse.Namespace) -> int:
@@ -224,32 +200,17 @@ def info(arguments: argparse.Namespace) -> int:
     from pollard_pin.model import load
 
     robot = load(arguments.specification, inertia=arguments.inertia)
-    if arguments.json:
-        from thesis_pin.report import json_bytes
-
-        write_file(arguments.json, json_bytes(document(robot)))
-    if arguments.json != "-":
-        print_info(robot)
-    return OK
+    return show(arguments, lambda: document(robot), lambda: print_info(robot))
 
 
 def urdf(arguments: argparse.Namespace) -> int:
     """Print the URDF, or write every generated file."""
+    from pollard_pin import urdf as generator
     from pollard_pin.specification import Specification
-    from pollard_pin.urdf import files
-    from pollard_pin.urdf import urdf as generate
-    from thesis_pin.loading import check_urdf
 
     specification = Specification.read(arguments.specification)
-    text = generate(specification, arguments.inertia)
-    check_urdf(text, where=specification.name)
-    if arguments.out:
-        contents = {name: text.encode() for name, text in files(specification).items()}
-        write_folder(arguments.out, contents)
-        print(f"wrote {', '.join(contents)} to {arguments.out}", file=sys.stderr)
-    else:
-        write_file("-", text.encode())
-    return OK
+    text = generator.urdf(specification, arguments.inertia)
+    return verbs.urdf(arguments, specification.name, text, lambda: generator.files(specification))
 
 
 def check(arguments: argparse.Namespace) -> int:
@@ -258,13 +219,7 @@ def check(arguments: argparse.Namespace) -> int:
     from thesis_pin.closures import load
 
     document = check_document(load(arguments.urdf, arguments.closures))
-    if arguments.json:
-        from thesis_pin.report import json_bytes
-
-        write_file(arguments.json, json_bytes(document))
-    if arguments.json != "-":
-        print_check(document)
-    return OK
+    return show(arguments, lambda: document, lambda: print_check(document))
 
 
 def audit(arguments: argparse.Namespace) -> int:

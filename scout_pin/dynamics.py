@@ -16,18 +16,22 @@ from functools import cached_property
 
 import numpy as np
 import pinocchio as pin
-from scipy.spatial.transform import Rotation
 
-from scout_pin.contact import Contact, in_sole_axes
-from scout_pin.forward import leg_frames
+from scout_pin.contact import Contact
 from scout_pin.gait import Motion
 from scout_pin.load_sharing import share_load
 from scout_pin.model import Scout
 from scout_pin.rates import leg_rates
+from scout_pin.screws import LegScrews
 from scout_pin.specification import SIDES
+from thesis_pin.elementwise import blocks
 from thesis_pin.errors import TrajectoryError
+from thesis_pin.rotations import quaternions
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.trajectory import BodyMotion, JointTrajectory
+from thesis_pin.vectors import cross, into, rows
+
+_LEGS = (slice(0, 6), slice(6, 12))  # each leg's joints, in the order of SIDES
 
 
 @dataclass(frozen=True)
@@ -103,15 +107,11 @@ def joint_trajectory(robot: Scout, motion: Motion) -> JointTrajectory:
         Unreachable: Some pose has no valid branch.
         SingularPose: A leg's Jacobian loses rank on the way.
     """
-    feet = {"left": motion.left_foot, "right": motion.right_foot}
-    q = robot.inverse_kinematics(
-        motion.torso.placement, motion.left_foot.placement, motion.right_foot.placement
-    )
-    parts = [
-        leg_rates(robot.legs[side], q[:, 6 * k : 6 * k + 6], feet[side].seen_from(motion.torso))
-        for k, side in enumerate(SIDES)
-    ]
-    v, a = (np.concatenate([part[order] for part in parts], axis=1) for order in (0, 1))
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot)
+    feet = (motion.left_foot, motion.right_foot)
+    v, a = np.empty(q.shape), np.empty(q.shape)
+    for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):
+        v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
     return JointTrajectory(motion.time, q, v, a)
 
 
@@ -120,25 +120,21 @@ def free_flyer_state(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root."""
 
-    def local(vector: np.ndarray) -> np.ndarray:
-        return np.einsum("nji,nj->ni", torso.rotation, vector)
-
-    quaternion = Rotation.from_matrix(torso.rotation).as_quat()
-    linear, angular = local(torso.velocity), local(torso.omega)
-    moving = local(torso.acceleration) - np.cross(angular, linear)
-    return (
-        np.concatenate([torso.position, quaternion, joints.q], axis=1),
-        np.concatenate([linear, angular, joints.v], axis=1),
-        np.concatenate([moving, local(torso.alpha), joints.a], axis=1),
-    )
+    count, turn = len(joints.q), rows(torso.rotation)
+    q, v, a = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
+    linear, angular = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
+    moving = into(turn, rows(torso.acceleration)) - cross(angular, linear)
+    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternions(turn).T, joints.q
+    v[:, :3], v[:, 3:6], v[:, 6:] = linear.T, angular.T, joints.v
+    a[:, :3], a[:, 3:6], a[:, 6:] = moving.T, into(turn, rows(torso.alpha)).T, joints.a
+    return q, v, a
 
 
 def free_flying_forces(robot: Scout, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> np.ndarray:
     """RNEA of many samples, shape ``(n, 18)``; the robot must have a free-flyer root."""
-    pool = pin.ModelPool(robot.model, 1)
     # Pinocchio wants one sample a column; the transpose of a C array is that, uncopied.
     columns = [np.ascontiguousarray(part).T for part in (q, v, a)]
-    return np.ascontiguousarray(pin.rneaInParallel(1, pool, *columns).T)
+    return np.asarray(pin.rneaInParallel(1, robot.pool, *columns)).reshape(18, -1).T
 
 
 def inverse_dynamics(
@@ -165,35 +161,53 @@ def inverse_dynamics(
     if not motion.support.any(axis=1).all():
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
-    forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
-    contacts = robot.contacts
-    shares, violation = share_load(robot, motion, joints, forces, contacts)
-    torque = forces[:, 6:].copy()
-    count = len(forces)
-    wrench, sole_wrench = np.zeros((count, 2, 6)), np.zeros((count, 2, 6))
-    for k, side in enumerate(SIDES):
-        foot = motion.left_foot if side == "left" else motion.right_foot
-        frames = leg_frames(robot.legs[side], joints.q[:, 6 * k : 6 * k + 6])
-        force, moment = shares[:, k, :3], shares[:, k, 3:]
-        # z_j · (m about p_j) for each joint of the leg, in the torso's axes.
-        about_joint = moment.T[None] - np.cross(frames.points, force.T[None], axis=1)
-        torque[:, 6 * k : 6 * k + 6] -= np.einsum("jxn,jxn->nj", frames.axes, about_joint)
-        about_sole = moment - np.cross(frames.sole.T, force)
-        for column, vector in ((0, force), (3, about_sole)):
-            wrench[:, k, column : column + 3] = np.einsum(
-                "nij,nj->ni", motion.torso.rotation, vector
-            )
-        sole_wrench[:, k] = in_sole_axes(foot.rotation, wrench[:, k])
-    torque += joint_friction(robot, joints.v)
-    return ContactDynamics(
-        torque,
-        wrench,
-        sole_wrench,
-        contacts,
-        motion.support,
-        forces[:, :6],
-        violation,
+    count = len(joints.q)
+    result = ContactDynamics(
+        torque=np.empty((count, 12)),
+        wrench=np.zeros((count, 2, 6)),
+        sole_wrench=np.zeros((count, 2, 6)),
+        contacts=robot.contacts,
+        support=motion.support,
+        required=np.empty((count, 6)),
+        double_violation=np.full(count, np.nan),
     )
+    for part in blocks(count):
+        _fill(result, part, robot, motion.part(part), joints.part(part))
+    return result
+
+
+def _fill(
+    result: ContactDynamics, part: slice, robot: Scout, motion: Motion, joints: JointTrajectory
+) -> None:
+    """Work out one block of samples and write it where it belongs."""
+    forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
+    result.required[part] = forces[:, :6]
+    torque, total = rows(forces[:, 6:]), rows(forces[:, :6])
+    shares = [np.where(motion.support[:, k], total, 0.0) for k in (0, 1)]
+    double = np.flatnonzero(motion.support.all(axis=1))
+    if double.size:
+        both, missing = share_load(robot, motion, joints, forces, double)
+        result.double_violation[part][double] = missing
+        for k in (0, 1):
+            shares[k][:, double] = both[:, k].T
+    turn = rows(motion.torso.rotation)
+    feet = (motion.left_foot, motion.right_foot)
+    for k, (side, foot, mine) in enumerate(zip(SIDES, feet, _LEGS, strict=True)):
+        if not motion.support[:, k].any():
+            continue
+        force, moment = shares[k][:3], shares[k][3:]
+        torque[mine] -= LegScrews(robot.legs[side], joints.q[:, mine]).torques(force, moment)
+        # From the torso's axes to the world's, and from its origin to the sole's.
+        back = turn.transpose(1, 0, 2)
+        arm = rows(foot.position) - rows(motion.torso.position)
+        force = into(back, force)
+        moment = into(back, moment) - cross(arm, force)
+        own = rows(foot.rotation)
+        for column, vector in ((0, force), (3, moment)):
+            result.wrench[part, k, column : column + 3] = vector.T
+            result.sole_wrench[part, k, column : column + 3] = into(own, vector).T
+    result.torque[part] = torque.T
+    result.torque[part] += joint_friction(robot, joints.v)
 
 
 def joint_friction(robot: Scout, v: np.ndarray) -> np.ndarray:

@@ -66,6 +66,15 @@ class Motion:
         names = {(True, False): "left", (False, True): "right", (True, True): "double"}
         return [names[bool(left), bool(right)] for left, right in self.support]
 
+    def part(self, samples: slice) -> Motion:
+        """Some consecutive samples, as views."""
+        return Motion(
+            self.time[samples],
+            self.t[samples],
+            self.support[samples],
+            *(body.part(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+        )
+
     def at_rest(self, samples: np.ndarray) -> Motion:
         """The poses of some samples (indices or a mask), without any motion."""
         return Motion(

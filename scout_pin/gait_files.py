@@ -5,8 +5,7 @@ The formats are described in docs/scout.md.
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -17,7 +16,8 @@ from scipy.interpolate import PPoly
 from scout_pin.gait import BODIES, COORDINATES, Gait, Phase
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
-from thesis_pin.specification import Key, Positive, Strict, read_text, read_toml
+from thesis_pin.samples import Row, check_increasing, check_width, numbers, read_rows
+from thesis_pin.specification import Key, Positive, Strict, read_toml
 from thesis_pin.tolerances import TOLERANCES
 
 GAITS = Path(__file__).parent / "gaits"
@@ -153,7 +153,8 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
         interpolation: Method for every node segment, instead of the file's.
 
     Raises:
-        BadInput: The file can't be read, or has an unknown ending.
+        BadInput: The file can't be read, has an unknown ending, or a cell of a CSV
+            file isn't a number.
         SpecificationError: The TOML is invalid; carries every problem.
         TrajectoryError: The samples of a CSV file make no motion.
     """
@@ -233,12 +234,32 @@ def _join_segments(curve: tuple[Segment, ...], override: str | None, default: st
 def _from_csv(path: Path, method: str) -> Gait:
     """Columns ``t`` [s], ``support`` and any of ``<body>_<coordinate>`` [m], [rad]."""
     known = [f"{body}_{coordinate}" for body in BODIES for coordinate in COORDINATES]
-    lines = [
-        (number, [cell.strip() for cell in row])
-        for number, row in enumerate(csv.reader(read_text("gait", path).splitlines()), start=1)
-        if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
-    ]
-    columns = lines[0][1] if lines else []
+    lines = read_rows("gait", path)
+    columns = _columns(path, lines[0].cells, known)
+    check_width(lines)
+    rows = lines[1:]
+    if len(rows) < 4:
+        raise TrajectoryError(f"{len(rows)} samples", where=str(path), allowed="at least 4")
+    names = [name for name in columns if name != "support"]
+    table = numbers(rows, [columns.index(name) for name in names], names)
+    values = dict(zip(names, table.T, strict=True))
+    t = values["t"]
+    check_increasing(rows, t)
+    for name in names:
+        if name.endswith(("pitch", "roll", "yaw")):
+            values[name] = np.unwrap(values[name])
+    phases = tuple(_csv_phases(rows, columns.index("support"), t))
+    absent = np.zeros(len(t))
+    curves = {
+        body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in COORDINATES)
+        for body in BODIES
+    }
+    return Gait(path.stem, str(path), 1.0, curves, phases)
+
+
+def _columns(path: Path, header: Sequence[str], known: Sequence[str]) -> list[str]:
+    """The header, checked: known names, none twice, the two that must be there."""
+    columns = list(header)
     for name in columns:
         if name not in (*known, "t", "support"):
             raise UnknownName("column", name, ["t", "support", *known], where=str(path))
@@ -247,63 +268,22 @@ def _from_csv(path: Path, method: str) -> Gait:
     for name in ("t", "support"):
         if name not in columns:
             raise TrajectoryError(f"there is no column {name!r}", where=str(path))
-    for number, row in lines:
-        if len(row) != len(columns):
-            raise TrajectoryError(
-                f"{len(row)} cells", where=f"{path}:{number}", allowed=f"{len(columns)}"
-            )
-    rows = [dict(zip(columns, row, strict=True)) for _, row in lines[1:]]
-    if len(rows) < 4:
-        raise TrajectoryError(f"{len(rows)} samples", where=str(path), allowed="at least 4")
-    numbers = {name: _column(path, rows, name) for name in columns if name != "support"}
-    t = numbers["t"]
-    if (np.diff(t) <= 0).any():
-        k = int(np.argmax(np.diff(t) <= 0))
-        raise TrajectoryError(
-            f"time goes from {t[k]:g} to {t[k + 1]:g}",
-            where=f"{path}: sample {k + 2}",
-            allowed="strictly increasing t",
-        )
-    for name in numbers:
-        if name.endswith(("pitch", "roll", "yaw")):
-            numbers[name] = np.unwrap(numbers[name])
-    phases = tuple(_csv_phases(path, rows, t))
-    curves = {
-        body: tuple(
-            interpolate(t, numbers[f"{body}_{c}"], method)
-            if np.ptp(numbers.get(f"{body}_{c}", np.zeros(1))) > 0
-            else constant(t[0], t[-1], float(numbers.get(f"{body}_{c}", np.zeros(1))[0]))
-            for c in COORDINATES
-        )
-        for body in BODIES
-    }
-    return Gait(path.stem, str(path), 1.0, curves, phases)
+    return columns
 
 
-def _column(path: Path, rows: list[dict[str, str]], name: str) -> np.ndarray:
-    values = np.empty(len(rows))
-    for k, row in enumerate(rows):
-        try:
-            values[k] = float(row[name])
-        except (TypeError, ValueError):
-            values[k] = np.nan
-        if not np.isfinite(values[k]):
-            raise TrajectoryError(
-                f"{name} is {row[name]!r}",
-                where=f"{path}: sample {k + 1}",
-                allowed="a finite number",
-            )
-    return values
+def _sampled(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:
+    """A curve through samples; one that doesn't move stays a constant."""
+    if np.ptp(values) > 0:
+        return interpolate(t, values, method)
+    return constant(t[0], t[-1], float(values[0]))
 
 
-def _csv_phases(path: Path, rows: list[dict[str, str]], t: np.ndarray) -> Iterator[Phase]:
+def _csv_phases(rows: Sequence[Row], column: int, t: np.ndarray) -> Iterator[Phase]:
     """Runs of equal support; a change happens at the first sample that shows it."""
-    names = [row["support"] for row in rows]
-    for k, name in enumerate(names):
+    names = [row.cells[column] for row in rows]
+    for row, name in zip(rows, names, strict=True):
         if name not in ("left", "right", "double"):
-            raise UnknownName(
-                "support", name, ("left", "right", "double"), where=f"{path}: sample {k + 1}"
-            )
+            raise UnknownName("support", name, ("left", "right", "double"), where=row.where)
     start = 0
     for k in range(1, len(names) + 1):
         if k == len(names) or names[k] != names[start]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -57,3 +58,8 @@ class LegGeometry:
             upper=upper[mine],
             names=JOINT_NAMES[mine],
         )
+
+    @cached_property
+    def foot_rows(self) -> list[list[float]]:
+        """The first two rows of :attr:`foot`: axes of the foot link, seen from the sole."""
+        return self.foot[:2].tolist()

@@ -5,8 +5,7 @@ parallel, with common direction e; joint 6 passes through p5. So the foot fixes
 p5 and the axis a of joint 6, and e must be perpendicular to a and to
 v = p5 − p2: two choices of e, two of joint 2 for each, two of the knee.
 
-Symbols as in :mod:`scout_pin.forward`. Arrays inside :func:`_branches` are
-structures of arrays: the sample is the last axis.
+Symbols as in :mod:`scout_pin.forward`.
 
 Source: Scout thesis, 3.1, the loop equation (3.4); the closed form replaces the
 thesis's numeric solver.
@@ -16,149 +15,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from scout_pin.forward import leg_forward_kinematics
 from scout_pin.geometry import LegGeometry
+from scout_pin.solutions import BRANCHES as BRANCHES
+from scout_pin.solutions import LegSolutions as LegSolutions
 from thesis_pin.arrays import finite_array, pose_array, wrap
+from thesis_pin.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
 from thesis_pin.errors import Unreachable
 from thesis_pin.tolerances import TOLERANCES
 
-BRANCHES = tuple((e, two, knee) for e in (1, -1) for two in (1, -1) for knee in (1, -1))
-"""Signs (S_E, S_2, S_K) of the eight branches: direction of e, sign of
-sin γ2, sign of sin γ4. The thesis's gait lies on (1, 1, 1) for the left leg and
-on (−1, 1, −1) for the right."""
+_PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the knee each
 
-_CHUNK = 2048  # samples whose intermediates stay in a core's cache
-_FEW = 16  # below this many poses, Python floats beat NumPy arrays
-
-
-@dataclass(frozen=True)
-class LegSolutions:
-    """All branches of a leg's inverse kinematics, for one pose or a stack.
-
-    Attributes:
-        geometry: The leg.
-        target: The poses asked for, torso to sole, shape ``(..., 4, 4)``.
-        angles: Joint angles θ [rad] in (−π, π], shape ``(..., 8, 6)``, in the order
-            of :data:`BRANCHES`; NaN where a branch doesn't exist.
-        excess: By how much the hip-to-ankle distance |p5 − p3| of a branch misses
-            what thigh and shank can span [m], shape ``(..., 8)``; ≤ 0 if reachable.
-        sine_axis: Sine of the angle between v and a; zero where e is free.
-        sine_hip: |sin γ2|; zero where joint 1 is free.
-    """
-
-    geometry: LegGeometry
-    target: np.ndarray
-    angles: np.ndarray
-    excess: np.ndarray
-    sine_axis: np.ndarray
-    sine_hip: np.ndarray
-
-    @property
-    def reachable(self) -> np.ndarray:
-        """Whether a branch exists, limits aside, shape ``(..., 8)``."""
-        return self.excess <= TOLERANCES.reach
-
-    @cached_property
-    def beyond_limits(self) -> np.ndarray:
-        """By how much each angle leaves its limits [rad], ≤ 0 inside, ``(..., 8, 6)``."""
-        leg = self.geometry
-        return np.maximum(leg.lower - self.angles, self.angles - leg.upper)
-
-    @cached_property
-    def valid(self) -> np.ndarray:
-        """Whether a branch exists and keeps every joint limit, shape ``(..., 8)``."""
-        # NaN compares false, so unreachable branches drop out.
-        return np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1)
-
-    @cached_property
-    def _reached(self) -> np.ndarray:
-        return leg_forward_kinematics(self.geometry, self.angles)
-
-    @property
-    def position_residual(self) -> np.ndarray:
-        """Distance between the pose a branch reaches and the target [m], ``(..., 8)``."""
-        gap = self._reached[..., :3, 3] - self.target[..., None, :3, 3]
-        return np.linalg.norm(gap, axis=-1)
-
-    @property
-    def rotation_residual(self) -> np.ndarray:
-        """Largest entry of the difference of the two rotations [-], ``(..., 8)``."""
-        gap = self._reached[..., :3, :3] - self.target[..., None, :3, :3]
-        return np.abs(gap).max(axis=(-1, -2))
-
-    @property
-    def singularity(self) -> np.ndarray:
-        """Names of the singular sets each pose lies in, shape ``(...)``, empty if none.
-
-        ``yaw free``: θ2 = ±90° from neutral, joint 1 turns about the leg's normal;
-        the reference's joint 1 is kept (θ1 = 0 without one). ``axis free``: p2 lies on
-        link 5's line; e is the reference's, or nearest the torso's x axis. ``knee
-        straight`` or ``knee folded``: two branches coincide on the reach boundary.
-        """
-        leg = self.geometry
-        text = np.where(self.sine_hip < TOLERANCES.near_singular, "yaw free; ", "").astype("U64")
-        text = np.char.add(
-            text, np.where(self.sine_axis < TOLERANCES.near_singular, "axis free; ", "")
-        )
-        sine_knee = np.abs(np.sin(self.angles[..., 3] + leg.beta[3]))
-        cosine_knee = np.cos(self.angles[..., 3] + leg.beta[3])
-        flat = sine_knee < TOLERANCES.near_singular
-        for name, which in (
-            ("knee straight; ", flat & (cosine_knee > 0)),
-            ("knee folded; ", flat & (cosine_knee < 0)),
-        ):
-            text = np.char.add(text, np.where(which.any(axis=-1), name, ""))
-        return np.asarray(np.char.rstrip(text, "; "))
-
-    def explain(self, index: tuple[int, ...] | int = (), branch: int | None = None) -> str:
-        """Say in words which branches a pose has, or why it, or one of them, fails.
-
-        Args:
-            index: Which pose of the stack.
-            branch: Number of a branch in :data:`BRANCHES`; None speaks of the pose.
-        """
-        index = (index,) if isinstance(index, int) else index
-        if branch is not None:
-            text = f"branch {BRANCHES[branch]} is {self._explain_branch(index, branch)}"
-        elif (valid := self.valid[index]).any():
-            text = f"{int(valid.sum())} of 8 branches are valid"
-        elif (reachable := self.reachable[index]).any():
-            beyond = np.where(reachable[:, None], self.beyond_limits[index], np.inf)
-            best = int(np.argmin(beyond.max(axis=-1)))
-            text = (
-                f"reachable, but outside the joint limits in each of the "
-                f"{int(reachable.sum())} branches; the nearest, {BRANCHES[best]}, "
-                f"is {self._explain_branch(index, best)}"
-            )
-        else:
-            text = self._explain_branch(index, int(np.argmin(self.excess[index])))
-        singular = str(self.singularity[index])
-        return text + (f" (singular: {singular})" if singular else "")
-
-    def _explain_branch(self, index: tuple[int, ...], branch: int) -> str:
-        leg = self.geometry
-        if not self.reachable[index][branch]:
-            low, high = abs(leg.x_3 - leg.x_4), leg.x_3 + leg.x_4
-            return (
-                f"unreachable: hip and ankle would be {self.excess[index][branch] * 1e3:.3f} mm "
-                f"outside the {low * 1e3:.2f} to {high * 1e3:.2f} mm that thigh and shank span"
-            )
-        if self.valid[index][branch]:
-            return "valid"
-        joint = int(np.argmax(self.beyond_limits[index][branch]))
-        angle, low, high = np.degrees(
-            [self.angles[index][branch, joint], leg.lower[joint], leg.upper[joint]]
-        )
-        return (
-            f"outside the limits: it needs {leg.names[joint]} at {angle:.2f}°, "
-            f"outside {low:g}° to {high:g}°"
-        )
+Free = tuple[Any, tuple[Any, Any, Any]]
+"""γ1 and the direction of e that a singular pose leaves free."""
 
 
 def leg_inverse_kinematics(
@@ -182,42 +54,59 @@ def leg_inverse_kinematics(
     target = pose_array("torso_to_foot", torso_to_foot)
     stack = target.shape[:-2]
     count = math.prod(stack)
-    flat = target.reshape(count, 16)
-    if reference is None:
-        yaw, axis = np.broadcast_to(leg.beta[0], count), np.array([[1.0], [0.0], [0.0]])
-        axis = np.broadcast_to(axis, (3, count))
-    else:
-        given = finite_array("reference", reference, 6)
-        gamma = np.broadcast_to(given + leg.beta, (*stack, 6)).reshape(count, 6)
-        yaw, sine = gamma[:, 0], np.sin(gamma[:, 1])
-        axis = np.stack([np.cos(yaw) * sine, np.sin(yaw) * sine, np.cos(gamma[:, 1])])
-    angles = np.empty((count, 8, 6))
-    excess = np.empty((count, 8))
-    sines = np.empty((2, count))
-    if count < _FEW:
-        for k, matrix in enumerate(flat.tolist()):
-            solved = _branches(math, _pick, leg, matrix, float(yaw[k]), axis[:, k].tolist())
-            angles[k], excess[k], sines[:, k] = solved
-        angles = wrap(angles - leg.beta)
-    else:
-        for start in range(0, count, _CHUNK):
-            part = slice(start, min(start + _CHUNK, count))
-            columns = np.ascontiguousarray(flat[part].T)
-            solved = _branches(np, np.where, leg, columns, yaw[part], axis[:, part])
-            theta = wrap(np.array(solved[0]) - leg.beta[:, None])
-            angles[part] = theta.transpose(2, 0, 1)
-            excess[part] = np.array(solved[1]).T
-            sines[:, part] = solved[2]
+    if reference is not None:
+        reference = np.broadcast_to(finite_array("reference", reference, 6), (*stack, 6))
+        reference = reference.reshape(count, 6)
+    work = _few if count < FEW else _many
+    theta, excess, sine_axis, sine_hip = work(leg, target.reshape(count, 16), reference)
     if (beyond := excess > TOLERANCES.reach).any():
-        angles[beyond] = np.nan
+        theta[beyond] = np.nan
     return LegSolutions(
         leg,
         target,
-        angles.reshape(*stack, 8, 6),
+        theta.reshape(*stack, 8, 6),
         excess.reshape(*stack, 8),
-        sines[0].reshape(stack),
-        sines[1].reshape(stack),
+        sine_axis.reshape(stack),
+        sine_hip.reshape(stack),
     )
+
+
+_Solved = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""θ ``(n, 8, 6)``, excess ``(n, 8)``, two sines ``(n,)``."""
+
+
+def _few(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -> _Solved:
+    """All branches of a few poses, by floats."""
+    numbers: list[float] = []  # one list for all: an array costs more to begin than to fill
+    for k, matrix in enumerate(matrices.tolist()):
+        free = _free(leg, FLOATS, None if reference is None else (reference[k] + leg.beta).tolist())
+        chunk = _Chunk(FLOATS, leg, matrix, free)
+        excesses: list[float] = []
+        for axis, two in _PAIRS:
+            one, other, excess = chunk.solve(axis, two)
+            numbers += one
+            numbers += other
+            excesses += (excess, excess)
+        numbers += (*excesses, chunk.sine_axis, chunk.h)
+    rows = np.array(numbers).reshape(-1, 58)
+    theta = wrap(rows[:, :48].reshape(-1, 8, 6) - leg.beta)
+    return theta, rows[:, 48:56], rows[:, 56], rows[:, 57]
+
+
+def _many(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -> _Solved:
+    """All branches of many poses, by arrays, in blocks; the sample is their last axis."""
+    count = len(matrices)
+    theta, excess, sines = np.empty((8, 6, count)), np.empty((8, count)), np.empty((2, count))
+    for part in blocks(count):
+        given = None if reference is None else (reference[part] + leg.beta).T
+        columns = np.ascontiguousarray(matrices[part].T)
+        chunk = _Chunk(ARRAYS, leg, columns, _free(leg, ARRAYS, given))
+        for k, pair in enumerate(_PAIRS):
+            one, other, excess[2 * k : 2 * k + 2, part] = chunk.solve(*pair)
+            theta[2 * k, :, part], theta[2 * k + 1, :, part] = one, other
+        theta[:, :, part] = wrap(theta[:, :, part] - leg.beta[:, None])
+        sines[:, part] = chunk.sine_axis, chunk.h
+    return theta.transpose(2, 0, 1), excess.T, sines[0], sines[1]
 
 
 def choose_branch(solutions: LegSolutions, side: str, reference: Any = None) -> np.ndarray:
@@ -263,80 +152,143 @@ def choose_branch(solutions: LegSolutions, side: str, reference: Any = None) -> 
     return chosen
 
 
-def _pick(condition: bool, yes: float, no: float) -> float:
-    return yes if condition else no
+def follow_branch(
+    leg: LegGeometry,
+    count: int,
+    matrices: Callable[[slice], np.ndarray],
+    reference: np.ndarray | None = None,
+) -> np.ndarray | None:
+    """One branch along a whole motion, if one is valid throughout: no other is worked out.
 
+    The branch is the one :func:`choose_branch` takes: of those valid throughout,
+    the nearest to the reference at the first sample.
 
-def _branches(
-    xp: Any, where: Callable[..., Any], leg: LegGeometry, m: Any, free_yaw: Any, free_axis: Any
-) -> tuple[list[list[Any]], list[Any], tuple[Any, Any]]:
-    """γ of all branches, their reach excess and the two sines, for floats or arrays.
+    Args:
+        leg: Geometry of the leg.
+        count: Number of samples, at least 1.
+        matrices: Gives the rows of the rigid placements torso to sole of some
+            samples, entries first, shape ``(12 or 16, n)``.
+        reference: Angles [rad], ``(6,)``; None for zero.
 
-    ``xp`` is ``math`` or ``numpy``, ``where`` the conditional that goes with it;
-    ``m`` holds the 16 entries of the placement, row by row.
+    Returns:
+        Angles [rad], shape ``(count, 6)``; None if no branch is valid throughout.
     """
-    (ax, ay, az), (jx, jy, jz) = (
-        tuple(m[4 * row] * f[0] + m[4 * row + 1] * f[1] + m[4 * row + 2] * f[2] for row in range(3))
-        for f in leg.foot[:2].tolist()
+    start = np.zeros(6) if reference is None else reference
+    free = _free(leg, FLOATS, None if reference is None else (reference + leg.beta).tolist())
+    first = _Chunk(FLOATS, leg, matrices(slice(0, 1))[:, 0].tolist(), free)
+    gammas = [gamma for pair in _PAIRS for gamma in first.solve(*pair)[:2]]
+    step = np.abs(wrap(np.array(gammas) - leg.beta - start)).max(axis=1)
+    lower, upper = (
+        (limit + sign * TOLERANCES.joint_limit)[:, None]
+        for limit, sign in ((leg.lower, -1), (leg.upper, 1))
     )
-    vx = m[3] - leg.y_6 * jx - leg.x_5 * ax - leg.x_0
-    vy = m[7] - leg.y_6 * jy - leg.x_5 * ay
-    vz = m[11] - leg.y_6 * jz - leg.x_5 * az + leg.z_1
+    theta = np.empty((count, 6))
+    for k in np.argsort(step, kind="stable"):
+        for part in blocks(count):
+            *gammas, excess = _Chunk(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
+            angles = wrap(np.array(gammas[k % 2]) - leg.beta[:, None])
+            if not (
+                (excess <= TOLERANCES.reach).all()
+                and (angles >= lower).all()
+                and (angles <= upper).all()
+            ):
+                break
+            theta[part] = angles.T
+        else:
+            return theta
+    return None
 
-    # e, perpendicular to v and a; where v is along a, the free axis, perpendicular to a.
-    ex, ey, ez = vy * az - vz * ay, vz * ax - vx * az, vx * ay - vy * ax
-    size = xp.sqrt(ex * ex + ey * ey + ez * ez)
-    length = xp.sqrt(vx * vx + vy * vy + vz * vz)
-    sine_axis = size / where(length > 0.0, length, 1.0)
-    free = sine_axis < TOLERANCES.singular
-    fx, fy, fz = free_axis
-    along = fx * ax + fy * ay + fz * az
-    other = abs(along) > 0.99  # the free axis itself is along a: take the torso's y
-    fx, fy, fz = where(other, 0.0, fx), where(other, 1.0, fy), where(other, 0.0, fz)
-    ex, ey, ez = where(free, fx, ex), where(free, fy, ey), where(free, fz, ez)
-    along = ex * ax + ey * ay + ez * az  # rounding only, except for the free axis
-    ex, ey, ez = ex - along * ax, ey - along * ay, ez - along * az
-    size = xp.sqrt(ex * ex + ey * ey + ez * ez)
-    ex, ey, ez = ex / size, ey / size, ez / size
 
-    h = xp.hypot(ex, ey)
-    yaw_free = h < TOLERANCES.singular
-    safe = where(yaw_free, 1.0, h)
-    c = where(yaw_free, xp.cos(free_yaw), ex / safe)
-    s = where(yaw_free, xp.sin(free_yaw), ey / safe)
-    yaw = where(yaw_free, free_yaw, xp.atan2(ey, ex))
-    tilt = xp.atan2(h, ez)
+def _free(leg: LegGeometry, xp: Elementwise, gamma: Any) -> Free:
+    """What a reference, as γ with the joint first, says of γ1 and e; None is neutral."""
+    if gamma is None:
+        return float(leg.beta[0]), (1.0, 0.0, 0.0)
+    sine = xp.sin(gamma[1])
+    return gamma[0], (xp.cos(gamma[0]) * sine, xp.sin(gamma[0]) * sine, xp.cos(gamma[1]))
 
-    # Components along i3 and j3 of the branch S_E = S_2 = +1.
-    v_i, v_j = ez * (c * vx + s * vy) - h * vz, c * vy - s * vx
-    a_i, a_j = ez * (c * ax + s * ay) - h * az, c * ay - s * ax
-    turn_6 = xp.atan2(
-        jx * ex + jy * ey + jz * ez,
-        jx * (ey * az - ez * ay) + jy * (ez * ax - ex * az) + jz * (ex * ay - ey * ax),
-    )
 
-    x_3, x_4 = leg.x_3, leg.x_4
-    gammas: list[list[Any]] = [[] for _ in BRANCHES]
-    excesses: list[Any] = [None] * 8
-    for two in (1, -1):
-        u_i, u_j = two * v_i - leg.x_2, two * v_j
-        reach = xp.hypot(u_i, u_j)
-        short = abs(x_3 - x_4) - reach
-        excess = where(reach - (x_3 + x_4) > short, reach - (x_3 + x_4), short)
-        c_4 = (reach * reach - x_3 * x_3 - x_4 * x_4) / (2 * x_3 * x_4)
-        c_4 = where(c_4 > 1.0, 1.0, where(c_4 < -1.0, -1.0, c_4))
-        knee = xp.acos(c_4)
-        thigh = xp.atan2(x_4 * xp.sqrt(1.0 - c_4 * c_4), x_3 + x_4 * c_4)
-        ankle = xp.atan2(u_j, u_i)
-        foot = xp.atan2(two * a_j, two * a_i)
-        for axis in (1, -1):
-            gamma_1 = yaw if axis * two > 0 else yaw + math.pi
-            gamma_2 = two * (tilt if axis > 0 else math.pi - tilt)
-            gamma_6 = turn_6 if axis > 0 else turn_6 + math.pi
-            for bend in (1, -1):
-                branch = BRANCHES.index((axis, two, bend))
-                gamma_3, gamma_4 = axis * ankle - bend * thigh, bend * knee
-                gamma_5 = axis * foot - gamma_3 - gamma_4
-                gammas[branch] = [gamma_1, gamma_2, gamma_3, gamma_4, gamma_5, gamma_6]
-                excesses[branch] = excess
-    return gammas, excesses, (sine_axis, h)
+class _Chunk:
+    """A chunk of poses; what several branches share is computed once.
+
+    Works on floats and arrays alike. ``m`` holds the rows of the placement,
+    entry by entry.
+    """
+
+    def __init__(self, xp: Elementwise, leg: LegGeometry, m: Any, free: Free) -> None:
+        self.xp, self.leg = xp, leg
+        self.planes: dict[int, tuple[Any, ...]] = {}
+        (f_ax, f_ay, f_az), (f_jx, f_jy, f_jz) = leg.foot_rows
+        ax, ay, az = (m[k] * f_ax + m[k + 1] * f_ay + m[k + 2] * f_az for k in (0, 4, 8))
+        jx, jy, jz = (m[k] * f_jx + m[k + 1] * f_jy + m[k + 2] * f_jz for k in (0, 4, 8))
+        vx = m[3] - leg.y_6 * jx - leg.x_5 * ax - leg.x_0
+        vy = m[7] - leg.y_6 * jy - leg.x_5 * ay
+        vz = m[11] - leg.y_6 * jz - leg.x_5 * az + leg.z_1
+        ex, ey, ez = self._axis((vx, vy, vz), (ax, ay, az), free[1])
+
+        self.h = h = xp.sqrt(ex * ex + ey * ey)
+        if xp.some(yaw_free := h < TOLERANCES.singular):
+            safe = xp.where(yaw_free, 1.0, h)
+            c = xp.where(yaw_free, xp.cos(free[0]), ex / safe)
+            s = xp.where(yaw_free, xp.sin(free[0]), ey / safe)
+            self.yaw = xp.where(yaw_free, free[0], xp.atan2(ey, ex))
+        else:
+            c, s, self.yaw = ex / h, ey / h, xp.atan2(ey, ex)
+        self.tilt = xp.atan2(h, ez)
+        # Components along i3 and j3 of the branch S_E = S_2 = +1.
+        self.v = ez * (c * vx + s * vy) - h * vz, c * vy - s * vx
+        self.foot = xp.atan2(c * ay - s * ax, ez * (c * ax + s * ay) - h * az)
+        self.turn_6 = xp.atan2(
+            jx * ex + jy * ey + jz * ez,
+            jx * (ey * az - ez * ay) + jy * (ez * ax - ex * az) + jz * (ex * ay - ey * ax),
+        )
+
+    def _axis(self, v: Any, a: Any, free: Any) -> tuple[Any, Any, Any]:
+        """e, perpendicular to v and a; where v is along a, the free axis, perpendicular to a."""
+        xp, (vx, vy, vz), (ax, ay, az) = self.xp, v, a
+        ex, ey, ez = vy * az - vz * ay, vz * ax - vx * az, vx * ay - vy * ax
+        size = xp.sqrt(ex * ex + ey * ey + ez * ez)
+        length = xp.sqrt(vx * vx + vy * vy + vz * vz)
+        self.sine_axis = size / xp.where(length > 0.0, length, 1.0)
+        if xp.some(lost := self.sine_axis < TOLERANCES.singular):
+            fx, fy, fz = free
+            # Where the free axis itself is along a, the torso's y.
+            other = abs(fx * ax + fy * ay + fz * az) > 0.99
+            fx, fy, fz = (xp.where(other, y, f) for y, f in ((0.0, fx), (1.0, fy), (0.0, fz)))
+            ex, ey, ez = (xp.where(lost, f, e) for f, e in ((fx, ex), (fy, ey), (fz, ez)))
+        along = ex * ax + ey * ay + ez * az  # rounding only, except for the free axis
+        ex, ey, ez = ex - along * ax, ey - along * ay, ez - along * az
+        size = xp.sqrt(ex * ex + ey * ey + ez * ez)
+        return ex / size, ey / size, ez / size
+
+    def solve(self, axis: int, two: int) -> tuple[list[Any], list[Any], Any]:
+        """γ of the two branches with S_E = axis and S_2 = two, knee one way and the other.
+
+        Last is by how much their hip-to-ankle distance misses [m].
+        """
+        excess, knee, thigh, ankle = self.planes.get(two) or self._plane(two)
+        # In the plane of two = −1 the foot's direction is turned by π.
+        foot = axis * (self.foot if two > 0 else self.foot + math.pi)
+        gamma_1 = self.yaw if axis == two else self.yaw + math.pi
+        gamma_2 = two * (self.tilt if axis > 0 else math.pi - self.tilt)
+        gamma_6 = self.turn_6 if axis > 0 else self.turn_6 + math.pi
+        one, other = axis * ankle - thigh, axis * ankle + thigh
+        return (
+            [gamma_1, gamma_2, one, knee, foot - one - knee, gamma_6],
+            [gamma_1, gamma_2, other, -knee, foot - other + knee, gamma_6],
+            excess,
+        )
+
+    def _plane(self, two: int) -> tuple[Any, ...]:
+        """The triangle of thigh and shank: excess, knee, angle at the hip, direction."""
+        xp, x_3, x_4 = self.xp, self.leg.x_3, self.leg.x_4
+        u_i, u_j = two * self.v[0] - self.leg.x_2, two * self.v[1]
+        square = u_i * u_i + u_j * u_j
+        reach = xp.sqrt(square)
+        c_4 = xp.clipped((square - x_3 * x_3 - x_4 * x_4) / (2 * x_3 * x_4))
+        self.planes[two] = plane = (
+            xp.larger(reach - (x_3 + x_4), abs(x_3 - x_4) - reach),
+            xp.acos(c_4),
+            xp.atan2(x_4 * xp.sqrt(1.0 - c_4 * c_4), x_3 + x_4 * c_4),
+            xp.atan2(u_j, u_i),
+        )
+        return plane

@@ -19,14 +19,23 @@ def share_load(
     motion: Motion,
     joints: JointTrajectory,
     forces: np.ndarray,
-    contacts: tuple[Contact, ...],
+    double: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Wrench of each foot about the torso's origin, torso axes, ``(n, 2, 6)``."""
-    shares = motion.support[:, :, None] * forces[:, None, :6]
-    violation = np.full(len(forces), np.nan)
-    double = np.flatnonzero(motion.support.all(axis=1))
-    if not double.size:
-        return shares, violation
+    """Each foot's wrench where both stand, and the least wrench that is missing.
+
+    Args:
+        robot: The biped.
+        motion: The sampled gait.
+        joints: Its joint trajectory.
+        forces: RNEA of the free-flying robot, shape ``(n, 18)``.
+        double: Samples in double support, shape ``(m,)``.
+
+    Returns:
+        Wrenches about the torso's origin in its axes, ``(m, 2, 6)``, and their
+        violation [N·m, forces scaled], ``(m,)``.
+    """
+    contacts = robot.contacts
+    shares, violation = np.empty((len(double), 2, 6)), np.empty(len(double))
     frames = [
         leg_frames(robot.legs[s], joints.q[double, 6 * k : 6 * k + 6]) for k, s in enumerate(SIDES)
     ]
@@ -43,8 +52,8 @@ def share_load(
             axes, points = frames[k].axes[..., row], frames[k].points[..., row]
             jacobians.append(np.concatenate([np.cross(points, axes), axes], axis=1))
             maps.append(_to_scaled_sole(to_sole[k][row], frames[k].sole[:, row], contacts[k]))
-        left, violation[sample] = _least_torque(forces[sample], jacobians, maps, contacts)
-        shares[sample, 0], shares[sample, 1] = left, forces[sample, :6] - left
+        left, violation[row] = _least_torque(forces[sample], jacobians, maps, contacts)
+        shares[row, 0], shares[row, 1] = left, forces[sample, :6] - left
     return shares, violation
 
 

@@ -14,12 +14,13 @@ from scout_pin.contact import Contact
 from scout_pin.geometry import LegGeometry
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
-from thesis_pin.arrays import finite_array, pose_array
+from thesis_pin.arrays import check_rigid, finite_array, pose_array
 from thesis_pin.errors import BadInput, SingularPose, UnknownName
 from thesis_pin.inertia import Reading
 from thesis_pin.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.rotations import euler_placement, euler_rate_matrix, invert
 from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.trajectory import BodyMotion
 
 PACKAGE_PATH = str(model_folder("scout"))
 URDF_PATH = str(Path(PACKAGE_PATH) / "scout.urdf")
@@ -102,6 +103,11 @@ class Scout(LoadedRobot):
         order = [self.model.joints[joint_id(self.model, name)].idx_v for name in JOINT_NAMES]
         if order != list(range(6, 18)):
             raise RuntimeError(f"Pinocchio reordered the joints: {order}")
+
+    @functools.cached_property
+    def pool(self) -> pin.ModelPool:
+        """What Pinocchio's batched algorithms work on."""
+        return pin.ModelPool(self.model, 1)
 
     @functools.cached_property
     def contacts(self) -> tuple[Contact, Contact]:
@@ -262,6 +268,31 @@ class Scout(LoadedRobot):
             )
             sides.append(kinematics.choose_branch(solutions, side, start))
         return np.concatenate(np.broadcast_arrays(*sides), axis=-1)
+
+    def follow(
+        self, torso: BodyMotion, left_foot: BodyMotion, right_foot: BodyMotion
+    ) -> np.ndarray:
+        """Joint angles along a motion ``(n, 12)``: :meth:`inverse_kinematics`, only faster.
+
+        Raises:
+            Unreachable: Some sample has no valid branch; says which and why.
+            BadInput: A rotation isn't one.
+        """
+        angles = []
+        for side, foot in zip(SIDES, (left_foot, right_foot), strict=True):
+
+            def entries(part: slice, foot: BodyMotion = foot, side: str = side) -> np.ndarray:
+                found = foot.part(part).entries_in(torso.part(part))
+                check_rigid(f"{side} foot", found, found.shape[1:], part.start)
+                return found
+
+            found = kinematics.follow_branch(self.legs[side], len(foot.position), entries)
+            if found is None:
+                return self.inverse_kinematics(
+                    torso.placement, left_foot.placement, right_foot.placement
+                )
+            angles.append(found)
+        return np.concatenate(angles, axis=1)
 
     def leg_forward_kinematics(self, side: str, theta: Any) -> np.ndarray:
         """Sole in the torso frame from six angles, ``(..., 6)`` → ``(..., 4, 4)``."""

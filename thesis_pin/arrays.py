@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from thesis_pin.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
 from thesis_pin.errors import BadInput, NotFinite, WrongShape
 from thesis_pin.tolerances import TOLERANCES
 
@@ -61,22 +62,60 @@ def pose_array(name: str, pose: Any) -> np.ndarray:
     if isinstance(pose, list | tuple) and pose and hasattr(pose[0], "homogeneous"):
         return np.stack([np.asarray(one.homogeneous) for one in pose])
     array = finite_array(name, pose, 4, 4)
-    rotation = array[..., :3, :3]
-    error = np.abs(np.swapaxes(rotation, -1, -2) @ rotation - np.eye(3)).max(axis=(-1, -2))
-    row = np.abs(array[..., 3, :] - [0.0, 0.0, 0.0, 1.0]).max(axis=-1)
-    # A reflection is orthogonal too; its third axis points the other way.
-    third = np.cross(rotation[..., 0], rotation[..., 1])
-    mirrored = np.einsum("...i,...i->...", third, rotation[..., 2]) < 0
-    bad = (error > TOLERANCES.rotation_orthogonality) | (row > 0) | mirrored
-    if np.any(bad):
-        index = tuple(int(k) for k in np.argwhere(np.atleast_1d(bad))[0])
+    check_rigid(name, array.reshape(-1, 16).T, array.shape[:-2])
+    return array
+
+
+def check_rigid(name: str, entries: np.ndarray, shape: tuple[int, ...], first: int = 0) -> None:
+    """Refuse matrices that aren't rigid placements.
+
+    Args:
+        name: Name of the argument, for messages.
+        entries: The matrices row by row, entries first: 4×4, or their first three
+            rows, shape ``(16 or 12, n)``.
+        shape: Shape of the stack, for messages.
+        first: Number of the first of them in a longer stack, for messages.
+
+    Raises:
+        BadInput: The rotation part isn't a rotation or the last row isn't 0 0 0 1.
+    """
+    count = entries.shape[1]
+    if count < FEW:
+        error = np.array([_rigid_error(FLOATS, column) for column in entries.T.tolist()])
+    else:
+        error = np.empty(count)
+        for part in blocks(count):
+            error[part] = _rigid_error(ARRAYS, np.ascontiguousarray(entries[:, part]))
+    bad = ~(error <= TOLERANCES.rotation_orthogonality)  # NaN compares false
+    if bad.any():
+        k = int(np.argmax(bad))
+        index = tuple(int(i) for i in np.unravel_index(k, shape)) if len(shape) else (0,)
         raise BadInput(
-            f"{name} isn't a rigid placement at index {index}: "
-            f"RᵀR − 1 reaches {float(np.max(error)):.2e}",
-            allowed=f"rotations to {TOLERANCES.rotation_orthogonality:.0e}, last row 0 0 0 1",
+            f"{name} isn't a rigid placement at index {(index[0] + first, *index[1:])}: "
+            f"RᵀR − 1 reaches {float(error.max()):.2e}",
+            allowed=f"right-handed rotations to {TOLERANCES.rotation_orthogonality:.0e}, "
+            "last row 0 0 0 1",
             remedy="Normalise the rotation (for instance with pin.SE3 or scipy's Rotation) first",
         )
-    return array
+
+
+def _rigid_error(xp: Elementwise, m: Any) -> Any:
+    """Largest entry of RᵀR − 1; at least 2 for a reflection or another last row."""
+    x, y, z = ((m[k], m[k + 4], m[k + 8]) for k in (0, 1, 2))
+
+    def dot(a: Any, b: Any) -> Any:
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+    error = abs(dot(x, x) - 1.0)
+    for gap in (dot(y, y) - 1.0, dot(z, z) - 1.0, dot(x, y), dot(y, z), dot(z, x)):
+        error = xp.larger(error, abs(gap))
+    # A reflection is orthogonal too; its third axis points the other way.
+    third = (x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0])
+    error = xp.where(dot(third, z) < 0.0, error + 2.0, error)
+    if len(m) == 16:
+        wrong = abs(m[12]) + abs(m[13]) + abs(m[14]) + abs(m[15] - 1.0)
+        error = xp.where(wrong > 0.0, error + 2.0, error)
+    return error
 
 
 def skew(vector: np.ndarray) -> np.ndarray:

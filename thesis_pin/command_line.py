@@ -115,33 +115,8 @@ def count(name: str, least: int) -> Callable[[str], int]:
     return read
 
 
-def add_view_options(verb: argparse.ArgumentParser) -> None:
-    """The options every ``view`` verb has besides its motion's."""
-    verb.add_argument(
-        "--speed",
-        type=number("--speed", positive=True),
-        default=1.0,
-        help="playing speed; 1 is real time (default: 1)",
-    )
-    verb.add_argument(
-        "--port",
-        type=count("--port", 0),
-        help="port on 127.0.0.1; 0 is any (default: the first free one from 7000)",
-    )
-    verb.add_argument("--no-browser", action="store_true", help="only print the address")
-    verb.add_argument(
-        "--hold",
-        type=number("--hold", positive=True),
-        metavar="SECONDS",
-        help="end by itself (default: on Ctrl-C)",
-    )
-    verb.add_argument(
-        "--html", metavar="FILE", help="write one self-contained page instead of serving it"
-    )
-
-
 def run_view(scene: Scene, arguments: argparse.Namespace) -> None:
-    """Write a scene to the file, or serve it, as :func:`add_view_options` asked."""
+    """Write a scene to the file, or serve it, as the options of a ``view`` verb ask."""
     from thesis_pin import viewer
 
     if arguments.html:

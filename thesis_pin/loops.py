@@ -68,6 +68,8 @@ class Mobility:
         counted: Degrees of freedom if all were (Chebyshev–Grübler–Kutzbach).
         freedom: Degrees of freedom by rank.
         motors: Number of motors.
+        held: Degrees of freedom that the motors hold here; less than ``freedom`` where
+            something moves while they stand still.
         condition: Largest over smallest singular value of the independent equations.
     """
 
@@ -76,20 +78,23 @@ class Mobility:
     counted: int
     freedom: int
     motors: int
+    held: int
     condition: float
 
 
 def mobility(robot: ClosedRobot, q: np.ndarray) -> Mobility:
     """Degrees of freedom at one configuration ``(nq,)``."""
-    values = np.linalg.svd(jacobian(robot, q), compute_uv=False)
+    _, values, rows = np.linalg.svd(jacobian(robot, q))
     rank = int((values > TOLERANCES.rank * values[0]).sum()) if values.size else 0
     nv = robot.model.nv
+    driven = np.linalg.svd(rows[rank:, list(robot.actuated)], compute_uv=False)
     return Mobility(
         equations=robot.equations,
         independent=rank,
         counted=nv - robot.equations,
         freedom=nv - rank,
         motors=len(robot.actuators),
+        held=int((driven > TOLERANCES.rank).sum()),
         condition=float(values[0] / values[rank - 1]) if rank else 1.0,
     )
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thesis_pin.rotations import transform
+from thesis_pin.vectors import cross, into, rows
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,12 @@ class JointTrajectory:
     q: np.ndarray
     v: np.ndarray
     a: np.ndarray
+
+    def part(self, samples: slice) -> JointTrajectory:
+        """Some consecutive samples, as views."""
+        return JointTrajectory(
+            self.time[samples], self.q[samples], self.v[samples], self.a[samples]
+        )
 
 
 @dataclass(frozen=True)
@@ -51,6 +58,17 @@ class BodyMotion:
         """Placement in the world, shape ``(n, 4, 4)``."""
         return transform(self.rotation, self.position)
 
+    def part(self, samples: slice) -> BodyMotion:
+        """Some consecutive samples, as views."""
+        return BodyMotion(
+            self.rotation[samples],
+            self.position[samples],
+            self.velocity[samples],
+            self.acceleration[samples],
+            self.omega[samples],
+            self.alpha[samples],
+        )
+
     def at_rest(self, samples: np.ndarray) -> BodyMotion:
         """The placements of some samples (indices or a mask), at rest."""
         position = self.position[samples]
@@ -64,27 +82,29 @@ class BodyMotion:
         in its axes: the frame's own acceleration, its angular acceleration and
         the centrifugal and Coriolis terms are removed.
         """
-        offset = self.position - other.position
-        spin = np.cross(other.omega, offset)
-        velocity = self.velocity - other.velocity - spin
+        turn, (rotation, offset) = rows(other.rotation), self._placed_in(other)
+        omega_0, alpha_0 = rows(other.omega), rows(other.alpha)
+        spin = cross(omega_0, offset)
+        velocity = rows(self.velocity) - rows(other.velocity) - spin
         acceleration = (
-            self.acceleration
-            - other.acceleration
-            - np.cross(other.alpha, offset)
-            - np.cross(other.omega, spin)
-            - 2 * np.cross(other.omega, velocity)
+            rows(self.acceleration)
+            - rows(other.acceleration)
+            - cross(alpha_0, offset)
+            - cross(omega_0, spin + 2 * velocity)
         )
-        omega = self.omega - other.omega
-        alpha = self.alpha - other.alpha - np.cross(other.omega, omega)
-
-        def turned(vector: np.ndarray) -> np.ndarray:
-            return np.einsum("nji,nj->ni", other.rotation, vector)
-
+        omega = rows(self.omega) - omega_0
+        alpha = rows(self.alpha) - alpha_0 - cross(omega_0, omega)
+        vectors = (offset, velocity, acceleration, omega, alpha)
         return BodyMotion(
-            rotation=np.swapaxes(other.rotation, -1, -2) @ self.rotation,
-            position=turned(offset),
-            velocity=turned(velocity),
-            acceleration=turned(acceleration),
-            omega=turned(omega),
-            alpha=turned(alpha),
+            into(turn, rotation).transpose(2, 0, 1), *(into(turn, v).T for v in vectors)
         )
+
+    def entries_in(self, other: BodyMotion) -> np.ndarray:
+        """Three rows of the placement seen from another body, entry by entry, ``(12, n)``."""
+        turn, (rotation, offset) = rows(other.rotation), self._placed_in(other)
+        placed = np.concatenate([into(turn, rotation), into(turn, offset)[:, None]], axis=1)
+        return placed.reshape(12, -1)
+
+    def _placed_in(self, other: BodyMotion) -> tuple[np.ndarray, np.ndarray]:
+        """Rotation ``(3, 3, n)`` and offset from the other body ``(3, n)``, world axes."""
+        return rows(self.rotation), rows(self.position) - rows(other.position)

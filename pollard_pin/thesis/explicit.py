@@ -94,6 +94,22 @@ class ExplicitModel:
         """
         return self._batch(lambda model, mechanics: model._rows(mechanics), pose)
 
+    def k(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+        """k_n as the thesis numbers them.
+
+        A row of joint rates over the pose's, ``(..., 6)``, for k_2, k_6, k_7, k_12, k_18, k_25
+        and a side chain's k_2i, k_6i, k_7i; a vector ``(..., 3)`` that a joint rate multiplies
+        for the others.
+
+        Args:
+            number: 1 … 25 for chain 0, 1 … 7 for a side chain.
+            pose: Shape ``(..., 6)``.
+            chain: None for chain 0, else 1 or 2.
+
+        Source: (3.6) … (3.41), (3.110) … (3.120).
+        """
+        return self._matrix("k", number, 25, 7, pose, chain)
+
     def J_tau(self, pose: Any) -> np.ndarray:
         """Rows of the three base motors, ``(..., 3, 6)``. Source: (3.151)."""
         return self.rows(pose)[..., [0, 6, 9], :]

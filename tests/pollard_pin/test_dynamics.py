@@ -252,3 +252,13 @@ def test_rates_that_open_a_ball_joint_are_refused(robot, rng):
     v[7] += 1e-3 * rng.normal(size=12)
     with pytest.raises(BadInput, match="sample 7: the rates open ball joint"):
         robot.inverse_dynamics(q, v, a)
+
+
+def test_accelerations_that_open_a_ball_joint_are_refused(robot, rng):
+    _, _, _, q, v, a = closed_motion(robot, rng, 10)
+    robot.inverse_dynamics(q, v, a)
+    for joint in (1, 2, 7, 8, 10, 11):
+        bent = a.copy()
+        bent[6, joint] += 1e-3 * (1 + np.abs(a[6]).max() + np.abs(v[6]).max() ** 2)
+        with pytest.raises(BadInput, match="sample 6: the accelerations open ball joint"):
+            robot.inverse_dynamics(q, v, bent)

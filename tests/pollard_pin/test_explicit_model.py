@@ -73,6 +73,17 @@ def test_the_generalized_force_is_what_six_motors_supply(model):
     assert largest_relative(model.generalized_force(pose, v, a), supplied) < 1e-9
 
 
+def test_k_are_the_rows_and_the_levers_that_make_M(model):
+    pose, _, _ = random_motion(model, 3)
+    rows = model.rows(pose)
+    for place, number in enumerate((2, 6, 7, 12, 18, 25)):
+        np.testing.assert_allclose(model.k(number, pose), rows[:, place], rtol=1e-12)
+    levers = [model.k(number, pose, 2) for number in (3, 4, 5)]
+    sides = [model.k(number, pose, 2) for number in (2, 6, 7)]
+    made = sum(a[..., None] * b[:, None] for a, b in zip(levers, sides, strict=True))
+    np.testing.assert_allclose(made, model.M(3, pose, 2), rtol=1e-9)
+
+
 def test_accelerations_are_the_closed_forms(model):
     pose, v, a = random_motion(model, 20)
     expected = model.robot.accelerations(pose, v, a, model.branch)
@@ -180,6 +191,8 @@ def test_where_the_tool_axis_lies_in_chain_0s_plane_the_formulas_divide_by_zero(
         (lambda m, x: m.M(11, x), UnknownName, "10"),
         (lambda m, x: m.M(5, x, 1), UnknownName, "4"),
         (lambda m, x: m.N(3, x, 2), UnknownName, "2"),
+        (lambda m, x: m.k(26, x), UnknownName, "25"),
+        (lambda m, x: m.k(8, x, 1), UnknownName, "7"),
         (lambda m, x: m.N(1, x, 3), UnknownName, "None"),
         (lambda m, x: m.D(np.zeros(5)), WrongShape, "6"),
         (lambda m, x: m.V(x, np.zeros((2, 6))), WrongShape, "pose"),

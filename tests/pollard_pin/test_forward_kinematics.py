@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
+import pollard_pin
 from pollard_pin import USEFUL_BRANCHES
 from pollard_pin.forward import forward_kinematics
 from pollard_pin.specification import ACTUATORS
@@ -109,3 +110,18 @@ def test_motor_angles_without_a_mode_are_refused_with_the_reason(pollard):
 def test_wrong_number_of_motor_angles_is_refused(pollard):
     with pytest.raises(WrongShape, match="motors"):
         pollard.forward_kinematics(np.zeros(5))
+
+
+def test_modes_outside_the_joint_limits_are_marked(rng):
+    data = pollard_pin.Specification.read().model_dump()
+    upper = [360.0] * 12
+    upper[2] = 10.0
+    data["assumptions"]["joint_limits"]["upper_deg"] = tuple(upper)
+    robot = pollard_pin.load(pollard_pin.Specification.model_validate(data))
+    poses = random_poses(rng, 60)
+    found = pollard_pin.load().inverse_kinematics(poses)
+    modes = robot.forward_kinematics(found.angles[found.valid][:, ACTUATORS])
+    expected = np.zeros(modes.angles.shape, dtype=bool)
+    expected[..., 2] = modes.angles[..., 2] > np.radians(10.0)
+    np.testing.assert_array_equal(modes.outside, expected)
+    assert 0 < expected.sum() < modes.count.sum()

@@ -178,15 +178,20 @@ ROWS = "0,double,0.23,-0.04,0.04\n0.1,double,0.23,-0.04,0.04\n0.2,left,0.23,-0.0
             TrajectoryError,
             "time goes from 0.2 to 0.1",
         ),
-        (HEADER + ROWS + "0.3,left,nan,-0.04,0.04\n", TrajectoryError, "torso_z is 'nan'"),
-        (HEADER + ROWS + "0.3,left,,-0.04,0.04\n", TrajectoryError, "sample 4"),
+        (
+            HEADER + ROWS + "0.3,left,nan,-0.04,0.04\n",
+            BadInput,
+            r"gait\.csv:5, column 3: torso_z is 'nan'",
+        ),
+        (HEADER + ROWS + "0.3,left,,-0.04,0.04\n", BadInput, "csv:5, column 3"),
+        (HEADER + ROWS + "0.3,left,0.23\n", BadInput, "csv:5: 3 cells"),
         (HEADER + ROWS + "0.3,both,0.23,-0.04,0.04\n", UnknownName, "double"),
         (HEADER.replace("torso_z", "torso_height") + ROWS, UnknownName, "torso_height"),
         (HEADER.replace("support,", "") + ROWS, TrajectoryError, "support"),
-        ("", TrajectoryError, "no column"),
+        ("", BadInput, "the gait is empty"),
     ],
 )
-def test_a_broken_csv_is_refused_with_its_sample_and_column(tmp_path, text, error, says):
+def test_a_broken_csv_is_refused_with_its_line_and_column(tmp_path, text, error, says):
     path = tmp_path / "gait.csv"
     path.write_text(text)
     with pytest.raises(error, match=says):

@@ -382,3 +382,66 @@ def test_urdf_offsets_are_the_leg_geometry(biped):
         np.testing.assert_array_equal(
             offsets(biped.specification.leg(side), sign), leg_offsets(biped.legs[side])
         )
+
+
+@pytest.mark.parametrize("count", [1, 20, 5000])
+def test_following_a_motion_gives_the_angles_of_the_poses(scout, count):
+    """One branch along a motion, in blocks, against all branches of every pose."""
+    import scout_pin
+
+    gait = scout_pin.load_gait()
+    motion = gait.sample(np.linspace(gait.start, gait.end, count))
+    bodies = (motion.torso, motion.left_foot, motion.right_foot)
+    expected = scout.inverse_kinematics(*(body.placement for body in bodies))
+    np.testing.assert_allclose(scout.follow(*bodies), expected, atol=1e-12)
+
+
+def test_a_motion_no_branch_is_valid_along_is_followed_from_branch_to_branch(scout, rng):
+    """Random configurations within the limits: no branch reaches all of them."""
+    theta = np.zeros((40, 12))
+    theta[:, :6] = rng.uniform(scout.lower[:6], scout.upper[:6], (40, 6))
+    placed = scout.forward_kinematics(theta)
+    still = BodyMotion(np.tile(np.eye(3), (40, 1, 1)), *np.zeros((5, 40, 3)))
+
+    def body(placement):
+        return BodyMotion(placement[:, :3, :3], placement[:, :3, 3], *np.zeros((4, 40, 3)))
+
+    found = scout.follow(still, body(placed["left"]), body(placed["right"]))
+    solutions = scout.leg_inverse_kinematics("left", placed["left"])
+    assert not solutions.valid.all(axis=0).any()
+    np.testing.assert_array_equal(
+        found, scout.inverse_kinematics(still.placement, placed["left"], placed["right"])
+    )
+
+
+def test_following_refuses_unreachable_samples_and_what_is_no_rotation(scout):
+    import scout_pin
+
+    gait = scout_pin.load_gait()
+    motion = gait.sample(np.linspace(gait.start, gait.end, 5000))
+    motion.left_foot.position[4321] += 1.0
+    with pytest.raises(Unreachable, match="left foot, sample 4321"):
+        scout.follow(motion.torso, motion.left_foot, motion.right_foot)
+    motion.left_foot.rotation[3210] *= 1.001
+    with pytest.raises(BadInput, match=r"left foot isn't a rigid placement at index \(3210,\)"):
+        scout.follow(motion.torso, motion.left_foot, motion.right_foot)
+
+
+def test_torques_of_a_wrench_on_the_foot_are_pinocchios_transposed_jacobian(scout, rng):
+    from scout_pin.screws import LegScrews
+
+    theta = rng.uniform(-1, 1, (20, 12))
+    force, moment = rng.normal(size=(2, 3, 20))
+    data = scout.model.createData()
+    for k, side in enumerate(SIDES):
+        mine = slice(6 * k, 6 * k + 6)
+        torques = LegScrews(scout.legs[side], theta[:, mine]).torques(force, moment)
+        frame = scout.sole_frames[side]
+        for n in range(20):
+            q = pin.neutral(scout.model)
+            q[7:] = theta[n]
+            pin.computeJointJacobians(scout.model, data, q)
+            pin.updateFramePlacements(scout.model, data)
+            jacobian = pin.getFrameJacobian(scout.model, data, frame, pin.WORLD)
+            expected = jacobian[:, 6:][:, mine].T @ np.concatenate([force[:, n], moment[:, n]])
+            np.testing.assert_allclose(torques[:, n], expected, atol=1e-12)

@@ -40,3 +40,20 @@ def test_example_runs_from_anywhere(script, tmp_path):
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
 def test_example_is_under_60_lines(script):
     assert len(script.read_text().splitlines()) < 60
+
+
+def test_single_configurations_go_to_pinocchios_meshcat_viewer_as_documented():
+    text = (EXAMPLES.parent / "docs" / "viewer.md").read_text(encoding="utf-8")
+    section = text.split("## One configuration at a time")[1]
+    code = section.split("```python")[1].split("```")[0].replace("open=True", "open=False")
+    code += "print(len(robot.wrapper.viewer.static_html()))"
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        env=os.environ | {"PYTHONPATH": str(EXAMPLES.parent)},
+        check=False,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout.splitlines()[-1]) > 100_000

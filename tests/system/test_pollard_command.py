@@ -213,6 +213,20 @@ def test_everything_runs_on_the_second_specification(pollard_pin, tmp_path):
         assert done.returncode == 0, done.stderr
 
 
+def test_strict_fails_only_if_a_motor_exceeds_a_limit(pollard_pin, tmp_path):
+    weak = tmp_path / "weak.toml"
+    from pollard_pin.specification import POLLARD_PATH
+
+    text = POLLARD_PATH.read_text(encoding="utf-8")
+    weak.write_text(text.replace("effort = 10.0 ", "effort = 1.0 "), encoding="utf-8")
+    arguments = ("trajectory", "--samples", "51", "--strict")
+    assert pollard_pin(*arguments).returncode == 0
+    done = pollard_pin(*arguments, "--specification", weak)
+    assert done.returncode == 1
+    assert "The motors can't do this: θ21 needs" in " ".join(done.stdout.split())
+    assert pollard_pin(*arguments[:-1], "--specification", weak).returncode == 0
+
+
 POSES = "time_s,x_m,y_m,z_m,psi_deg,theta_deg,phi_deg\n"
 CROSSING = POSES + "0,0.45,0,-0.1,0,0,0\n2,0.25,0,-0.1,0,0,0\n"
 BACKWARDS = POSES + "0,0.45,0,0,0,0,0\n2,0.46,0,0,0,0,0\n1,0.47,0,0,0,0,0\n"

@@ -81,6 +81,17 @@ def test_jacobian_of_open_welds_is_the_relative_twist_not_the_derivative():
     np.testing.assert_allclose(loops.residual_derivative(robot, q), numeric, atol=1e-7)
 
 
+@pytest.mark.parametrize(("name", "held"), [("five_bar", 2), ("four_bar", 1), ("rssr", 1)])
+def test_what_the_motors_hold_is_what_locking_them_takes_away(name, held):
+    """With all motors locked, the freedom by rank is what they don't hold."""
+    robot = load(DATA / f"{name}.urdf", DATA / f"{name}.yaml")
+    q = loops.close(robot, np.array(STARTS.get(name, [0.3] * robot.model.nq)))
+    found = loops.mobility(robot, q)
+    locked = np.vstack([loops.jacobian(robot, q), np.eye(robot.model.nv)[list(robot.actuated)]])
+    left = robot.model.nv - np.linalg.matrix_rank(locked, tol=1e-9)
+    assert found.held == held == found.freedom - left
+
+
 def test_mobility_by_rank_sees_what_counting_misses(five_bar):
     """Planar linkages: 2 and 1 degrees of freedom, where counting in space says 1 and −2."""
     found = loops.mobility(five_bar, loops.close(five_bar, np.array(STARTS["five_bar"])))

@@ -57,7 +57,8 @@ def test_arrays_that_items_share_are_stored_once():
 
 def test_the_example_of_the_documents_runs(tmp_path, monkeypatch):
     document = Path(__file__).parents[2] / "docs" / "viewer.md"
-    (code,) = re.findall(r"```python\n(.*?)```", document.read_text(), flags=re.DOTALL)
+    section = document.read_text(encoding="utf-8").split("## Any Pinocchio model")[1]
+    code = re.findall(r"```python\n(.*?)```", section, flags=re.DOTALL)[0]
     robots = SHARE / "example-robot-data" / "robots" / NAMES[0]
     monkeypatch.chdir(tmp_path)
     exec(code.replace('"panda.urdf"', repr(str(robots))).replace('"share"', repr(str(SHARE))), {})

@@ -1,0 +1,93 @@
+"""What each verb of ``scout-pin`` does. Each imports what it needs when it runs."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+
+from thesis_pin import verbs
+from thesis_pin.command_line import LIMIT_VIOLATED, OK, run_view
+from thesis_pin.verbs import show, write_report
+
+
+def gait(arguments: argparse.Namespace) -> int:
+    """Work out a gait and write or print its report."""
+    from scout_pin.gait_files import load_gait
+    from scout_pin.model import load
+    from scout_pin.report import gait_report
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    planned = load_gait(arguments.gait, arguments.interpolation)
+    report = gait_report(robot, planned, samples=arguments.samples, time_unit=arguments.time_unit)
+    if write_report(
+        arguments,
+        report,
+        figures=lambda: import_module("scout_pin.plots").figures(report),
+        page=lambda: import_module("scout_pin.page").gait_page(report),
+    ):
+        from scout_pin.tables import print_report
+
+        print_report(report)
+    return OK if report.within_limits or not arguments.strict else LIMIT_VIOLATED
+
+
+def view(arguments: argparse.Namespace) -> int:
+    """Show a gait in the browser, or write it as a page."""
+    from scout_pin.gait_files import load_gait
+    from scout_pin.model import load
+    from scout_pin.report import gait_report
+    from scout_pin.view import gait_scene
+    from thesis_pin.scene import frames
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    planned = load_gait(arguments.gait, arguments.interpolation)
+    unit = arguments.time_unit or planned.time_unit
+    samples = frames((planned.end - planned.start) * unit)
+    report = gait_report(robot, planned, samples=samples, time_unit=unit)
+    run_view(gait_scene(report), arguments)
+    return OK
+
+
+def ik(arguments: argparse.Namespace) -> int:
+    """Print or write the branches of one foot pose."""
+    import numpy as np
+
+    from scout_pin.model import load
+    from scout_pin.tables import ik_document, print_solutions
+    from thesis_pin.errors import Unreachable
+    from thesis_pin.rotations import euler_placement, transform
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    zero = np.zeros(3)
+    rotation = euler_placement("xyz", np.radians(arguments.rotation), zero, zero)[0]
+    pose = transform(rotation, np.array(arguments.position))
+    solutions = robot.leg_inverse_kinematics(arguments.side, pose)
+    if not solutions.reachable.any():
+        raise Unreachable(solutions.explain(), where=f"{arguments.side} foot")
+    return show(arguments, lambda: ik_document(solutions), lambda: print_solutions(solutions))
+
+
+def info(arguments: argparse.Namespace) -> int:
+    """Say what a specification describes."""
+    from scout_pin.info import document, print_info
+    from scout_pin.model import load
+
+    robot = load(arguments.specification, inertia=arguments.inertia)
+    return show(arguments, lambda: document(robot), lambda: print_info(robot))
+
+
+def urdf(arguments: argparse.Namespace) -> int:
+    """Print the URDF, or write every generated file."""
+    from scout_pin import urdf as generator
+    from scout_pin.specification import Specification
+
+    specification = Specification.read(arguments.specification)
+    text = generator.urdf(specification, arguments.inertia)
+    return verbs.urdf(arguments, specification.name, text, lambda: generator.files(specification))
+
+
+def audit(arguments: argparse.Namespace) -> int:
+    """A verdict on each printed equation of the thesis."""
+    from scout_pin.audit import run
+
+    return run(arguments)
