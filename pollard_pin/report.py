@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -25,8 +26,9 @@ from pollard_pin.specification import (
     JOINT_SYMBOLS,
 )
 from thesis_pin import __version__
-from thesis_pin.checks import choice, instance
+from thesis_pin.checks import choice, function, instance
 from thesis_pin.inertia import Reading
+from thesis_pin.progress import silent
 from thesis_pin.report import ActuatorSummary, summarise
 from thesis_pin.trajectory import JointTrajectory
 
@@ -273,6 +275,7 @@ def trajectory_report(
     samples: int = 2001,
     branch: Branch = DEFAULT_BRANCH,
     motors: Literal["six", "three"] = "six",
+    progress: Callable[[int, int], None] = silent,
 ) -> TrajectoryReport:
     """Work out a path: joint motion, torques, forces, margins.
 
@@ -282,6 +285,7 @@ def trajectory_report(
         samples: Number of evenly spaced samples.
         branch: Which inverse-kinematics solution.
         motors: ``"six"``, or ``"three"`` for the thesis's (3.154).
+        progress: Called with the steps done and their total.
 
     Raises:
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
@@ -289,9 +293,12 @@ def trajectory_report(
     instance("robot", robot, Pollard, "pollard_pin.load()")
     instance("path", path, Path, "load_path() or appendix_b()")
     choice("number of actuators", motors, ("six", "three"))
+    function("progress", progress, "progress(done, total)")
     branch = one_branch(branch)
     motion = path.sample(samples)
+    progress(1, 4)
     joints, solutions = joint_trajectory(robot, motion, branch, path)
+    progress(2, 4)
     posture = solutions.posture
     holding = actuation(posture)
 
@@ -300,7 +307,9 @@ def trajectory_report(
         return float(actuation(there.posture).base_determinant[0])
 
     require_one_sign(determinant, motion.time, holding.base_determinant)
+    progress(3, 4)
     dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a, posture)
+    progress(4, 4)
     three = None
     if motors == "three":
         three = three_torques(rate_jacobian(posture, motion.pose), dynamics.joint_force)

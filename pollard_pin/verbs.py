@@ -16,6 +16,7 @@ from thesis_pin.command_line import (
     write_file,
     write_folder,
 )
+from thesis_pin.progress import LONG, Bar
 from thesis_pin.verbs import show, write_report
 
 if TYPE_CHECKING:
@@ -55,13 +56,16 @@ def trajectory(arguments: argparse.Namespace) -> int:
     from pollard_pin.report import trajectory_report
 
     robot = load(arguments.specification, inertia=arguments.inertia)
-    report = trajectory_report(
-        robot,
-        _path(arguments, robot.specification),
-        samples=arguments.samples,
-        branch=_branch(arguments),
-        motors=arguments.actuators,
-    )
+    path, branch = _path(arguments, robot.specification), _branch(arguments)
+    with Bar("working out the path", wanted=arguments.samples >= LONG) as bar:
+        report = trajectory_report(
+            robot,
+            path,
+            samples=arguments.samples,
+            branch=branch,
+            motors=arguments.actuators,
+            progress=bar,
+        )
     if write_report(
         arguments,
         report,
@@ -144,7 +148,7 @@ def workspace(arguments: argparse.Namespace) -> int:
             )
         axes[name] = np.linspace(ends[0], ends[-1], arguments.points if len(ends) == 2 else 1)
     robot = load(arguments.specification, inertia=arguments.inertia)
-    with _Bar() as bar:
+    with Bar("mapping the workspace") as bar:
         space = evaluate_workspace(
             robot,
             **axes,
@@ -174,26 +178,6 @@ def workspace(arguments: argparse.Namespace) -> int:
             "one side."
         )
     return OK
-
-
-class _Bar:
-    """A progress bar on standard error, silent when that isn't a terminal."""
-
-    def __enter__(self) -> _Bar:
-        from rich.console import Console
-        from rich.progress import Progress
-
-        console = Console(stderr=True)
-        self._bar = Progress(console=console, transient=True, disable=not console.is_terminal)
-        self._task = self._bar.add_task("positions", total=None)
-        self._bar.start()
-        return self
-
-    def __call__(self, done: int, total: int) -> None:
-        self._bar.update(self._task, completed=done, total=total)
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.stop()
 
 
 def info(arguments: argparse.Namespace) -> int:

@@ -18,6 +18,7 @@ from thesis_pin import __version__
 from thesis_pin.arrays import finite_array, vector
 from thesis_pin.checks import function, instance, whole
 from thesis_pin.errors import BadInput
+from thesis_pin.progress import silent
 from thesis_pin.tolerances import TOLERANCES
 
 SCHEMA = "pollard-pin/workspace"
@@ -114,7 +115,7 @@ def evaluate_workspace(
     branch: Branch = DEFAULT_BRANCH,
     *,
     jobs: int = 2,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Callable[[int, int], None] = silent,
 ) -> Workspace:
     """Reach and conditioning over a grid.
 
@@ -133,8 +134,7 @@ def evaluate_workspace(
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
     branch, jobs = one_branch(branch), whole("jobs", jobs, 1)
-    if progress is not None:
-        function("progress", progress, "progress(done, total)")
+    function("progress", progress, "progress(done, total)")
     axes = tuple(np.atleast_1d(finite_array(n, v)) for n, v in zip("xyz", (x, y, z), strict=True))
     tool = vector("orientation", orientation, 3)
     shape = tuple(len(axis) for axis in axes)
@@ -158,8 +158,7 @@ def evaluate_workspace(
     with ThreadPoolExecutor(jobs) as pool:
         done = itertools.accumulate(pool.map(work, range(0, total, _CHUNK)))
         for count in done:
-            if progress:
-                progress(count, total)
+            progress(count, total)
     margin, condition, determinant = results.reshape(3, *shape)
     return Workspace(
         robot, branch, (axes[0], axes[1], axes[2]), tool, margin, condition, determinant

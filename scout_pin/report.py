@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -22,7 +23,8 @@ from scout_pin.servo_limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from scout_pin.stability import momentum, support_margin, zero_moment_point
 from thesis_pin import __version__
-from thesis_pin.checks import instance
+from thesis_pin.checks import function, instance
+from thesis_pin.progress import silent
 from thesis_pin.report import ActuatorSummary, summarise
 from thesis_pin.trajectory import JointTrajectory
 
@@ -263,7 +265,12 @@ class GaitReport:
 
 
 def gait_report(
-    robot: Scout, gait: Gait, *, samples: int = 401, time_unit: float | None = None
+    robot: Scout,
+    gait: Gait,
+    *,
+    samples: int = 401,
+    time_unit: float | None = None,
+    progress: Callable[[int, int], None] = silent,
 ) -> GaitReport:
     """Work out a gait: angles, torques, stability, contact, impacts, servo limits.
 
@@ -272,19 +279,24 @@ def gait_report(
         gait: The gait.
         samples: Number of evenly spaced samples.
         time_unit: Seconds in the gait's unit of t; None for the gait's own.
+        progress: Called with the steps done and their total.
 
     Raises:
         TrajectoryError, Unreachable, SingularPose, NoSupportForce: The motion is impossible.
     """
     walking(robot)
     instance("gait", gait, Gait, "scout_pin.load_gait()")
+    function("progress", progress, "progress(done, total)")
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
+    progress(1, 4)
     joints = joint_trajectory(robot, motion)
+    progress(2, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
+    progress(3, 4)
     com, rate = momentum(robot, *free_flyer_state(motion.torso, joints))
     zmp = zero_moment_point(robot.mass, com, rate)
-    return GaitReport(
+    report = GaitReport(
         robot=robot,
         gait=gait,
         time_unit=unit,
@@ -296,3 +308,5 @@ def gait_report(
         margin=support_margin(robot, motion, zmp),
         impacts=tuple(impacts(robot, gait, unit)),
     )
+    progress(4, 4)
+    return report

@@ -7,6 +7,7 @@ from importlib import import_module
 
 from thesis_pin import verbs
 from thesis_pin.command_line import LIMIT_VIOLATED, OK, run_view
+from thesis_pin.progress import LONG, Bar
 from thesis_pin.verbs import show, write_report
 
 
@@ -18,7 +19,14 @@ def gait(arguments: argparse.Namespace) -> int:
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     planned = load_gait(arguments.gait, arguments.interpolation)
-    report = gait_report(robot, planned, samples=arguments.samples, time_unit=arguments.time_unit)
+    with Bar("working out the gait", wanted=arguments.samples >= LONG) as bar:
+        report = gait_report(
+            robot,
+            planned,
+            samples=arguments.samples,
+            time_unit=arguments.time_unit,
+            progress=bar,
+        )
     if write_report(
         arguments,
         report,

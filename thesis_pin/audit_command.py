@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import difflib
-import sys
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -64,10 +63,11 @@ def run_verb(
     from thesis_pin.audit_json import document
     from thesis_pin.audit_page import page
     from thesis_pin.command_line import OK, print_entries, print_table, print_text, write_file
+    from thesis_pin.progress import track
     from thesis_pin.report import json_bytes
 
     only = known(arguments.equation, catalogue, robot) if arguments.equation is not None else None
-    report = audit(only=only, progress=progress_bar)
+    report = audit(only=only, progress=lambda rows, total: track(rows, "auditing", total))
     if arguments.html:
         write_file(arguments.html, page(report).encode())
     if arguments.markdown:
@@ -135,15 +135,4 @@ def known(identity: str, catalogue: Catalogue, robot: str) -> list[str]:
         where="--equation",
         allowed=f"an id such as {', '.join(near) or listed[0]}",
         remedy=f"{robot}-pin audit --json - lists all ids",
-    )
-
-
-def progress_bar(equations: Iterable[Equation], total: int) -> Iterator[Equation]:
-    """A bar on standard error, on a terminal only."""
-    from rich.console import Console
-    from rich.progress import track
-
-    console = Console(stderr=True)
-    yield from track(
-        equations, "auditing", total=total, console=console, disable=not sys.stderr.isatty()
     )
