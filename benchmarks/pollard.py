@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pinocchio as pin
 from scipy.optimize import least_squares
+from timing import Comparison, again
 
 import pollard_pin
 from pollard_pin.motion import joint_trajectory
@@ -14,11 +13,7 @@ from pollard_pin.path import appendix_b
 from pollard_pin.specification import ACTUATORS
 from thesis_pin import loop_dynamics, loops
 
-Row = tuple[str, float, str, float]
-"""Work, its seconds per item, a peer, the peer's seconds per item."""
-
-Clock = Callable[..., float]
-"""``median_time(work, count, repeats=7)`` of benchmarks/run.py."""
+RNEA = "RNEA, one thread"
 
 
 def _gap(robot: pollard_pin.Pollard, target: pin.SE3, q: np.ndarray) -> np.ndarray:
@@ -42,62 +37,95 @@ def newton(robot: pollard_pin.Pollard, target: pin.SE3, start: np.ndarray) -> np
     return q
 
 
-def pollard_kinematics(median_time: Clock, count: int = 20_000) -> list[Row]:
+def kinematics(count: int = 20_000) -> list[Comparison]:
     """Inverse and forward kinematics against numeric peers."""
     robot = pollard_pin.load()
     motion = appendix_b(robot.specification).sample(count)
     pose = motion.pose
-    stack = median_time(lambda: robot.inverse_kinematics(pose), count)
-    all_16 = median_time(lambda: robot.inverse_kinematics(pose, "useful"), count, repeats=3)
-    single = median_time(lambda: [robot.inverse_kinematics(pose[0]) for _ in range(200)], 200)
     q = robot.inverse_kinematics(pose).angles
     data, few = robot.model.createData(), 20
     frame = robot.model.getFrameId("tool_tip")
-    starts, targets = q[:few] + 0.05, []
+    pairs = []
     for one in q[:few]:
         pin.framesForwardKinematics(robot.model, data, one)
-        targets.append(data.oMf[frame].copy())
-    pairs = list(zip(targets, starts, strict=True))
-    numeric = median_time(lambda: [newton(robot, t, s) for t, s in pairs], few, repeats=3)
-    squares = median_time(
-        lambda: [least_squares(lambda q, t=t: _gap(robot, t, q), s) for t, s in pairs[:5]],
-        5,
-        repeats=3,
-    )
-    rates = median_time(lambda: joint_trajectory(robot, motion), count)
+        pairs.append((data.oMf[frame].copy(), one + 0.05))
     motors = q[:2000, ACTUATORS]
-    forward = median_time(lambda: robot.forward_kinematics(motors), 2000, repeats=3)
-    near = median_time(
-        lambda: [loops.close(robot, one + 0.05, one[list(ACTUATORS)]) for one in q[:few]], few, 3
-    )
+
+    def stack() -> object:
+        return robot.inverse_kinematics(pose)
+
+    def every() -> object:
+        return robot.inverse_kinematics(pose, "useful")
+
+    def numeric() -> object:
+        return [newton(robot, target, start) for target, start in pairs]
+
+    def squares() -> object:
+        return [least_squares(lambda q, t=t: _gap(robot, t, q), s) for t, s in pairs[:5]]
+
+    def near() -> object:
+        return [loops.close(robot, one + 0.05, one[list(ACTUATORS)]) for one in q[:few]]
+
+    single = again(lambda: robot.inverse_kinematics(pose[0]), 200)
+    sixteen = again(lambda: robot.inverse_kinematics(pose[0], "useful"), 100)
+    one_branch = "IK, one branch"
     return [
-        ("IK, 12 angles, stack", stack, "Newton on Pinocchio", numeric),
-        ("IK, 12 angles, stack", stack, "scipy least squares", squares),
-        ("IK, 12 angles, one pose", single, "Newton on Pinocchio", numeric),
-        ("IK, 16 branches, stack", all_16, "IK, one branch", stack),
-        ("IK, rates, accelerations", rates, "IK, one branch", stack),
-        ("FK, every assembly mode", forward, "Newton, one mode", near),
+        Comparison("IK, 12 angles, stack", stack, count, "Newton, one", numeric, few, 5),
+        Comparison("IK, 12 angles, stack", stack, count, "scipy least squares", squares, 5, 3),
+        Comparison("IK, 12 angles, single", single, 200, "Newton, one", numeric, few, 5),
+        Comparison("IK, 16 branches, single", sixteen, 100, "Newton, one", numeric, few, 5),
+        Comparison("IK, 16 branches, stack", every, count, one_branch, stack, count, 5),
+        Comparison(
+            "IK, rates, accelerations",
+            lambda: joint_trajectory(robot, motion),
+            count,
+            one_branch,
+            stack,
+            count,
+        ),
+        Comparison(
+            "FK, every assembly mode",
+            lambda: robot.forward_kinematics(motors),
+            2000,
+            "Newton, one mode",
+            near,
+            few,
+            5,
+        ),
     ]
 
 
-def pollard_dynamics(median_time: Clock, count: int = 20_000) -> list[Row]:
-    """Loop inverse dynamics against bare RNEA and the general solver."""
+def dynamics(count: int = 20_000) -> list[Comparison]:
+    """Loop inverse dynamics against bare RNEA of the open tree and the general solver."""
     robot = pollard_pin.load()
-    motion = appendix_b(robot.specification).sample(count)
+    path = appendix_b(robot.specification)
+    motion = path.sample(count)
     joints, _ = joint_trajectory(robot, motion)
     state = (joints.q, joints.v, joints.a)
-    rnea = median_time(lambda: robot.tree_torques(*state), count)
-    fast = median_time(lambda: robot.inverse_dynamics(*state), count)
+    columns = [np.asfortranarray(part.T) for part in state]
+    pool, tau = pin.ModelPool(robot.model, 1), np.empty((12, count), order="F")
     some = tuple(x[:500] for x in state)
-    general = median_time(lambda: loop_dynamics.inverse_dynamics(robot, *some), 500, repeats=3)
+
+    def rnea() -> object:
+        return pin.rneaInParallel(1, pool, *columns, tau)
+
+    def fast() -> object:
+        return robot.inverse_dynamics(*state)
+
+    def general() -> object:
+        return loop_dynamics.inverse_dynamics(robot, *some)
 
     def whole() -> None:
         joints, _ = joint_trajectory(robot, motion)
         robot.inverse_dynamics(joints.q, joints.v, joints.a)
 
-    peer = "RNEA, one thread"
+    def stream() -> None:
+        for _ in pollard_pin.torque_blocks(robot, path, motion.time):
+            pass
+
     return [
-        ("loop inverse dynamics", fast, peer, rnea),
-        ("loop inverse dynamics", fast, "general solver", general),
-        ("path to torques", median_time(whole, count), peer, rnea),
+        Comparison("loop inverse dynamics", fast, count, RNEA, rnea, count),
+        Comparison("loop inverse dynamics", fast, count, "general solver", general, 500, 3),
+        Comparison("path to torques", whole, count, RNEA, rnea, count),
+        Comparison("path's curve to torques", stream, count, RNEA, rnea, count),
     ]

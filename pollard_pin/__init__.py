@@ -21,6 +21,7 @@ _HOMES = {
     "Path": "path",
     "load_path": "path",
     "appendix_b": "path",
+    "torque_blocks": "stream",
     "trajectory_report": "report",
     "evaluate_workspace": "workspace",
 }

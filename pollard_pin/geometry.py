@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -137,6 +138,23 @@ class Geometry:
     beta_1413: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
+
+    @cached_property
+    def sides(self) -> tuple[tuple[float, ...], ...]:
+        """Each side chain's numbers as floats: anchor x, y, z, y_10, z_32, x_43, x_87, cβ, sβ."""
+        return tuple(
+            tuple(map(float, row))
+            for row in zip(
+                *self.anchors.T,
+                self.y_10,
+                self.z_32,
+                self.x_43,
+                self.x_87,
+                np.cos(self.beta_54),
+                np.sin(self.beta_54),
+                strict=True,
+            )
+        )
 
     @classmethod
     def of(cls, specification: Specification) -> Geometry:

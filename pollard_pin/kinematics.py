@@ -23,10 +23,8 @@ import numpy as np
 from pollard_pin.geometry import Branch, Geometry
 from pollard_pin.solutions import Solutions
 from thesis_pin.arrays import finite_array, spread, wrap
+from thesis_pin.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
 from thesis_pin.tolerances import TOLERANCES
-
-_CHUNK = 2048  # samples whose intermediates stay in a core's cache
-_FEW = 16  # below this many poses, Python floats beat NumPy arrays
 
 
 def inverse_kinematics(
@@ -60,21 +58,8 @@ def inverse_kinematics(
     if reference is not None:
         given = finite_array("reference", reference, 12)
         roll = spread("reference", given, stack)[..., 3].reshape(count)
-    angles = np.empty((count, len(branches), 12))
-    cosines = np.empty((count, len(branches), 3))
-    if count < _FEW:
-        for k, one in enumerate(flat.tolist()):
-            chunk = _Chunk(math, _pick, geometry, one, float(roll[k]))
-            for b, branch in enumerate(branches):
-                angles[k, b], cosines[k, b] = chunk.solve(branch)
-    else:
-        for start in range(0, count, _CHUNK):
-            part = slice(start, min(start + _CHUNK, count))
-            chunk = _Chunk(np, np.where, geometry, np.ascontiguousarray(flat[part].T), roll[part])
-            for b, branch in enumerate(branches):
-                for out, rows in zip((angles, cosines), chunk.solve(branch), strict=True):
-                    for k, row in enumerate(rows):
-                        out[part, b, k] = row
+    work = _few if count < FEW else _many
+    angles, cosines = work(geometry, flat, branches, roll)
     if (beyond := ~(np.abs(cosines).max(axis=-1) <= 1.0 + TOLERANCES.reach)).any():
         angles[beyond] = np.nan
     shape: tuple[int, ...] = (*stack, len(branches))
@@ -85,28 +70,52 @@ def inverse_kinematics(
         geometry,
         tuple(branches),
         target,
-        wrap(angles).reshape(*shape, 12),
+        angles.reshape(*shape, 12),
         cosines.reshape(*shape, 3),
     )
 
 
-def _pick(condition: bool, yes: float, no: float) -> float:
-    return yes if condition else no
+def _few(
+    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], roll: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Angles ``(n, branches, 12)`` and cosines ``(n, branches, 3)`` of n poses, by floats."""
+    numbers: list[float] = []  # one list for all: an array costs more to begin than to fill
+    for pose, one in zip(poses.tolist(), roll.tolist(), strict=True):
+        chunk = _Chunk(FLOATS, geometry, pose, one)
+        for branch in branches:
+            angles, cosines = chunk.solve(branch)
+            numbers += angles
+            numbers += cosines
+    rows = np.array(numbers).reshape(len(poses), len(branches), 15)
+    return wrap(rows[..., :12]), rows[..., 12:]
+
+
+def _many(
+    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], roll: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same by arrays, in blocks."""
+    count = len(poses)
+    angles, cosines = np.empty((count, len(branches), 12)), np.empty((count, len(branches), 3))
+    for part in blocks(count):
+        chunk = _Chunk(ARRAYS, geometry, np.ascontiguousarray(poses[part].T), roll[part])
+        for b, branch in enumerate(branches):
+            found, cosine = chunk.solve(branch)
+            angles[part, b] = wrap(np.array(found)).T
+            cosines[part, b] = np.array(cosine).T
+    return angles, cosines
 
 
 class _Chunk:
     """Angles of one chunk of poses; what several branches share is computed once.
 
-    Works on floats (``xp`` is math, ``where`` a conditional) and arrays alike.
+    Works on floats and arrays alike.
     """
 
-    def __init__(
-        self, xp: Any, where: Callable[..., Any], geometry: Geometry, pose: Any, roll: Any
-    ) -> None:
-        self.xp, self.where, self.geometry, self.roll = xp, where, geometry, roll
+    def __init__(self, xp: Elementwise, geometry: Geometry, pose: Any, roll: Any) -> None:
+        self.xp, self.geometry, self.roll = xp, geometry, roll
         self.memo: dict[tuple[Any, ...], Any] = {}
         x, y, z, psi, theta, phi = pose
-        cp, sp, ct, st, cf, sf = (g(a) for a in (psi, theta, phi) for g in (xp.cos, xp.sin))
+        (cp, sp), (ct, st), (cf, sf) = (xp.cosine_sine(a) for a in (psi, theta, phi))
         # Rows of Rx(θ) Ry(ψ) Rz(φ).
         self.R = (
             (cp * cf, -cp * sf, sp),
@@ -129,19 +138,24 @@ class _Chunk:
         return angles, cosines
 
     def _memo(self, function: Callable[..., Any], *signs: int) -> Any:
-        key = (function.__name__, *signs)
-        if key not in self.memo:
-            self.memo[key] = function(*signs)
-        return self.memo[key]
+        key = (function.__name__, signs)
+        found = self.memo.get(key)
+        if found is None:
+            found = self.memo[key] = function(*signs)
+        return found
 
     def _acos(self, cosine: Any) -> Any:
-        clipped = self.where(cosine > 1.0, 1.0, self.where(cosine < -1.0, -1.0, cosine))
-        return self.xp.acos(clipped)
+        return self.xp.acos(self.xp.clipped(cosine))
+
+    def _hypot(self, one: Any, other: Any) -> Any:
+        return self.xp.sqrt(one * one + other * other)
 
     def _ratio(self, value: Any, size: Any) -> Any:
         """value / size; infinite where size vanishes, so that no solution is claimed there."""
         zero = size == 0.0
-        return self.where(zero, math.inf, value / self.where(zero, 1.0, size))
+        if not self.xp.some(zero):
+            return value / size
+        return self.xp.where(zero, math.inf, value / self.xp.where(zero, 1.0, size))
 
     def _shoulder(self, e0: int) -> tuple[Any, ...]:
         g, xp = self.geometry, self.xp
@@ -149,18 +163,18 @@ class _Chunk:
         dz = wz - g.z_10
         square = wx * wx + wy * wy + dz * dz
         cosine = self._ratio(
-            square + g.x_32 * g.x_32 - g.forearm * g.forearm, 2 * g.x_32 * xp.hypot(wx, dz)
+            square + g.x_32 * g.x_32 - g.forearm * g.forearm, 2 * g.x_32 * self._hypot(wx, dz)
         )
         theta = xp.atan2(-dz, wx) + e0 * self._acos(cosine)
-        c, s = xp.cos(theta), xp.sin(theta)
+        c, s = xp.cosine_sine(theta)
         return theta, cosine, c, s, c * wx - s * dz - g.x_32, wy, s * wx + c * dz
 
     def _forearm(self, e0: int, f0: int) -> tuple[Any, ...]:
         g, xp = self.geometry, self.xp
         _, _, c21, s21, X, Y, Z = self._memo(self._shoulder, e0)
         theta_43 = xp.atan2(-f0 * Z, f0 * X)
-        theta_54 = xp.atan2(Y, f0 * xp.hypot(X, Z))
-        c43, s43, c54, s54 = (g_(a) for a in (theta_43, theta_54) for g_ in (xp.cos, xp.sin))
+        theta_54 = xp.atan2(Y, f0 * self._hypot(X, Z))
+        (c43, s43), (c54, s54) = xp.cosine_sine(theta_43), xp.cosine_sine(theta_54)
         ca, sa = c21 * c43 - s21 * s43, s21 * c43 + c21 * s43
         # Rows of Ry(θ21 + θ43) Rz(θ54).
         rows = ((ca * c54, -ca * s54, sa), (s54, c54, 0.0), (-sa * c54, sa * s54, ca))
@@ -175,33 +189,33 @@ class _Chunk:
             return F[0][i] * R[0][j] + F[1][i] * R[1][j] + F[2][i] * R[2][j]
 
         b00, b10, b20 = entry(0, 0), entry(1, 0), entry(2, 0)
-        straight = xp.hypot(b10, b20) < TOLERANCES.singular
-        theta_1615 = self.where(straight, self.roll, xp.atan2(w * b20, w * b10))
+        theta_1615 = xp.atan2(w * b20, w * b10)
+        if xp.some(straight := self._hypot(b10, b20) < TOLERANCES.singular):
+            theta_1615 = xp.where(straight, self.roll, theta_1615)
         # With θ1615 known the others follow from Rx(−θ1615) B, also where it is free.
-        c, s = xp.cos(theta_1615), xp.sin(theta_1615)
+        c, s = xp.cosine_sine(theta_1615)
         theta_1716 = xp.atan2(c * b10 + s * b20, b00)
         theta_1817 = xp.atan2(c * entry(2, 1) - s * entry(1, 1), c * entry(2, 2) - s * entry(1, 2))
         return theta_1615, theta_1716, theta_1817
 
     def _arm(self, e0: int, f0: int, i: int, e: int) -> tuple[Any, ...]:
-        g, xp = self.geometry, self.xp
+        xp = self.xp
         _, _, F, elbow = self._memo(self._forearm, e0, f0)
-        ax, ay, az = g.anchors[i].tolist()
+        ax, ay, az, y_10, z_32, arm, rod, _, _ = self.geometry.sides[i]
         sx, sy, sz = (
             row[0] * ax + row[1] * ay + row[2] * az + p for row, p in zip(F, elbow, strict=True)
         )
-        arm, rod = float(g.x_43[i]), float(g.x_87[i])
-        dx, dy, h = sx, sy - float(g.y_10[i]), sz + float(g.z_32[i])
+        dx, dy, h = sx, sy - y_10, sz + z_32
         square = dx * dx + dy * dy + h * h
-        cosine = self._ratio(square + arm * arm - rod * rod, 2 * arm * xp.hypot(dx, dy))
+        cosine = self._ratio(square + arm * arm - rod * rod, 2 * arm * self._hypot(dx, dy))
         theta = xp.atan2(dy, dx) + e * self._acos(cosine)
         return theta, cosine, dx, dy, h
 
     def _rod(self, e0: int, f0: int, i: int, e: int, f: int) -> tuple[Any, Any]:
-        g, xp = self.geometry, self.xp
+        xp = self.xp
         theta, _, dx, dy, h = self._memo(self._arm, e0, f0, i, e)
-        c, s = xp.cos(theta), xp.sin(theta)
-        cb, sb = math.cos(g.beta_54[i]), math.sin(g.beta_54[i])
-        along, across = c * dx + s * dy - float(g.x_43[i]), c * dy - s * dx
+        c, s = xp.cosine_sine(theta)
+        *_, arm, _, cb, sb = self.geometry.sides[i]
+        along, across = c * dx + s * dy - arm, c * dy - s * dx
         vy, vz = cb * across + sb * h, cb * h - sb * across
-        return xp.atan2(-f * vz, f * along), xp.atan2(vy, f * xp.hypot(along, vz))
+        return xp.atan2(-f * vz, f * along), xp.atan2(vy, f * self._hypot(along, vz))

@@ -7,6 +7,7 @@ import numpy as np
 from pollard_pin.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import Pollard
 from pollard_pin.path import Path, ToolMotion
+from pollard_pin.posture import Posture
 from pollard_pin.rates import (
     check_regular,
     joint_accelerations,
@@ -16,9 +17,11 @@ from pollard_pin.rates import (
 )
 from pollard_pin.solutions import Solutions
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.elementwise import blocks
 from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.trajectory import JointTrajectory
+from thesis_pin.vectors import rows
 
 _JUMP = 1.0  # rad between two samples that only a break of the branch explains …
 _UNFORESEEN = 0.5  # … if the rates on both sides foretell less than this of it
@@ -29,6 +32,7 @@ def joint_trajectory(
     motion: ToolMotion,
     branch: Branch = DEFAULT_BRANCH,
     path: Path | None = None,
+    start: np.ndarray | None = None,
 ) -> tuple[JointTrajectory, Solutions]:
     """Angles, rates and accelerations of the twelve joints along a path.
 
@@ -37,6 +41,8 @@ def joint_trajectory(
         motion: Sampled path.
         branch: Which solution; it is kept all along.
         path: Where the samples come from, to look closer where they are far apart.
+        start: Angles of the first sample but for whole turns [rad], ``(12,)``; None for
+            those in (−π, π].
 
     Returns:
         The joint trajectory, its angles without jumps of a whole turn, and the
@@ -48,6 +54,8 @@ def joint_trajectory(
     """
     solution, v, a = _solve(robot, motion, branch)
     q, changes = _unwrapped(solution.angles)
+    if start is not None and (turns := np.rint((start - q[0]) / (2 * np.pi))).any():
+        q = q + 2 * np.pi * turns
     for k, joint, change in _suspicious(motion.time, changes, v):
         if path is None or _breaks(robot, path, motion.time[k : k + 2], branch):
             raise SingularPose(
@@ -66,14 +74,17 @@ def _solve(
 ) -> tuple[Solutions, np.ndarray, np.ndarray]:
     """Angles in (−π, π], rates and accelerations at the samples."""
     solution = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
-    posture = solution.posture
-    check_regular(posture, motion.time)
-    pose, rate, acceleration = (
-        np.ascontiguousarray(x.T) for x in (motion.pose, motion.rate, motion.acceleration)
-    )
-    v = joint_rates(posture, *tool_twist(posture, pose[3:5], rate))
-    a = joint_accelerations(posture, v, *tool_acceleration(posture, pose[3:5], rate, acceleration))
-    return solution, np.ascontiguousarray(v.T), np.ascontiguousarray(a.T)
+    v, a = np.empty(solution.angles.shape), np.empty(solution.angles.shape)
+    for part in blocks(len(motion.time)):
+        posture = Posture.of(robot.geometry, solution.angles[part])
+        check_regular(posture, motion.time[part])
+        pose, rate, acceleration = (
+            rows(x[part]) for x in (motion.pose, motion.rate, motion.acceleration)
+        )
+        rates = joint_rates(posture, *tool_twist(posture, pose[3:5], rate))
+        wrist = tool_acceleration(posture, pose[3:5], rate, acceleration)
+        v[part], a[part] = rates.T, joint_accelerations(posture, rates, *wrist).T
+    return solution, v, a
 
 
 def _unwrapped(q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

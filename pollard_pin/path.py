@@ -48,6 +48,12 @@ class ToolMotion:
     rate: np.ndarray
     acceleration: np.ndarray
 
+    def part(self, samples: slice) -> ToolMotion:
+        """Some consecutive samples, as views."""
+        return ToolMotion(
+            self.time[samples], self.pose[samples], self.rate[samples], self.acceleration[samples]
+        )
+
 
 @dataclass(frozen=True)
 class Path:

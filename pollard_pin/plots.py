@@ -102,22 +102,13 @@ def margins_figure(report: TrajectoryReport) -> Figure:
     return figure
 
 
-def _files(name: str, figure: Figure) -> dict[str, bytes]:
-    # Lay out once, not once a format: that is half the time a figure takes.
-    engine = figure.get_layout_engine()
-    if engine is not None:
-        engine.execute(figure)
-    figure.set_layout_engine("none")
-    return figure_files(name, figure)
-
-
 def report_files(report: TrajectoryReport) -> dict[str, bytes]:
     """Every figure of a report as PNG and SVG: file name → content."""
     files: dict[str, bytes] = {}
     for order, name in enumerate(("positions", "velocities", "accelerations")):
-        files |= _files(name, joints_figure(report, order))
-    files |= _files("actuators", actuators_figure(report))
-    files |= _files("margins", margins_figure(report))
+        files |= figure_files(name, joints_figure(report, order))
+    files |= figure_files("actuators", actuators_figure(report))
+    files |= figure_files("margins", margins_figure(report))
     return files
 
 
@@ -155,4 +146,4 @@ def workspace_figure(space: Workspace) -> Figure:
 
 def workspace_files(space: Workspace) -> dict[str, bytes]:
     """The workspace as PNG and SVG: file name → content."""
-    return _files("workspace", workspace_figure(space))
+    return figure_files("workspace", workspace_figure(space))

@@ -36,7 +36,7 @@ def _z_cross(v: Vector) -> Vector:
 
 
 def _scaled(k: np.ndarray, v: Vector) -> Vector:
-    return np.stack([k * v[0], k * v[1], k * v[2]])
+    return k * (v if v.ndim > k.ndim else v[:, None])
 
 
 def check_regular(posture: Posture, time: np.ndarray | None = None) -> None:

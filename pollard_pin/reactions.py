@@ -7,6 +7,7 @@ import pinocchio as pin
 
 from pollard_pin.specification import JOINT_NAMES
 from pollard_pin.urdf import ANCHOR_FRAMES, ROD_TIP_FRAMES
+from thesis_pin.arrays import skew
 from thesis_pin.closures import ClosedRobot
 
 
@@ -29,17 +30,19 @@ def joint_reactions(
         torque, zero in a passive joint.
     """
     model, data = robot.model, robot.model.createData()
-    frames = [(robot.model.getFrameId(f), 1.0, i) for i, f in enumerate(ANCHOR_FRAMES)]
-    frames += [(robot.model.getFrameId(f), -1.0, i) for i, f in enumerate(ROD_TIP_FRAMES)]
+    frames = []
+    for names, sign in ((ANCHOR_FRAMES, 1.0), (ROD_TIP_FRAMES, -1.0)):
+        for i, name in enumerate(names):
+            frame = model.frames[model.getFrameId(name)]
+            # From a force to the wrench about the joint's origin: itself, then point × force.
+            lever = np.concatenate([np.eye(3), skew(frame.placement.translation)])
+            frames.append((frame.parentJoint, sign * lever, i))
     result = np.empty((len(q), len(JOINT_NAMES), 6))
     for k in range(len(q)):
         external = [pin.Force.Zero() for _ in range(model.njoints)]
         pin.forwardKinematics(model, data, q[k])
-        for number, sign, i in frames:
-            frame = model.frames[number]
-            local = data.oMi[frame.parentJoint].rotation.T @ (sign * loop_force[k, i])
-            point = frame.placement.translation
-            external[frame.parentJoint] += pin.Force(local, np.cross(point, local))
+        for joint, lever, i in frames:
+            external[joint] += pin.Force(lever @ (data.oMi[joint].rotation.T @ loop_force[k, i]))
         pin.rnea(model, data, q[k], v[k], a[k], external)
         for joint in range(1, model.njoints):
             result[k, joint - 1] = data.f[joint].vector

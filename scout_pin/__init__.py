@@ -20,6 +20,7 @@ _HOMES = {
     "Contact": "contact",
     "joint_trajectory": "dynamics",
     "inverse_dynamics": "dynamics",
+    "torque_blocks": "stream",
     "touchdown_impact": "impact",
     "zero_moment_point": "stability",
     "pressure_point": "stability",

@@ -12,6 +12,9 @@ diagonal of the sole's bounding box); a margin is then a moment in N·m.
 Source: Scout thesis, 4.5 names the floor's forces; their limits are missing
 there. Wrench cones: Caron, Pham, Nakamura, "Stability of surface contacts for
 humanoid robots", ICRA 2015.
+
+SciPy is imported where it is used: it takes half a second, and a robot can be
+loaded without it.
 """
 
 from __future__ import annotations
@@ -20,12 +23,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import nnls
-from scipy.spatial import ConvexHull
 
 from scout_pin.specification import Specification
 from thesis_pin.arrays import finite_array, vector
 from thesis_pin.checks import instance, real
+from thesis_pin.elementwise import blocks
 from thesis_pin.errors import BadInput, WrongShape
 
 FRICTION_EDGES = 8
@@ -67,6 +69,8 @@ class Contact:
     @classmethod
     def from_outline(cls, outline: np.ndarray, friction: float) -> Contact:
         """Contact of a sole with the given corners [m], ``(n, 2)``, and friction."""
+        from scipy.spatial import ConvexHull
+
         outline = _corners("outline", outline)
         friction = real("friction", friction, low=1e-6)
         hull = outline[ConvexHull(outline).vertices]
@@ -105,7 +109,11 @@ class Contact:
         Returns:
             Margins, shape ``(...)``.
         """
-        return -(self.scale(wrench) @ self.facets.T).max(axis=-1)
+        flat = self.scale(wrench).reshape(-1, 6)
+        margin = np.empty(len(flat))
+        for part in blocks(len(flat), 1024):  # a row of the product is some hundred facets
+            margin[part] = -(flat[part] @ self.facets.T).max(axis=-1)
+        return margin.reshape(wrench.shape[:-1])
 
     def violation(self, wrench: np.ndarray) -> tuple[float, np.ndarray]:
         """Least wrench that something other than the floor would have to add.
@@ -117,6 +125,8 @@ class Contact:
             Its size [N·m, forces scaled], zero if the wrench is admissible, and
             the wrench itself (unscaled), shape ``(6,)``.
         """
+        from scipy.optimize import nnls
+
         target = self.scale(vector("wrench", wrench, 6))
         weights, size = nnls(self.rays.T, target)
         missing = target - self.rays.T @ weights
@@ -167,6 +177,8 @@ def support_polygon(*soles: Any) -> np.ndarray:
 
     Source: Scout thesis, section 6.2.
     """
+    from scipy.spatial import ConvexHull
+
     if not soles:
         raise BadInput("there is no sole", allowed="the corners of at least one")
     points = np.concatenate([_corners("sole", sole)[:, :2] for sole in soles])

@@ -63,11 +63,11 @@ class ContactDynamics:
     @cached_property
     def contact_margin(self) -> np.ndarray:
         """Distance of each foot's wrench inside its cone [N·m], ``(n, 2)``; NaN off the floor."""
-        margin = np.stack(
-            [contact.margin(self.sole_wrench[:, k]) for k, contact in enumerate(self.contacts)],
-            axis=1,
-        )
-        return np.where(self.support, margin, np.nan)
+        margin = np.full(self.support.shape, np.nan)
+        for k, contact in enumerate(self.contacts):
+            standing = self.support[:, k]
+            margin[standing, k] = contact.margin(self.sole_wrench[standing, k])
+        return margin
 
     @cached_property
     def admissible(self) -> np.ndarray:
@@ -102,8 +102,15 @@ class ContactDynamics:
         return self.contacts[k].violation(self.sole_wrench[sample, k])
 
 
-def joint_trajectory(robot: Scout, motion: Motion) -> JointTrajectory:
+def joint_trajectory(
+    robot: Scout, motion: Motion, reference: np.ndarray | None = None
+) -> JointTrajectory:
     """Inverse kinematics of a whole motion, rates and accelerations included.
+
+    Args:
+        robot: The biped.
+        motion: The sampled gait.
+        reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
 
     Raises:
         Unreachable: Some pose has no valid branch.
@@ -111,7 +118,7 @@ def joint_trajectory(robot: Scout, motion: Motion) -> JointTrajectory:
     """
     instance("robot", robot, Scout, "scout_pin.load()")
     instance("motion", motion, Motion, "Gait.sample()")
-    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot)
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, reference)
     feet = (motion.left_foot, motion.right_foot)
     v, a = np.empty(q.shape), np.empty(q.shape)
     for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):

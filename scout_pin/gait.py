@@ -194,12 +194,13 @@ class Gait:
         """Motion of one body at times t; derivatives are per second."""
         choice("body", name, BODIES)
         t, unit = _times(t), self._unit(time_unit)
-        values, rates, second = (
-            np.stack([curve(t, order) for curve in self.curves[name]], axis=-1) / unit**order
-            for order in (0, 1, 2)
-        )
-        rotation, omega, alpha = euler_placement("xyz", values[:, 3:], rates[:, 3:], second[:, 3:])
-        return BodyMotion(rotation, values[:, :3], rates[:, :3], second[:, :3], omega, alpha)
+        # Derivatives beyond a curve's degree vanish; most curves are constant.
+        values, rates, second = found = np.zeros((3, 6, len(t)))
+        for k, curve in enumerate(self.curves[name]):
+            for order in range(min(3, len(curve.c))):
+                found[order, k] = curve(t, order) / unit**order
+        rotation, omega, alpha = euler_placement("xyz", values[3:].T, rates[3:].T, second[3:].T)
+        return BodyMotion(rotation, values[:3].T, rates[:3].T, second[:3].T, omega, alpha)
 
     def sample(self, t: np.ndarray, time_unit: float | None = None) -> Motion:
         """Sample the gait and check that it can be meant.

@@ -52,6 +52,15 @@ def leg_inverse_kinematics(
         BadInput: Wrong shape, NaN or not a rigid placement.
     """
     target = pose_array("torso_to_foot", torso_to_foot)
+    if reference is not None:
+        reference = finite_array("reference", reference, 6)
+    return every_branch(leg, target, reference)
+
+
+def every_branch(
+    leg: LegGeometry, target: np.ndarray, reference: np.ndarray | None
+) -> LegSolutions:
+    """:func:`leg_inverse_kinematics` of arrays that have been checked."""
     stack = target.shape[:-2]
     count = math.prod(stack)
     if reference is not None:
@@ -107,6 +116,22 @@ def _many(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) 
         theta[:, :, part] = wrap(theta[:, :, part] - leg.beta[:, None])
         sines[:, part] = chunk.sine_axis, chunk.h
     return theta.transpose(2, 0, 1), excess.T, sines[0], sines[1]
+
+
+def one_branch(
+    leg: LegGeometry, side: str, target: np.ndarray, reference: np.ndarray | None
+) -> np.ndarray:
+    """Angles ``(..., 6)`` on one branch a pose, by the rule of ``Scout.inverse_kinematics``.
+
+    Raises:
+        Unreachable: Some pose has no valid branch.
+    """
+    if target.ndim == 3 and len(target) and (reference is None or reference.ndim == 1):
+        entries = target.reshape(-1, 16).T
+        found = follow_branch(leg, len(target), lambda part: entries[:, part].copy(), reference)
+        if found is not None:
+            return found
+    return choose_branch(every_branch(leg, target, reference), side, reference)
 
 
 def choose_branch(solutions: LegSolutions, side: str, reference: Any = None) -> np.ndarray:
@@ -203,8 +228,8 @@ def _free(leg: LegGeometry, xp: Elementwise, gamma: Any) -> Free:
     """What a reference, as γ with the joint first, says of γ1 and e; None is neutral."""
     if gamma is None:
         return float(leg.beta[0]), (1.0, 0.0, 0.0)
-    sine = xp.sin(gamma[1])
-    return gamma[0], (xp.cos(gamma[0]) * sine, xp.sin(gamma[0]) * sine, xp.cos(gamma[1]))
+    (c1, s1), (c2, s2) = xp.cosine_sine(gamma[0]), xp.cosine_sine(gamma[1])
+    return gamma[0], (c1 * s2, s1 * s2, c2)
 
 
 class _Chunk:
@@ -227,9 +252,8 @@ class _Chunk:
 
         self.h = h = xp.sqrt(ex * ex + ey * ey)
         if xp.some(yaw_free := h < TOLERANCES.singular):
-            safe = xp.where(yaw_free, 1.0, h)
-            c = xp.where(yaw_free, xp.cos(free[0]), ex / safe)
-            s = xp.where(yaw_free, xp.sin(free[0]), ey / safe)
+            safe, (c, s) = xp.where(yaw_free, 1.0, h), xp.cosine_sine(free[0])
+            c, s = xp.where(yaw_free, c, ex / safe), xp.where(yaw_free, s, ey / safe)
             self.yaw = xp.where(yaw_free, free[0], xp.atan2(ey, ex))
         else:
             c, s, self.yaw = ex / h, ey / h, xp.atan2(ey, ex)

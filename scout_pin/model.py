@@ -258,22 +258,30 @@ class Scout(LoadedRobot):
         sides = []
         for number, side in enumerate(SIDES):
             start = None if given is None else given[..., 6 * number : 6 * number + 6]
-            solutions = self.leg_inverse_kinematics(
-                side, world_to_torso @ placements[number + 1], start
-            )
-            sides.append(kinematics.choose_branch(solutions, side, start))
+            target = world_to_torso @ placements[number + 1]
+            sides.append(kinematics.one_branch(self.legs[side], side, target, start))
         return np.concatenate(np.broadcast_arrays(*sides), axis=-1)
 
     def follow(
-        self, torso: BodyMotion, left_foot: BodyMotion, right_foot: BodyMotion
+        self,
+        torso: BodyMotion,
+        left_foot: BodyMotion,
+        right_foot: BodyMotion,
+        reference: np.ndarray | None = None,
     ) -> np.ndarray:
         """Joint angles along a motion ``(n, 12)``: :meth:`inverse_kinematics`, only faster.
+
+        Args:
+            torso: Motion of the torso.
+            left_foot: Motion of the left sole.
+            right_foot: Motion of the right sole.
+            reference: Angles the first sample is to be near [rad], ``(12,)``.
 
         Raises:
             Unreachable: Some sample has no valid branch; says which and why.
             BadInput: A rotation isn't one.
         """
-        angles = []
+        angles: list[np.ndarray] = []
         for side, foot in zip(SIDES, (left_foot, right_foot), strict=True):
 
             def entries(part: slice, foot: BodyMotion = foot, side: str = side) -> np.ndarray:
@@ -281,10 +289,11 @@ class Scout(LoadedRobot):
                 check_rigid(f"{side} foot", found, found.shape[1:], part.start)
                 return found
 
-            found = kinematics.follow_branch(self.legs[side], len(foot.position), entries)
+            start = None if reference is None else reference[6 * len(angles) :][:6]
+            found = kinematics.follow_branch(self.legs[side], len(foot.position), entries, start)
             if found is None:
                 return self.inverse_kinematics(
-                    torso.placement, left_foot.placement, right_foot.placement
+                    torso.placement, left_foot.placement, right_foot.placement, reference
                 )
             angles.append(found)
         return np.concatenate(angles, axis=1)

@@ -61,8 +61,6 @@ def fastest_time_unit(
     double = motion.t[motion.support.all(axis=1)]
     double = double[:: 1 + len(double) // _MOST]
     results = []
-    double = motion.t[motion.support.all(axis=1)]
-    double = double[:: 1 + len(double) // _MOST]
     for line in (False, True):
         slope = robot.stall_torque / robot.no_load_speed if line else 0.0
         growth = np.abs(joints.v[single]) * slope

@@ -27,19 +27,20 @@ def finite_array(name: str, value: Any, *shape: int | None) -> np.ndarray:
         WrongShape: The last axes differ.
         NotFinite: Some entry is NaN or infinite.
     """
-    allowed = f"(..., {', '.join('n' if size is None else str(size) for size in shape)})"
     try:
         array = np.asarray(value)
         if array.dtype.kind not in "fiubO":  # text and complex numbers would pass as floats
             raise TypeError(f"its entries are {array.dtype.name}")
         array = np.asarray(array, dtype=float)
     except (TypeError, ValueError) as error:
-        raise BadInput(f"{name} isn't an array of numbers ({error})", allowed=allowed) from None
+        raise BadInput(
+            f"{name} isn't an array of numbers ({error})", allowed=_allowed(shape)
+        ) from None
     last = array.shape[array.ndim - len(shape) :] if shape else ()
     if array.ndim < len(shape) or any(
         want is not None and have != want for have, want in zip(last, shape, strict=True)
     ):
-        raise WrongShape(name, array.shape, allowed if shape else "()")
+        raise WrongShape(name, array.shape, _allowed(shape) if shape else "()")
     if not np.isfinite(array).all():
         index = tuple(int(k) for k in np.argwhere(~np.isfinite(array))[0])
         raise NotFinite(name, index)
@@ -56,6 +57,10 @@ def vector(name: str, value: Any, size: int) -> np.ndarray:
     if array.shape != (size,):
         raise WrongShape(name, array.shape, f"({size},)")
     return array
+
+
+def _allowed(shape: tuple[int | None, ...]) -> str:
+    return f"(..., {', '.join('n' if size is None else str(size) for size in shape)})"
 
 
 def pose_array(name: str, pose: Any) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -110,14 +111,30 @@ def csv_bytes(columns: Mapping[str, np.ndarray | Sequence[str]]) -> bytes:
     Args:
         columns: Name → values, shape ``(n,)``; strings are kept, NaN becomes empty.
     """
-    texts = []
-    for values in columns.values():
-        if isinstance(values, np.ndarray) and values.dtype.kind == "f":
-            texts.append(["" if v != v else repr(v) for v in values.tolist()])
-        else:
-            texts.append([str(v) for v in values])
-    lines = [",".join(columns), *(",".join(row) for row in zip(*texts, strict=True))]
-    return ("\n".join(lines) + "\n").encode()
+    groups: list[list[bytes]] = []
+    for numeric, group in itertools.groupby(columns.values(), key=_is_float):
+        values = list(group)
+        groups += [_number_rows(np.column_stack(values))] if numeric else map(_text_rows, values)
+    lines = [",".join(columns).encode(), *map(b",".join, zip(*groups, strict=True))]
+    return b"\n".join(lines) + b"\n"
+
+
+def _is_float(values: Any) -> bool:
+    return isinstance(values, np.ndarray) and values.dtype.kind == "f"
+
+
+def _text_rows(values: Any) -> list[bytes]:
+    return [str(value).encode() for value in values]
+
+
+def _number_rows(table: np.ndarray) -> list[bytes]:
+    """The rows of a table ``(n, k)`` as text; NaN becomes empty."""
+    import orjson
+
+    if not table.size or np.isinf(table).any():  # which JSON can't say
+        return [",".join("" if v != v else repr(v) for v in row).encode() for row in table.tolist()]
+    text = orjson.dumps(table, option=orjson.OPT_SERIALIZE_NUMPY)
+    return text[2:-2].replace(b"null", b"").split(b"],[")
 
 
 def new_figure(width: float, height: float, rows: int = 1, columns: int = 1) -> tuple[Any, Any]:
@@ -141,14 +158,20 @@ def new_figure(width: float, height: float, rows: int = 1, columns: int = 1) -> 
 def figure_files(name: str, figure: Figure) -> dict[str, bytes]:
     """A figure as ``name.png`` and ``name.svg``, the same bytes for the same figure."""
     import matplotlib as mpl
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
 
-    files = {}
+    # Laid out once, and each format drawn once: savefig does both again and again.
+    figure.set_dpi(150)
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+        figure.set_layout_engine("none")
+    png, svg = io.BytesIO(), io.BytesIO()
     with mpl.rc_context({"svg.hashsalt": name}):
-        for kind, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
-            stream = io.BytesIO()
-            figure.savefig(stream, format=kind, dpi=150, metadata=metadata)
-            files[f"{name}.{kind}"] = stream.getvalue()
-    return files
+        FigureCanvasAgg(figure).print_png(png, metadata={"Software": None})
+        FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
+    return {f"{name}.png": png.getvalue(), f"{name}.svg": svg.getvalue()}
 
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")

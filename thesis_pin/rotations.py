@@ -13,7 +13,9 @@ import numpy as np
 
 from thesis_pin.arrays import finite_array
 from thesis_pin.checks import choice, whole
+from thesis_pin.elementwise import cosine_sine
 from thesis_pin.errors import BadInput
+from thesis_pin.vectors import cross
 
 _PLANE = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
@@ -101,16 +103,27 @@ def euler_placement(
 
     Source: Scout thesis, 3.1–3.3 (angular velocity and acceleration of torso and feet).
     """
-    matrix = np.broadcast_to(np.eye(3), (*angles.shape[:-1], 3, 3))
-    omega = np.zeros(angles.shape)
-    alpha = np.zeros(angles.shape)
+    angle, rate, second = (np.moveaxis(x, -1, 0) for x in (angles, rates, accelerations))
+    unit = np.eye(3).reshape(3, 3, *[1] * (angles.ndim - 1))
+    columns = [unit[0], unit[1], unit[2]]  # of the rotation so far, components first
+    omega = alpha = np.zeros((3, *angle.shape[1:]))
     for k, letter in enumerate(axes):
-        axis = matrix[..., :, "xyz".index(letter)]
-        spin = rates[..., k, None] * axis
-        alpha = alpha + accelerations[..., k, None] * axis + np.cross(omega, spin)
+        axis = columns["xyz".index(letter)]
+        spin = rate[k] * axis
+        alpha = alpha + second[k] * axis + cross(omega, spin)
         omega = omega + spin
-        matrix = matrix @ rotation(letter, angles[..., k])
-    return matrix, omega, alpha
+        one, other = _PLANE[letter]
+        cosine, sine = cosine_sine(angle[k])
+        columns[one], columns[other] = (
+            cosine * columns[one] + sine * columns[other],
+            cosine * columns[other] - sine * columns[one],
+        )
+    matrix = np.stack(np.broadcast_arrays(*columns), axis=1)  # (component, column, ...)
+    return (
+        np.moveaxis(matrix, (0, 1), (-2, -1)),
+        np.moveaxis(omega, 0, -1),
+        np.moveaxis(alpha, 0, -1),
+    )
 
 
 def euler_rate_matrix(axes: str, angles: np.ndarray) -> np.ndarray:

@@ -14,9 +14,12 @@ Vector = np.ndarray
 
 def cross(a: Vector, b: Vector) -> Vector:
     """a × b of vectors with components first; extra axes broadcast from the right."""
-    return np.stack(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )
+    x = a[1] * b[2]
+    product = np.empty((3, *x.shape), x.dtype)  # product[0, ...] is an array, even of one number
+    np.subtract(x, a[2] * b[1], out=product[0, ...])
+    np.subtract(a[2] * b[0], a[0] * b[2], out=product[1, ...])
+    np.subtract(a[0] * b[1], a[1] * b[0], out=product[2, ...])
+    return product
 
 
 def dot(a: Vector, b: Vector) -> np.ndarray:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from scout_pin.forward import leg_forward_kinematics
 from scout_pin.geometry import LegGeometry
-from scout_pin.kinematics import BRANCHES, leg_inverse_kinematics
+from scout_pin.kinematics import BRANCHES, choose_branch, leg_inverse_kinematics
 from scout_pin.rates import leg_rates
 from scout_pin.specification import SIDES, Specification
 from scout_pin.urdf import JOINT_AXES, offsets
@@ -392,8 +392,14 @@ def test_following_a_motion_gives_the_angles_of_the_poses(scout, count):
     gait = scout_pin.load_gait()
     motion = gait.sample(np.linspace(gait.start, gait.end, count))
     bodies = (motion.torso, motion.left_foot, motion.right_foot)
-    expected = scout.inverse_kinematics(*(body.placement for body in bodies))
-    np.testing.assert_allclose(scout.follow(*bodies), expected, atol=1e-12)
+    found = scout.follow(*bodies)
+    np.testing.assert_allclose(
+        scout.inverse_kinematics(*(body.placement for body in bodies)), found, atol=1e-12
+    )
+    for k, (side, foot) in enumerate(zip(SIDES, bodies[1:], strict=True)):
+        target = foot.seen_from(motion.torso).placement
+        all_8 = choose_branch(leg_inverse_kinematics(scout.legs[side], target), side)
+        np.testing.assert_allclose(found[:, 6 * k : 6 * k + 6], all_8, atol=1e-12)
 
 
 def test_a_motion_no_branch_is_valid_along_is_followed_from_branch_to_branch(scout, rng):

@@ -295,3 +295,14 @@ def test_gait_writes_its_report_as_a_page_beside_the_table(tmp_path):
     assert done.returncode == 0
     assert "Scout can't walk this gait" in done.stdout
     assert b"Scout can&#39;t walk this gait" in (tmp_path / "report.html").read_bytes()
+
+
+def test_angles_of_a_leg_and_the_robots_numbers_need_neither_scipy_nor_matplotlib():
+    probe = (
+        "import sys\n"
+        "from scout_pin.cli import main\n"
+        "main()\n"
+        "print(sorted({'scipy', 'matplotlib'} & set(sys.modules)), file=sys.stderr)"
+    )
+    for words in (("info",), ("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")):
+        assert scout_pin(*words, code=probe).stderr.strip() == "[]"

@@ -121,3 +121,31 @@ def test_a_figure_gives_the_same_bytes_twice():
     assert set(first) == {"line.png", "line.svg"}
     assert first == second
     assert first["line.png"].startswith(b"\x89PNG")
+
+
+def test_csv_of_numbers_and_words_reads_back_exactly_also_what_json_cannot_say():
+    numbers = np.random.default_rng(3).normal(size=50) * 10.0 ** np.arange(-25, 25)
+    infinite = np.where(np.arange(50) == 7, np.inf, numbers[::-1])
+    columns = {"a": numbers, "b": -numbers, "word": ["x"] * 50, "c": infinite, "n": np.arange(50)}
+    header, *lines = csv_bytes(columns).decode().splitlines()
+    assert header == "a,b,word,c,n"
+    rows = [line.split(",") for line in lines]
+    for k, expected in enumerate(columns.values()):
+        column = [row[k] for row in rows]
+        assert column == expected if k == 2 else np.array_equal(np.array(column, float), expected)
+    assert csv_bytes({"a": np.zeros(0)}) == b"a\n"
+
+
+def test_a_figure_is_drawn_as_large_as_it_was_laid_out_and_once_a_format(monkeypatch):
+    from matplotlib.figure import Figure
+
+    drawn = []
+    draw = Figure.draw
+    monkeypatch.setattr(Figure, "draw", lambda *a, **k: (drawn.append(1), draw(*a, **k))[1])
+    figure, axes = new_figure(4, 3)
+    axes[0, 0].plot([0, 1], [0, 1])
+    files = figure_files("figure", figure)
+    assert len(drawn) == 2
+    width, height = (int.from_bytes(files["figure.png"][k : k + 4], "big") for k in (16, 20))
+    assert (width, height) == (600, 450)
+    assert b'width="288pt" height="216pt"' in files["figure.svg"]
