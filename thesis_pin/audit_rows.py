@@ -82,10 +82,13 @@ class Row:
 
     @property
     def weight(self) -> float:
-        """For sorting: the largest effect; infinite if following isn't possible."""
+        """For sorting: the largest effect; infinite if following isn't possible.
+
+        To six digits: equal effects, such as both legs', keep one order on every machine.
+        """
         numbers = [v for v in self.effect.values() if isinstance(v, float)]
         blocked = any(isinstance(v, str) for v in self.effect.values())
-        return math.inf if blocked else max(numbers, default=0.0)
+        return math.inf if blocked else float(f"{max(numbers, default=0.0):.6g}")
 
 
 @dataclass(frozen=True)

@@ -164,3 +164,12 @@ def test_the_document_is_plain_json_and_the_page_stands_alone(report):
     assert "<math" in page
     assert "http" not in page.replace("http-equiv", "")
     assert "Outside the audit" in audit_report.markdown(report, "make it")
+
+
+def test_effects_equal_but_for_rounding_weigh_the_same():
+    """Both legs' rows differ in the last digit from machine to machine; their order doesn't."""
+    rows = [
+        Row("a", "4.5", (), "", (), {}, "wrong", effect={"torque": effect})
+        for effect in (0.1 + 0.2, 0.3, 0.300001)
+    ]
+    assert rows[0].weight == rows[1].weight < rows[2].weight
