@@ -18,6 +18,7 @@ from typing import Any, Literal
 import numpy as np
 from scipy.interpolate import PPoly
 
+from scout_pin.geometry import POSE_NAMES
 from thesis_pin.arrays import finite_array
 from thesis_pin.checks import choice, real, whole
 from thesis_pin.errors import TrajectoryError, WrongShape
@@ -28,10 +29,6 @@ from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.trajectory import BodyMotion
 
 BODIES = ("torso", "left_foot", "right_foot")
-COORDINATES = ("x", "y", "z", "pitch", "roll", "yaw")
-"""x lateral, y forward, z up [m]; then the thesis's Euler angles θ, φ, ψ [rad]:
-rotation = Rx(pitch) Ry(roll) Rz(yaw)."""
-
 Support = Literal["left", "right", "double"]
 
 
@@ -93,7 +90,7 @@ class RateJump:
     Attributes:
         t: Time in the gait's unit.
         body: One of :data:`BODIES`.
-        coordinate: One of :data:`COORDINATES`.
+        coordinate: One of :data:`POSE_NAMES`.
         size: Jump [m/s] or [rad/s].
     """
 
@@ -112,7 +109,7 @@ class Gait:
         source: Where it comes from.
         time_unit: Seconds in one unit of t.
         curves: For each body of :data:`BODIES`, six curves of t in the order of
-            :data:`COORDINATES`, in metres and radians.
+            :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
     """
 
@@ -183,7 +180,7 @@ class Gait:
         unit = self._unit(time_unit)
         found = []
         for body, curves in self.curves.items():
-            for coordinate, curve in zip(COORDINATES, curves, strict=True):
+            for coordinate, curve in zip(POSE_NAMES, curves, strict=True):
                 sizes = np.abs(jumps(curve, 1)) / unit
                 inside = (curve.x[1:-1] > self.start) & (curve.x[1:-1] < self.end)
                 for k in np.flatnonzero((sizes > TOLERANCES.rate_jump) & inside):

@@ -13,7 +13,8 @@ import numpy as np
 from pydantic import Field
 from scipy.interpolate import PPoly
 
-from scout_pin.gait import BODIES, COORDINATES, Gait, Phase
+from scout_pin.gait import BODIES, Gait, Phase
+from scout_pin.geometry import POSE_NAMES
 from thesis_pin.checks import choice
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
@@ -94,7 +95,7 @@ class GaitFile(Strict):
             for name, curve in getattr(self, body):
                 if isinstance(curve, tuple):
                     yield from self._check_curve((body, name), curve)
-            for coordinate in COORDINATES:
+            for coordinate in POSE_NAMES:
                 unit = "_mm" if coordinate in "xyz" else "_deg"
                 both = [
                     n
@@ -177,7 +178,7 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
 
 def _curves(file: GaitFile, body: Body, override: str | None) -> tuple[PPoly, ...]:
     curves = []
-    for coordinate in COORDINATES:
+    for coordinate in POSE_NAMES:
         suffix, scale = ("_mm", 1e-3) if coordinate in "xyz" else ("_deg", np.pi / 180)
         plain, scaled = getattr(body, coordinate), getattr(body, coordinate + suffix)
         curve = plain if plain is not None else scaled
@@ -234,7 +235,7 @@ def _join_segments(curve: tuple[Segment, ...], override: str | None, default: st
 
 def _from_csv(path: Path, method: str) -> Gait:
     """Columns ``t`` [s], ``support`` and any of ``<body>_<coordinate>`` [m], [rad]."""
-    known = [f"{body}_{coordinate}" for body in BODIES for coordinate in COORDINATES]
+    known = [f"{body}_{coordinate}" for body in BODIES for coordinate in POSE_NAMES]
     lines = read_rows("gait", path)
     columns = _columns(path, lines[0].cells, known)
     check_width(lines)
@@ -252,7 +253,7 @@ def _from_csv(path: Path, method: str) -> Gait:
     phases = tuple(_csv_phases(rows, columns.index("support"), t))
     absent = np.zeros(len(t))
     curves = {
-        body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in COORDINATES)
+        body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in POSE_NAMES)
         for body in BODIES
     }
     return Gait(path.stem, str(path), 1.0, curves, phases)

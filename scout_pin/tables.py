@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from scout_pin.gait import COORDINATES
+from scout_pin.geometry import POSE_NAMES
 from scout_pin.kinematics import BRANCHES, LegSolutions
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin import branches
@@ -77,7 +77,7 @@ def ik_document(robot: Scout, solutions: LegSolutions, pose: np.ndarray) -> dict
         "scout-pin",
         robot.specification.name,
         joints=solutions.geometry.names,
-        coordinates=COORDINATES,
+        coordinates=POSE_NAMES,
         pose=pose,
         branches=[
             branches.branch(

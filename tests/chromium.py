@@ -69,7 +69,7 @@ class Chromium:
 
         with contextlib.ExitStack() as stack:
             address = self._start(stack)
-            self._socket = stack.enter_context(connect(address, max_size=None))
+            self._socket = stack.enter_context(connect(address, max_size=None, ping_interval=None))
             self._stack = stack.pop_all()
         for domain in ("Page", "Runtime", "Network", "Log"):
             self.call(f"{domain}.enable")

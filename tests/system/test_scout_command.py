@@ -304,5 +304,6 @@ def test_angles_of_a_leg_and_the_robots_numbers_need_neither_scipy_nor_matplotli
         "main()\n"
         "print(sorted({'scipy', 'matplotlib'} & set(sys.modules)), file=sys.stderr)"
     )
-    for words in (("info",), ("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")):
+    leg = ("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")
+    for words in (("info",), leg, (*leg, "--json", "-")):
         assert scout_pin(*words, code=probe).stderr.strip() == "[]"
