@@ -19,6 +19,7 @@ from pollard_pin.thesis.claims_robot import Check
 from pollard_pin.thesis.explicit import ExplicitModel
 from pollard_pin.thesis.references import References
 from thesis_pin.audit import ClaimResult
+from thesis_pin.audit_rows import HOLDS
 from thesis_pin.equations import Catalogue, Equation
 
 STATES = 1000
@@ -96,7 +97,7 @@ def _three_motors(_: Catalogue, __: Equation, ___: References) -> ClaimResult:
     note = (
         "J_τ is a 3×6 matrix: three torques can't supply six components. On the default path the "
         f"best three leave up to {three.share.max():.1%} of the generalized force unsupplied; the "
-        f"six motors of the robot supply it to {left:.0e}"
+        f"six motors of the robot {'supply all of it' if left < HOLDS else f'leave {left:.0e}'}"
     )
     return ClaimResult(float(three.share.max()), float(left), note)
 
