@@ -1,6 +1,6 @@
 """The audit of the Pollard thesis: states, causes, coverage, the verb.
 
-``pollard-pin audit`` prints the counts, the failures and what isn't covered yet.
+``pollard-pin audit`` prints the counts, the failures and what isn't covered.
 """
 
 from __future__ import annotations
@@ -128,7 +128,7 @@ def _once(checks: Claims) -> Claims:
 
 
 def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:
-    """What isn't transcribed yet, counted from the data."""
+    """What isn't transcribed, counted from the data."""
     covered = {number for equation in equations.equations for number in equation.number}
     numbers = [number for number in NUMBERS if number not in covered]
     found = []

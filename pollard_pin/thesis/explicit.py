@@ -64,8 +64,9 @@ class ExplicitModel:
         branch: Which solution of the inverse kinematics, or its label.
 
     Attributes:
-        substituted: After an evaluation: ids of lines that can't be followed as the
-            edition asks, with the reason.
+        substituted: Ids of lines that can't be followed as the edition asks, with the
+            reason: from the start those lost in the scan, and after an evaluation
+            those that it met.
     """
 
     def __init__(
@@ -117,11 +118,12 @@ class ExplicitModel:
     def accelerations(self, pose: Any, v: Any, a: Any) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` [rad/s²], in the order of JOINT_NAMES.
 
-        Source: (2.77) … (2.88), (2.161) … (2.166), with the G of appendix E.
+        Source: (2.75) … (2.87), (2.159) … (2.171), each joint's first relation. The forms
+        that collect the G of appendix E, (2.77) … (2.172), are lines of the audit.
         """
 
         def found(model: ExplicitModel, mechanics: Mechanics) -> np.ndarray:
-            # The last G of an equation takes the accelerations of the joints before it.
+            # What stands in for a line, and its shape, come from the exact accelerations.
             mechanics = Mechanics(accelerating(mechanics.state), mechanics.drive)
             values = [
                 model._number(mechanics, Symbol("theta", name, dots=2), i)
