@@ -1,9 +1,13 @@
-"""What tests in a real browser share."""
+"""What tests in a real browser share; and the suite leaves the checkout as it was."""
 
+import subprocess
 from pathlib import Path
 
 import chromium
 import pytest
+
+ROOT = Path(__file__).parents[1]
+_BEFORE = pytest.StashKey[set[str]]()
 
 
 @pytest.fixture(scope="session")
@@ -18,4 +22,29 @@ def browser():
 @pytest.fixture(scope="session")
 def artefacts():
     """Folder for screenshots, which git ignores."""
-    return Path(__file__).parents[1] / "artefacts"
+    return ROOT / "artefacts"
+
+
+def _untidy():
+    """What git finds changed or new in the checkout; empty outside one."""
+    command = ["git", "status", "--porcelain", "--untracked-files=all"]
+    try:
+        found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    except OSError:
+        return set()
+    return set(found.stdout.splitlines()) if found.returncode == 0 else set()
+
+
+def pytest_sessionstart(session):
+    """Note what is changed before the suite begins, once for all workers."""
+    if not hasattr(session.config, "workerinput"):
+        session.config.stash[_BEFORE] = _untidy()
+
+
+def pytest_sessionfinish(session):
+    """Fail a suite that leaves something behind in the checkout."""
+    if hasattr(session.config, "workerinput"):
+        return
+    if left := _untidy() - session.config.stash[_BEFORE]:
+        print(f"\nthe suite left these behind in the checkout: {sorted(left)}")
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED

@@ -25,7 +25,10 @@ centroidal tensor, which is what both theses' kinetic energies do with them."""
 
 def parallel_axis(mass: float, com: np.ndarray) -> np.ndarray:
     """Inertia [kg·m²] of a point mass at ``com`` about the origin, shape ``(3, 3)``."""
-    return mass * (float(com @ com) * np.eye(3) - np.outer(com, com))
+    # Summed term by term: a BLAS dot product rounds differently from processor to
+    # processor, and these numbers are written into generated files.
+    x, y, z = com
+    return mass * ((x * x + y * y + z * z) * np.eye(3) - np.outer(com, com))
 
 
 def centroidal_inertia(

@@ -94,7 +94,7 @@ def joint(
 def bar(start: Sequence[float], end: Sequence[float], radius: float) -> str:
     """A round bar between two points [m]; nothing if they coincide."""
     direction = np.subtract(end, start)
-    length = float(np.linalg.norm(direction))
+    length = math.hypot(*direction)
     if length == 0.0:
         return ""
     pitch = math.atan2(math.hypot(direction[0], direction[1]), direction[2])
