@@ -8,10 +8,11 @@ from scipy.optimize import least_squares
 from timing import Comparison, again
 
 import pollard_pin
-from pollard_pin.motion import joint_trajectory
-from pollard_pin.path import appendix_b
+from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.specification import ACTUATORS
-from thesis_pin import loop_dynamics, loops
+from thesis_pin.loops import dynamics as loop_dynamics
+from thesis_pin.loops import kinematics as loops
 
 RNEA = "RNEA, one thread"
 

@@ -19,11 +19,11 @@ def main() -> None:
 
     import pollard_pin
     import scout_pin
-    from pollard_pin.view import path_scene
-    from scout_pin.plots import stick_figures
-    from scout_pin.view import gait_scene
-    from thesis_pin import viewer
-    from thesis_pin.report import figure_files
+    from pollard_pin.report.view import path_scene
+    from scout_pin.report.figures import stick_figures
+    from scout_pin.report.view import gait_scene
+    from thesis_pin.pages import player as viewer
+    from thesis_pin.report.summary import figure_files
 
     gait = scout_pin.load_gait(ROOT / "examples" / "walk.toml")
     report = scout_pin.gait_report(scout_pin.load(), gait)

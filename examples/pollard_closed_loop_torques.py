@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 import pollard_pin
-from thesis_pin.closures import load
-from thesis_pin.loop_dynamics import inverse_dynamics
-from thesis_pin.loops import close, follow
+from thesis_pin.loops.closures import load
+from thesis_pin.loops.dynamics import inverse_dynamics
+from thesis_pin.loops.kinematics import close, follow
 
 
 def torques(urdf, closures, guess):

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from pollard_pin.specification import Specification
 from pollard_pin.urdf import closure_file
-from thesis_pin.closures import ClosureFile
-from thesis_pin.loading import model_folder
+from thesis_pin.loops.closures import ClosureFile
+from thesis_pin.model.loading import model_folder
 
 BODIES, JOINTS, FREEDOMS = 8, 9, 18
 """b, g and Σf of (2.2): the base, upper arm, forearm, tool, two arms and two rods;

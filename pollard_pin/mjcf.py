@@ -14,8 +14,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
-from thesis_pin.inertia import Reading
-from thesis_pin.urdf import number, numbers
+from thesis_pin.model.inertia import Reading
+from thesis_pin.model.urdf import number, numbers
 
 # MuJoCo's springs at their stiffest that its integrators still carry at 1 ms: a
 # time constant of 2 ms, and 0.9999 of the free acceleration taken away.

@@ -9,10 +9,12 @@ from typing import Any, Literal
 import numpy as np
 import pinocchio as pin
 
-from pollard_pin import dynamics, forward, kinematics, rates, singularity
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import closures
-from pollard_pin.geometry import (
+from pollard_pin.dynamics import inverse as dynamics
+from pollard_pin.kinematics import forward, rates, singularity
+from pollard_pin.kinematics import inverse as kinematics
+from pollard_pin.kinematics.geometry import (
     DEFAULT_BRANCH,
     Branch,
     Geometry,
@@ -20,18 +22,19 @@ from pollard_pin.geometry import (
     one_branch,
     pose_from_placement,
 )
-from pollard_pin.posture import Posture
-from pollard_pin.solutions import Solutions
+from pollard_pin.kinematics.screws import Posture
+from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
 from pollard_pin.urdf import urdf
-from thesis_pin import loop_dynamics, loops
-from thesis_pin.arrays import finite_array, spread, together, vector
-from thesis_pin.checks import choice, instance
-from thesis_pin.closures import ClosedRobot
 from thesis_pin.errors import WrongShape
-from thesis_pin.inertia import Reading
-from thesis_pin.loading import model_folder
-from thesis_pin.trajectory import JointTrajectory
+from thesis_pin.loops import dynamics as loop_dynamics
+from thesis_pin.loops import kinematics as loops
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.model.inertia import Reading
+from thesis_pin.model.loading import model_folder
+from thesis_pin.numeric.arrays import finite_array, spread, together, vector
+from thesis_pin.numeric.checks import choice, instance
+from thesis_pin.numeric.trajectory import JointTrajectory
 
 PACKAGE_PATH = str(model_folder("pollard"))
 URDF_PATH = str(Path(PACKAGE_PATH) / "pollard.urdf")
@@ -46,7 +49,7 @@ def load(
 
     Args:
         specification: A specification, the path of one, or None for the thesis's robot.
-        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.inertia`.
+        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.inertia`.
 
     Returns:
         The robot.
@@ -97,7 +100,7 @@ class Pollard(ClosedRobot):
     def inverse_kinematics(
         self, pose: Any, branch: Branches = DEFAULT_BRANCH, reference: Any = None
     ) -> Solutions:
-        """Joint angles for poses; see :func:`pollard_pin.kinematics.inverse_kinematics`.
+        """Joint angles for poses; see :func:`pollard_pin.kinematics.inverse.inverse_kinematics`.
 
         Args:
             pose: (x, y, z, ψ, θ, φ), shape ``(..., 6)``.
@@ -251,11 +254,14 @@ class Pollard(ClosedRobot):
         duration: float,
         step: float = 1e-3,
     ) -> JointTrajectory:
-        """Motion under six torques; see :func:`thesis_pin.loop_dynamics.simulate`."""
+        """Motion under six torques; see :func:`thesis_pin.loops.dynamics.simulate`."""
         return loop_dynamics.simulate(self, q, v, torque, duration, step)
 
     def three_torques(self, q: Any, joint_force: Any) -> dynamics.ThreeTorques:
-        """The thesis's three base torques; see :func:`pollard_pin.dynamics.three_torques`."""
+        """The thesis's three base torques.
+
+        See :func:`pollard_pin.dynamics.inverse.three_torques`.
+        """
         return dynamics.three_torques(
             self.rate_jacobian(q), finite_array("joint_force", joint_force, 12)
         )

@@ -16,8 +16,9 @@ import numpy as np
 
 from pollard_pin.mjcf import mjcf
 from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
-from thesis_pin.inertia import Reading
-from thesis_pin.urdf import bar, cylinder, inertial, joint, robot, sphere, write_files
+from thesis_pin.files import write_files
+from thesis_pin.model.inertia import Reading
+from thesis_pin.model.urdf import bar, cylinder, inertial, joint, robot, sphere
 
 JOINT_AXES = ("y", "y", "z", "x", "z", "x", "z", "y", "z", "z", "y", "z")
 """Axes of :data:`JOINT_NAMES` in their own frames."""

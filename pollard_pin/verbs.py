@@ -6,32 +6,31 @@ import argparse
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from thesis_pin import verbs
-from thesis_pin.command_line import (
+from thesis_pin.command import verbs
+from thesis_pin.command.parser import (
     LIMIT_VIOLATED,
     OK,
     print_table,
     print_text,
     run_view,
-    write_file,
-    write_folder,
 )
-from thesis_pin.progress import LONG, Bar
-from thesis_pin.verbs import show, write_report
+from thesis_pin.command.progress import LONG, Bar
+from thesis_pin.command.verbs import show, write_report
+from thesis_pin.files import write_file, write_folder
 
 if TYPE_CHECKING:
-    from pollard_pin.geometry import Branch
-    from pollard_pin.path import Path
+    from pollard_pin.kinematics.geometry import Branch
+    from pollard_pin.motion.path import Path
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:
-    from pollard_pin.geometry import DEFAULT_BRANCH, Branch
+    from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
 
     return DEFAULT_BRANCH if arguments.branch is None else Branch.parse(arguments.branch)
 
 
 def _path(arguments: argparse.Namespace, specification: Any) -> Path:
-    from pollard_pin.path import appendix_b, load_path
+    from pollard_pin.motion.path import appendix_b, load_path
     from thesis_pin.errors import BadInput
 
     if arguments.path is None:
@@ -53,7 +52,7 @@ def _path(arguments: argparse.Namespace, specification: Any) -> Path:
 def trajectory(arguments: argparse.Namespace) -> int:
     """Work out a path and write or print its report."""
     from pollard_pin.model import load
-    from pollard_pin.report import trajectory_report
+    from pollard_pin.report.numbers import trajectory_report
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     path, branch = _path(arguments, robot.specification), _branch(arguments)
@@ -69,10 +68,10 @@ def trajectory(arguments: argparse.Namespace) -> int:
     if write_report(
         arguments,
         report,
-        figures=lambda: import_module("pollard_pin.plots").report_files(report),
-        page=lambda: import_module("pollard_pin.page").trajectory_page(report),
+        figures=lambda: import_module("pollard_pin.report.figures").report_files(report),
+        page=lambda: import_module("pollard_pin.report.page").trajectory_page(report),
     ):
-        from pollard_pin.tables import print_report
+        from pollard_pin.report.tables import print_report
 
         print_report(report)
     return OK if report.motor_use.within or not arguments.strict else LIMIT_VIOLATED
@@ -81,9 +80,9 @@ def trajectory(arguments: argparse.Namespace) -> int:
 def view(arguments: argparse.Namespace) -> int:
     """Show a path in the browser, or write it as a page."""
     from pollard_pin.model import load
-    from pollard_pin.report import trajectory_report
-    from pollard_pin.view import path_scene
-    from thesis_pin.scene import frames
+    from pollard_pin.report.numbers import trajectory_report
+    from pollard_pin.report.view import path_scene
+    from thesis_pin.pages.scene import frames
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     path = _path(arguments, robot.specification)
@@ -102,9 +101,9 @@ def ik(arguments: argparse.Namespace) -> int:
     """Print or write the branches of one tool pose."""
     import numpy as np
 
-    from pollard_pin.geometry import USEFUL_BRANCHES
+    from pollard_pin.kinematics.geometry import USEFUL_BRANCHES
     from pollard_pin.model import load
-    from pollard_pin.tables import ik_document, print_solutions
+    from pollard_pin.report.tables import ik_document, print_solutions
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     pose = np.array(arguments.pose)
@@ -122,7 +121,7 @@ def fk(arguments: argparse.Namespace) -> int:
     import numpy as np
 
     from pollard_pin.model import load
-    from pollard_pin.tables import fk_document, print_modes
+    from pollard_pin.report.tables import fk_document, print_modes
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     modes = robot.forward_kinematics(np.radians(arguments.motors))
@@ -135,7 +134,7 @@ def workspace(arguments: argparse.Namespace) -> int:
     import numpy as np
 
     from pollard_pin.model import load
-    from pollard_pin.workspace import evaluate_workspace
+    from pollard_pin.study.workspace import evaluate_workspace
     from thesis_pin.errors import BadInput
 
     axes: dict[str, Any] = {}
@@ -157,11 +156,11 @@ def workspace(arguments: argparse.Namespace) -> int:
             jobs=arguments.jobs,
             progress=bar,
         )
-    from thesis_pin.report import csv_bytes, json_bytes
+    from thesis_pin.report.summary import csv_bytes, json_bytes
 
     content = json_bytes(space.document()) if arguments.json or arguments.out else b""
     if arguments.out:
-        from pollard_pin.plots import workspace_files
+        from pollard_pin.report.figures import workspace_files
 
         files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
         write_folder(arguments.out, files | workspace_files(space))
@@ -182,8 +181,8 @@ def workspace(arguments: argparse.Namespace) -> int:
 
 def info(arguments: argparse.Namespace) -> int:
     """Say what a specification describes."""
-    from pollard_pin.info import document, print_info
     from pollard_pin.model import load
+    from pollard_pin.report.info import document, print_info
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     return show(arguments, lambda: document(robot), lambda: print_info(robot))
@@ -201,8 +200,8 @@ def urdf(arguments: argparse.Namespace) -> int:
 
 def check(arguments: argparse.Namespace) -> int:
     """Say whether a URDF and its closure file are sound."""
-    from pollard_pin.tables import check_document, print_check
-    from thesis_pin.closures import load
+    from pollard_pin.report.tables import check_document, print_check
+    from thesis_pin.loops.closures import load
 
     document = check_document(load(arguments.urdf, arguments.closures))
     return show(arguments, lambda: document, lambda: print_check(document))
@@ -210,6 +209,6 @@ def check(arguments: argparse.Namespace) -> int:
 
 def audit(arguments: argparse.Namespace) -> int:
     """A verdict on each printed equation of the thesis."""
-    from pollard_pin.audit import run
+    from pollard_pin.thesis.audit import run
 
     return run(arguments)

@@ -7,15 +7,15 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from thesis_pin import __version__
-from thesis_pin.audit_command import add_verb
-from thesis_pin.command_line import Parser, count, number, run
-from thesis_pin.options import (
+from thesis_pin.command.audit import add_verb
+from thesis_pin.command.options import (
     add_json,
     add_report_options,
     add_robot,
     add_view_options,
     later,
 )
+from thesis_pin.command.parser import Parser, count, number, run
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -9,19 +9,20 @@ from typing import Any, Literal
 import numpy as np
 import pinocchio as pin
 
-from scout_pin import forward, kinematics
-from scout_pin.contact import Contact
-from scout_pin.geometry import LegGeometry
+from scout_pin.kinematics import forward
+from scout_pin.kinematics import inverse as kinematics
+from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
-from thesis_pin.arrays import check_rigid, finite_array, pose_array, together
-from thesis_pin.checks import choice
+from thesis_pin.contacts.cones import Contact
 from thesis_pin.errors import BadInput, SingularPose
-from thesis_pin.inertia import Reading
-from thesis_pin.loading import LoadedRobot, frame_id, joint_id, model_folder
-from thesis_pin.rotations import euler_placement, euler_rate_matrix, invert
+from thesis_pin.model.inertia import Reading
+from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
+from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
+from thesis_pin.numeric.checks import choice
+from thesis_pin.numeric.rotations import euler_placement, euler_rate_matrix, invert
+from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
-from thesis_pin.trajectory import BodyMotion
 
 PACKAGE_PATH = str(model_folder("scout"))
 URDF_PATH = str(Path(PACKAGE_PATH) / "scout.urdf")
@@ -42,7 +43,7 @@ def load(
         root: ``"free_flyer"`` (nq 19, nv 18, Pinocchio's usual floating base) or
             ``"thesis"`` (nq = nv = 18: x_B, y_B, z_B, θ_B, φ_B, ψ_B, then the joints,
             so q is the thesis's vector (4.2)).
-        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.inertia`.
+        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.inertia`.
 
     Returns:
         The robot.
@@ -111,7 +112,9 @@ class Scout(LoadedRobot):
     @functools.cached_property
     def contacts(self) -> tuple[Contact, Contact]:
         """What the floor can do to each sole, left then right."""
-        return Contact.of(self.specification, "left"), Contact.of(self.specification, "right")
+        friction = self.specification.assumptions.floor_friction.coefficient
+        left, right = (np.array(self.specification.leg(side).sole) for side in SIDES)
+        return Contact.from_outline(left, friction), Contact.from_outline(right, friction)
 
     @property
     def mass(self) -> float:
@@ -211,7 +214,10 @@ class Scout(LoadedRobot):
     def leg_inverse_kinematics(
         self, side: str, torso_to_foot: Any, reference: Any = None
     ) -> kinematics.LegSolutions:
-        """All branches of one leg; see :func:`scout_pin.kinematics.leg_inverse_kinematics`."""
+        """All branches of one leg.
+
+        See :func:`scout_pin.kinematics.inverse.leg_inverse_kinematics`.
+        """
         return kinematics.leg_inverse_kinematics(self._leg(side), torso_to_foot, reference)
 
     def inverse_kinematics(

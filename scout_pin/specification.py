@@ -13,10 +13,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, field_validator
 
-from thesis_pin.checks import choice
 from thesis_pin.errors import NonPhysicalInertia
-from thesis_pin.inertia import Convention, Reading, centroidal_inertia, check_physical
-from thesis_pin.specification import (
+from thesis_pin.model.inertia import Convention, Reading, centroidal_inertia, check_physical
+from thesis_pin.model.specification import (
     Assumption,
     Key,
     NotNegative,
@@ -27,6 +26,7 @@ from thesis_pin.specification import (
     Vector3,
     read_toml,
 )
+from thesis_pin.numeric.checks import choice
 
 SCOUT_PATH = Path(__file__).parent / "specifications" / "scout.toml"
 """The thesis's robot."""

@@ -14,8 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from scout_pin.specification import JOINT_NAMES, LINK_NAMES, SIDES, Leg, Link, Specification
-from thesis_pin.inertia import Reading
-from thesis_pin.urdf import (
+from thesis_pin.files import write_files
+from thesis_pin.model.inertia import Reading
+from thesis_pin.model.urdf import (
     bar,
     cylinder,
     extruded_polygon,
@@ -23,7 +24,6 @@ from thesis_pin.urdf import (
     joint,
     mesh,
     robot,
-    write_files,
 )
 
 JOINT_AXES = ("z", "y", "z", "z", "z", "x")

@@ -5,17 +5,17 @@ from __future__ import annotations
 import argparse
 from importlib import import_module
 
-from thesis_pin import verbs
-from thesis_pin.command_line import LIMIT_VIOLATED, OK, run_view
-from thesis_pin.progress import LONG, Bar
-from thesis_pin.verbs import show, write_report
+from thesis_pin.command import verbs
+from thesis_pin.command.parser import LIMIT_VIOLATED, OK, run_view
+from thesis_pin.command.progress import LONG, Bar
+from thesis_pin.command.verbs import show, write_report
 
 
 def gait(arguments: argparse.Namespace) -> int:
     """Work out a gait and write or print its report."""
-    from scout_pin.gait_files import load_gait
     from scout_pin.model import load
-    from scout_pin.report import gait_report
+    from scout_pin.motion.files import load_gait
+    from scout_pin.report.numbers import gait_report
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     planned = load_gait(arguments.gait, arguments.interpolation)
@@ -30,10 +30,10 @@ def gait(arguments: argparse.Namespace) -> int:
     if write_report(
         arguments,
         report,
-        figures=lambda: import_module("scout_pin.plots").figures(report),
-        page=lambda: import_module("scout_pin.page").gait_page(report),
+        figures=lambda: import_module("scout_pin.report.figures").figures(report),
+        page=lambda: import_module("scout_pin.report.page").gait_page(report),
     ):
-        from scout_pin.tables import print_report
+        from scout_pin.report.tables import print_report
 
         print_report(report)
     return OK if report.within_limits or not arguments.strict else LIMIT_VIOLATED
@@ -41,11 +41,11 @@ def gait(arguments: argparse.Namespace) -> int:
 
 def view(arguments: argparse.Namespace) -> int:
     """Show a gait in the browser, or write it as a page."""
-    from scout_pin.gait_files import load_gait
     from scout_pin.model import load
-    from scout_pin.report import gait_report
-    from scout_pin.view import gait_scene
-    from thesis_pin.scene import frames
+    from scout_pin.motion.files import load_gait
+    from scout_pin.report.numbers import gait_report
+    from scout_pin.report.view import gait_scene
+    from thesis_pin.pages.scene import frames
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     planned = load_gait(arguments.gait, arguments.interpolation)
@@ -61,9 +61,9 @@ def ik(arguments: argparse.Namespace) -> int:
     import numpy as np
 
     from scout_pin.model import load
-    from scout_pin.tables import ik_document, print_solutions
+    from scout_pin.report.tables import ik_document, print_solutions
     from thesis_pin.errors import Unreachable
-    from thesis_pin.rotations import euler_placement, transform
+    from thesis_pin.numeric.rotations import euler_placement, transform
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     pose, zero = np.concatenate([arguments.position, np.radians(arguments.rotation)]), np.zeros(3)
@@ -78,8 +78,8 @@ def ik(arguments: argparse.Namespace) -> int:
 
 def info(arguments: argparse.Namespace) -> int:
     """Say what a specification describes."""
-    from scout_pin.info import document, print_info
     from scout_pin.model import load
+    from scout_pin.report.info import document, print_info
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     return show(arguments, lambda: document(robot), lambda: print_info(robot))
@@ -97,6 +97,6 @@ def urdf(arguments: argparse.Namespace) -> int:
 
 def audit(arguments: argparse.Namespace) -> int:
     """A verdict on each printed equation of the thesis."""
-    from scout_pin.audit import run
+    from scout_pin.thesis.audit import run
 
     return run(arguments)

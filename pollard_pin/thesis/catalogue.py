@@ -5,9 +5,9 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
-from thesis_pin.equations import Catalogue
-from thesis_pin.evaluation import FUNCTIONS
-from thesis_pin.notation import Notation
+from thesis_pin.equations.catalogue import Catalogue
+from thesis_pin.equations.evaluation import FUNCTIONS
+from thesis_pin.equations.notation import Notation
 
 NOTATION = Notation(
     functions=FUNCTIONS,
@@ -19,7 +19,7 @@ NOTATION = Notation(
 )
 
 FILES = tuple(
-    Path(__file__).with_name(f"{name}.toml")
+    Path(__file__).parent / "printed" / f"{name}.toml"
     for name in (
         "section_2_1",
         "section_2_4",

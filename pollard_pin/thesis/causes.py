@@ -1,13 +1,13 @@
 """Slips that several printed lines share: what they are and where they enter.
 
-Each explanation that can be computed is: ``tests/pollard_pin/test_thesis_causes.py``
+Each explanation that can be computed is: ``tests/pollard_pin/thesis/test_causes.py``
 follows the slip by an independent route and finds the printed lines.
 """
 
 from __future__ import annotations
 
 from pollard_pin.thesis.causes_dynamics import DYNAMICS
-from thesis_pin.causes import Cause
+from thesis_pin.audit.slips import Cause
 
 CAUSES = {
     "axis-index": Cause(

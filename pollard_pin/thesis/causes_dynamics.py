@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thesis_pin.causes import Cause
+from thesis_pin.audit.slips import Cause
 
 DYNAMICS = {
     "offset-along-x": Cause(

@@ -13,14 +13,14 @@ from functools import cached_property
 
 import numpy as np
 
-from pollard_pin.path import appendix_b
+from pollard_pin.motion.path import appendix_b
 from pollard_pin.specification import ACTUATORS
-from pollard_pin.thesis.claims_dynamics import AWAY
+from pollard_pin.thesis.claims.dynamics import AWAY
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
-from pollard_pin.thesis.mechanics import Mechanics
-from thesis_pin.editions import EditionEnvironment
-from thesis_pin.equations import Catalogue, Equation
-from thesis_pin.formula import FormulaError, Symbol
+from pollard_pin.thesis.symbols.mechanics import Mechanics
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.editions import EditionEnvironment
+from thesis_pin.equations.formula import FormulaError, Symbol
 
 _SEED = 20174
 _PATH = 121  # samples, of which those near a zero of the formulas' denominators drop out

@@ -19,23 +19,23 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.geometry import DEFAULT_BRANCH, Branch
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import load
 from pollard_pin.specification import Specification
 from pollard_pin.thesis import margins
-from pollard_pin.thesis.accelerations import accelerating
-from pollard_pin.thesis.bodies import constants_of
 from pollard_pin.thesis.catalogue import catalogue
-from pollard_pin.thesis.mechanics import Mechanics
-from pollard_pin.thesis.motion_symbols import Drive
-from pollard_pin.thesis.rates import moving
 from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, ball_angles
-from thesis_pin.arrays import finite_array
-from thesis_pin.editions import EditionEnvironment
-from thesis_pin.equations import Edition
+from pollard_pin.thesis.symbols.accelerations import accelerating
+from pollard_pin.thesis.symbols.bodies import constants_of
+from pollard_pin.thesis.symbols.mechanics import Mechanics
+from pollard_pin.thesis.symbols.motion import Drive
+from pollard_pin.thesis.symbols.rates import moving
+from thesis_pin.equations.catalogue import Edition
+from thesis_pin.equations.editions import EditionEnvironment
+from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import UnknownName, WrongShape
-from thesis_pin.formula import Symbol
-from thesis_pin.inertia import Reading
+from thesis_pin.model.inertia import Reading
+from thesis_pin.numeric.arrays import finite_array
 
 ROW_NAMES = ("k_2", "k_6", "k_7", "k_12", "k_18", "k_25")
 """Rows of chain 0: rates of θ21, θ43, θ54, θ1615, θ1716, θ1817 over the pose's."""

@@ -8,10 +8,10 @@ a, b, c, d                elements of T_LDn, T_LDn2, T_LDn3, T_LDi (2.24 – 2.1
 Ec, X, Y, Z               last columns of the two sides of (2.3) and (2.90)
 A, B, C                   Fourier coefficients of |Ec_1|² − |Ec_2|² in θ21, of
                           |Ec_3|² − |Ec_4|² in θ21i
-V                         coefficients of the rates, :mod:`pollard_pin.thesis.rates`
+V                         coefficients of the rates, :mod:`pollard_pin.thesis.symbols.rates`
 E                         denominators times the closed mechanism's joint rates
 G                         coefficients of the accelerations,
-                          :mod:`pollard_pin.thesis.accelerations`
+                          :mod:`pollard_pin.thesis.symbols.accelerations`
 a dot                     complex step along the rates
 two dots                  Taylor coefficient along rates and accelerations
 ========================  ====================================================
@@ -24,12 +24,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from pollard_pin.thesis import accelerations
-from pollard_pin.thesis.loops import between, element, frame, opening, side
-from pollard_pin.thesis.rates import coefficient
 from pollard_pin.thesis.state import TRANSFORMS, VARIABLES, State
-from thesis_pin.formula import FormulaError, Node, Symbol
-from thesis_pin.values import STEP, Value, matrix, scalar, vector
+from pollard_pin.thesis.symbols import accelerations
+from pollard_pin.thesis.symbols.loops import between, element, frame, opening, side
+from pollard_pin.thesis.symbols.rates import coefficient
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
 
 _LAST = np.array([0.0, 0.0, 0.0, 1.0])
 
@@ -44,7 +44,7 @@ class References:
         self._values: dict[tuple[str, int, str], Value] = {}
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
-        """Value of a symbol; see :class:`thesis_pin.evaluation.Environment`."""
+        """Value of a symbol; see :class:`thesis_pin.equations.evaluation.Environment`."""
         i = indices.get("i", "")
         key = (symbol.name + "*" * symbol.bold, symbol.dots, i)
         if key not in self._values:

@@ -19,10 +19,10 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.geometry import pose_from_placement
-from pollard_pin.thesis.dual import Dual
-from thesis_pin.rotations import rotation, rotation_derivative, transform
-from thesis_pin.values import STEP
+from pollard_pin.kinematics.geometry import pose_from_placement
+from thesis_pin.equations.dual import Dual
+from thesis_pin.equations.values import STEP
+from thesis_pin.numeric.rotations import rotation, rotation_derivative, transform
 
 Matrices = Any
 """An array, or a :class:`Dual` where the state has a direction."""

@@ -24,19 +24,19 @@ from scout_pin.thesis.notation import NOTATION
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from scout_pin.thesis.symbols.forces import matrix_entry
-from thesis_pin.arrays import finite_array
-from thesis_pin.editions import EditionEnvironment
-from thesis_pin.equations import Catalogue, Edition
+from thesis_pin.equations.catalogue import Catalogue, Edition
+from thesis_pin.equations.editions import EditionEnvironment
+from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import NoSolution, UnknownName, WrongShape
-from thesis_pin.evaluation import evaluate
-from thesis_pin.formula import Symbol
-from thesis_pin.inertia import Reading
+from thesis_pin.model.inertia import Reading
+from thesis_pin.numeric.arrays import finite_array
 
 Interval = Literal[1, 2, 3]
 """T_1: left foot bears the robot; T_2: both; T_3: right foot (4.6)."""
 
 FILES = tuple(
-    Path(__file__).parent / f"{name}.toml"
+    Path(__file__).parent / "printed" / f"{name}.toml"
     for name in (
         *("chapter_3", "section_3_1", "section_3_2", "section_3_3"),
         *("chapter_4", *(f"section_4_{k}" for k in range(1, 8))),

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from thesis_pin.evaluation import FUNCTIONS
-from thesis_pin.notation import Notation
+from thesis_pin.equations.evaluation import FUNCTIONS
+from thesis_pin.equations.notation import Notation
 
 NOTATION = Notation(
     functions=FUNCTIONS,

@@ -12,7 +12,7 @@ r, b                      differences of frame origins; centres of mass
 v, a, ω, α                their time derivatives; axis of Ṙ Rᵀ and its derivative
 u, e, J, W                columns ∂p_i/∂q, ∂b/∂q of Jacobians; axes
 x_i, y_i                  Σ Ω̇ r and Σ Ω² r with Ω = Ṙ Rᵀ
-D, V, C, N                :mod:`thesis_pin.lagrangian` on those Jacobians
+D, V, C, N                :mod:`thesis_pin.equations.lagrangian` on those Jacobians
 A_τ, δW                   power of the joint torques, τ·θ̇
 p_ZMP                     balance of moments of all bodies' inertial forces
 ========================  ====================================================

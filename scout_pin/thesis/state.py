@@ -15,9 +15,9 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.specification import SIDES, Specification
-from thesis_pin.formula import FormulaError
-from thesis_pin.inertia import Reading
-from thesis_pin.values import STEP
+from thesis_pin.equations.formula import FormulaError
+from thesis_pin.equations.values import STEP
+from thesis_pin.model.inertia import Reading
 
 COORDINATES = (
     *("x_B", "y_B", "z_B", "theta_B", "phi_B", "psi_B"),

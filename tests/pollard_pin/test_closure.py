@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from pollard_pin.closure import gruebler
-from thesis_pin import loops
+from thesis_pin.loops import kinematics as loops
 
 from .conftest import closed_motion
 

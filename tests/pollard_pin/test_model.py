@@ -11,9 +11,9 @@ import pytest
 
 import pollard_pin
 from pollard_pin.specification import ACTUATORS, PASSIVE, SKEWED_PATH, Specification
-from thesis_pin.closures import ClosedRobot
 from thesis_pin.errors import BadInput, SpecificationError, UnknownName
-from thesis_pin.loading import LoadedRobot
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.model.loading import LoadedRobot
 
 
 @pytest.mark.parametrize("name", pollard_pin.__all__)

@@ -10,8 +10,8 @@ import yaml
 import pollard_pin
 from pollard_pin.specification import JOINT_NAMES, LINK_NAMES, SKEWED_PATH, Specification
 from pollard_pin.urdf import files, urdf
-from thesis_pin.closures import load
-from thesis_pin.loading import model_folder
+from thesis_pin.loops.closures import load
+from thesis_pin.model.loading import model_folder
 
 SPECIFICATIONS = [None, SKEWED_PATH]
 

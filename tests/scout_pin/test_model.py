@@ -6,7 +6,7 @@ import pytest
 
 import scout_pin
 from thesis_pin.errors import BadInput, SingularPose, UnknownName, WrongShape
-from thesis_pin.rotations import euler_placement
+from thesis_pin.numeric.rotations import euler_placement
 
 
 def states(rng, count=40):

@@ -9,7 +9,7 @@ import pytest
 import scout_pin
 from scout_pin.specification import Specification
 from scout_pin.urdf import files, urdf
-from thesis_pin.loading import model_folder
+from thesis_pin.model.loading import model_folder
 
 from .conftest import EXAMPLES
 

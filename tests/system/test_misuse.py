@@ -13,12 +13,15 @@ import pytest
 
 import pollard_pin
 import scout_pin
-from pollard_pin import path as pollard_path
+from pollard_pin.motion import path as pollard_path
 from pollard_pin.thesis import ExplicitModel as PollardExplicit
 from scout_pin.thesis import ExplicitModel as ScoutExplicit
-from thesis_pin import closures, inertia, loading, loop_dynamics, loops
 from thesis_pin.errors import BadInput, ThesisPinError
-from thesis_pin.interpolation import cubic, interpolate
+from thesis_pin.loops import closures
+from thesis_pin.loops import dynamics as loop_dynamics
+from thesis_pin.loops import kinematics as loops
+from thesis_pin.model import inertia, loading
+from thesis_pin.numeric.interpolation import cubic, interpolate
 
 JUNK = {
     "None": None,
@@ -47,7 +50,7 @@ JUNK = {
     "empty stack of 12": np.zeros((0, 12)),
 }
 
-DATA = Path(__file__).parents[1] / "thesis_pin" / "data"
+DATA = Path(__file__).parents[1] / "thesis_pin" / "loops" / "data"
 SCOUT, POLLARD = scout_pin.load(), pollard_pin.load()
 FEET, GAIT = SCOUT.neutral_feet(), scout_pin.load_gait()
 TIMES = GAIT.sample_times(5)

@@ -13,10 +13,11 @@ from chromium import differing, share_drawn
 from example_robots import NAMES, example_robot
 
 import scout_pin
-from scout_pin.page import gait_page
+from scout_pin.report.page import gait_page
+from scout_pin.report.view import gait_scene
 from scout_pin.specification import SIDES
-from scout_pin.view import gait_scene
-from thesis_pin import drawing, page, scene, viewer
+from thesis_pin.pages import drawing, page, scene
+from thesis_pin.pages import player as viewer
 
 pytestmark = pytest.mark.browser
 
@@ -362,7 +363,7 @@ def test_texts_of_user_files_are_shown_and_never_run(browser, folder, report):
 def test_plots_are_figures_that_plotly_itself_accepts(report):
     import plotly.graph_objects
 
-    from scout_pin.page_plots import report_plots
+    from scout_pin.report.page_plots import report_plots
 
     for plot in report_plots(report):
         plotly.graph_objects.Figure(plot.figure)

@@ -8,11 +8,11 @@ import pytest
 from chromium import differing, share_drawn
 
 import pollard_pin
-from pollard_pin.page import _plots, trajectory_page
-from pollard_pin.path import appendix_b, line
+from pollard_pin.motion.path import appendix_b, line
+from pollard_pin.report.page import _plots, trajectory_page
+from pollard_pin.report.view import MARGIN_BOUNDS, margin_zone, path_scene
 from pollard_pin.specification import ACTUATOR_NAMES
-from pollard_pin.view import MARGIN_BOUNDS, margin_zone, path_scene
-from thesis_pin import viewer
+from thesis_pin.pages import player as viewer
 
 pytestmark = pytest.mark.browser
 

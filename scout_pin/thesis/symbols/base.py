@@ -10,9 +10,9 @@ from typing import Self
 import numpy as np
 
 from scout_pin.thesis.state import BODIES, COORDINATES, State, coordinate_index
-from thesis_pin.evaluation import evaluate
-from thesis_pin.formula import FormulaError, Node, Symbol
-from thesis_pin.values import ZERO, Value, imaginary, matrix, scalar, vector
+from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
 
 GRAVITY = 9.81  # m/s², thesis 4.1
 # Arguments in the definitions of functions, as in T_z1(x): any number will do.
@@ -31,7 +31,7 @@ class Symbols:
         self._moved: dict[tuple[str | None, bool], Self] = {}
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
-        """Value of a symbol; see :class:`thesis_pin.evaluation.Environment`."""
+        """Value of a symbol; see :class:`thesis_pin.equations.evaluation.Environment`."""
         legs = indices.get("i", "") + "/" + indices.get("j", "")
         key = (symbol.name + "*" * symbol.bold, symbol.dots, legs)
         if key not in self._values:

@@ -11,9 +11,9 @@ from scout_pin.thesis.state import BODIES, coordinate_index, vee
 from scout_pin.thesis.symbols.base import GRAVITY
 from scout_pin.thesis.symbols.motion import component
 from scout_pin.thesis.symbols.vectors import Vectors
-from thesis_pin import lagrangian
-from thesis_pin.formula import Node, Symbol
-from thesis_pin.values import STEP, Value, matrix, scalar, vector
+from thesis_pin.equations import lagrangian
+from thesis_pin.equations.formula import Node, Symbol
+from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
 
 
 class Dynamics(Vectors):

@@ -6,8 +6,8 @@ import numpy as np
 
 from scout_pin.thesis.state import BODIES, coordinate_index
 from scout_pin.thesis.symbols.dynamics import Dynamics
-from thesis_pin.formula import Symbol
-from thesis_pin.values import Value, matrix, scalar, vector
+from thesis_pin.equations.formula import Symbol
+from thesis_pin.equations.values import Value, matrix, scalar, vector
 
 
 def matrix_entry(digits: str) -> tuple[int, int] | None:

@@ -8,8 +8,8 @@ import numpy as np
 
 from scout_pin.thesis.state import Frame, vee
 from scout_pin.thesis.symbols.base import Symbols
-from thesis_pin.formula import Symbol
-from thesis_pin.values import ZERO, Value, matrix, scalar, vector
+from thesis_pin.equations.formula import Symbol
+from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
 
 _UNIT = {"i": np.array([1.0, 0, 0]), "j": np.array([0, 1.0, 0]), "k": np.array([0, 0, 1.0])}
 # The axes ω is made of (3.10): letter and number of each joint's axis vector.

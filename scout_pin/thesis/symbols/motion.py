@@ -8,8 +8,8 @@ import numpy as np
 
 from scout_pin.thesis.state import BODIES, vee
 from scout_pin.thesis.symbols.geometry import Geometry
-from thesis_pin.formula import Symbol
-from thesis_pin.values import STEP, ZERO, Value, scalar, vector
+from thesis_pin.equations.formula import Symbol
+from thesis_pin.equations.values import STEP, ZERO, Value, scalar, vector
 
 
 class Motion(Geometry):

@@ -9,8 +9,8 @@ import numpy as np
 from scout_pin.thesis.state import COORDINATES
 from scout_pin.thesis.symbols.geometry import JOINT_AXES
 from scout_pin.thesis.symbols.motion import Motion
-from thesis_pin.formula import FormulaError, Symbol
-from thesis_pin.values import Value, vector
+from thesis_pin.equations.formula import FormulaError, Symbol
+from thesis_pin.equations.values import Value, vector
 
 _FIRST_E = (1, 5, 10, 16, 23, 31, 40)  # number of the first vector e of each link
 

@@ -1,0 +1,1 @@
+"""Torques, ball-joint forces and joint reactions of a motion."""

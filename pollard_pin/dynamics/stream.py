@@ -1,0 +1,72 @@
+"""Torques of a path of any length, a block of samples at a time, in little memory."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from pollard_pin.dynamics.inverse import PollardDynamics
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
+from pollard_pin.model import Pollard
+from pollard_pin.motion.path import Path, ToolMotion
+from pollard_pin.motion.trajectory import joint_trajectory
+from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.numeric.elementwise import BLOCK, blocks
+from thesis_pin.numeric.trajectory import JointTrajectory
+
+
+@dataclass(frozen=True)
+class TorqueBlock:
+    """Some consecutive samples of a path.
+
+    Attributes:
+        first: Number of its first sample in the whole.
+        motion: Tool motion.
+        joints: Joint trajectory.
+        dynamics: Torques and ball-joint forces.
+    """
+
+    first: int
+    motion: ToolMotion
+    joints: JointTrajectory
+    dynamics: PollardDynamics
+
+
+def torque_blocks(
+    robot: Pollard,
+    path: Path,
+    time: np.ndarray,
+    branch: Branch = DEFAULT_BRANCH,
+    size: int = BLOCK,
+) -> Iterator[TorqueBlock]:
+    """Sample a path, solve its joints and its torques, block by block.
+
+    The numbers are those of ``Pollard.inverse_dynamics`` on the whole. Singularities
+    of the actuation aren't looked for; the report does that.
+
+    Args:
+        robot: The robot.
+        path: The path of the spray tip.
+        time: Sample times in order [s], shape ``(n,)``.
+        branch: Which inverse-kinematics solution.
+        size: Samples a block.
+
+    Yields:
+        Blocks in order.
+
+    Raises:
+        Unreachable, SingularPose, TrajectoryError: The motion is impossible.
+    """
+    time, last = finite_array("time", time, None), None
+    for part in blocks(len(time), size):
+        # The sample before comes along, so that no jump hides between two blocks.
+        before = int(last is not None)
+        motion = path.at(time[part.start - before : part.stop])
+        joints, _ = joint_trajectory(robot, motion, branch, path, last)
+        last = joints.q[-1]
+        some = slice(before, None)
+        motion, joints = motion.part(some), joints.part(some)
+        dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a)
+        yield TorqueBlock(part.start, motion, joints, dynamics)

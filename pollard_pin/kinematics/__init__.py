@@ -1,0 +1,1 @@
+"""Closed-form kinematics, both ways, with rates, accelerations and singularities."""

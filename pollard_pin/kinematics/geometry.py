@@ -1,0 +1,216 @@
+"""What Pollard's kinematics need of a specification, poses and branch labels."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from pollard_pin.specification import Specification
+from pollard_pin.urdf import anchors
+from thesis_pin.errors import BadInput
+from thesis_pin.numeric.checks import choice, shown
+from thesis_pin.numeric.rotations import euler_rate_matrix, rotation
+from thesis_pin.report.branches import label
+
+POSE_NAMES = ("x", "y", "z", "psi", "theta", "phi")
+"""Task coordinates of the thesis: spray tip [m] and angles [rad] (2.3)."""
+
+
+class Branch(NamedTuple):
+    """Seven signs that pick one of the 128 formal solutions.
+
+    Attributes:
+        e0: Elbow of chain 0: −1 above the line from shoulder to wrist.
+        f0: Forearm: −1 is the same forearm turned half about its own axis.
+        w: Wrist: sign of sin θ1716.
+        e1: Elbow of chain 1: −1 outwards on the thesis's robot.
+        f1: Rod of chain 1: −1 is the same rod turned half about its own axis.
+        e2: Elbow of chain 2: +1 outwards on the thesis's robot.
+        f2: Rod of chain 2.
+    """
+
+    e0: int
+    f0: int
+    w: int
+    e1: int
+    f1: int
+    e2: int
+    f2: int
+
+    def __str__(self) -> str:
+        return label(self)
+
+    @classmethod
+    def parse(cls, text: str) -> Branch:
+        """Read a label of seven signs, for instance ``"-++-+++"``.
+
+        Raises:
+            BadInput: It isn't seven signs.
+        """
+        if not isinstance(text, str) or len(text) != 7 or set(text) - {"+", "-"}:
+            raise BadInput(
+                f"{text!r} isn't a branch",
+                allowed=f"seven signs for {', '.join(cls._fields)}",
+                remedy=f"The default is {DEFAULT_BRANCH}",
+            )
+        return cls(*(1 if sign == "+" else -1 for sign in text))
+
+
+ALL_BRANCHES = tuple(Branch(*signs) for signs in itertools.product((-1, 1), repeat=7))
+"""All 128 formal branches."""
+
+USEFUL_BRANCHES = tuple(b for b in ALL_BRANCHES if b.f0 == b.f1 == b.f2 == 1)
+"""The 16 in which forearm and rods aren't turned about their own axes."""
+
+DEFAULT_BRANCH = Branch(e0=-1, f0=1, w=1, e1=-1, f1=1, e2=1, f2=1)
+"""Elbow of chain 0 up, elbows of the side chains outwards."""
+
+
+_KNOWN = frozenset(ALL_BRANCHES)
+
+
+def one_branch(branch: Any) -> Branch:
+    """A branch label, checked.
+
+    Raises:
+        BadInput: It isn't a :class:`Branch` of seven signs.
+    """
+    try:
+        known = isinstance(branch, Branch) and branch in _KNOWN
+    except TypeError:  # a sign that can't be hashed is no sign
+        known = False
+    if not known:
+        given = branch if isinstance(branch, Branch) else f"a {type(branch).__name__}"
+        raise BadInput(
+            f"branch is {given if isinstance(given, str) else tuple(given)}",
+            allowed="a pollard_pin.Branch of seven signs, each 1 or -1",
+            remedy=f'Make one with Branch.parse("{DEFAULT_BRANCH}") or Branch(*signs)',
+        )
+    return branch
+
+
+def branch_labels(branches: Any) -> tuple[Branch, ...]:
+    """Several branch labels: ``"all"``, ``"useful"`` or a sequence of them.
+
+    Raises:
+        UnknownName: No set has this name.
+        BadInput: There is no label, or one of them is none.
+    """
+    if isinstance(branches, str):
+        named = {"all": ALL_BRANCHES, "useful": USEFUL_BRANCHES}
+        return named[choice("set of branches", branches, list(named))]
+    if not isinstance(branches, list | tuple) or not branches:
+        raise BadInput(
+            f"branch is {'empty' if isinstance(branches, list | tuple) else shown(branches)}",
+            allowed='a pollard_pin.Branch, a list of them, "useful" or "all"',
+        )
+    return tuple(one_branch(branch) for branch in branches)
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """Lengths and angles, with the side chains stacked.
+
+    Attributes:
+        z_10, x_32, x_1918: Lengths of chain 0 [m].
+        forearm: x65 + x1514 [m].
+        anchors: Ball joints in the forearm's frame [m], shape ``(2, 3)``.
+        y_10: Bases of the side chains, signed [m], shape ``(2,)``.
+        z_32, x_43, x_87: Their lengths [m], shape ``(2,)``.
+        beta_54, beta_1413: Their constant angles [rad], shape ``(2,)``.
+        lower, upper: Joint limits [rad], shape ``(12,)``.
+    """
+
+    z_10: float
+    x_32: float
+    x_1918: float
+    forearm: float
+    anchors: np.ndarray
+    y_10: np.ndarray
+    z_32: np.ndarray
+    x_43: np.ndarray
+    x_87: np.ndarray
+    beta_54: np.ndarray
+    beta_1413: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+
+    @cached_property
+    def sides(self) -> tuple[tuple[float, ...], ...]:
+        """Each side chain's numbers as floats: anchor x, y, z, y_10, z_32, x_43, x_87, cβ, sβ."""
+        return tuple(
+            tuple(map(float, row))
+            for row in zip(
+                *self.anchors.T,
+                self.y_10,
+                self.z_32,
+                self.x_43,
+                self.x_87,
+                np.cos(self.beta_54),
+                np.sin(self.beta_54),
+                strict=True,
+            )
+        )
+
+    @classmethod
+    def of(cls, specification: Specification) -> Geometry:
+        """Geometry of a specification."""
+        chain, sides = specification.chain_0, specification.side_chains
+        lower, upper = specification.assumptions.joint_limits.radians()
+        signs = np.array(specification.assumptions.signs.value, dtype=float)
+        return cls(
+            z_10=chain.z_10,
+            x_32=chain.x_32,
+            x_1918=chain.x_1918,
+            forearm=chain.forearm,
+            anchors=anchors(specification),
+            y_10=signs * [side.y_10 for side in sides],
+            z_32=np.array([side.z_32 for side in sides]),
+            x_43=np.array([side.x_43 for side in sides]),
+            x_87=np.array([side.x_87 for side in sides]),
+            beta_54=np.radians([side.beta_54_deg for side in sides]),
+            beta_1413=np.radians([side.beta_1413_deg for side in sides]),
+            lower=lower,
+            upper=upper,
+        )
+
+
+def pose_rotation(pose: np.ndarray) -> np.ndarray:
+    """Orientation of the tool, Rx(θ) Ry(ψ) Rz(φ): ``(..., 6)`` → ``(..., 3, 3)``.
+
+    Source: Pollard thesis, 2.4, T_LD0.
+    """
+    turns = (rotation("x", pose[..., 4]), rotation("y", pose[..., 3]), rotation("z", pose[..., 5]))
+    return turns[0] @ turns[1] @ turns[2]
+
+
+def pose_from_placement(position: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """Task coordinates of a placement of the tool, with cos ψ ≥ 0.
+
+    Args:
+        position: Spray tip [m], shape ``(..., 3)``.
+        matrix: Orientation, shape ``(..., 3, 3)``.
+
+    Returns:
+        Pose ``(..., 6)``; where cos ψ = 0 only θ ± φ is defined and φ = 0 is taken.
+    """
+    cosine = np.hypot(matrix[..., 0, 0], matrix[..., 0, 1])
+    lost = cosine < 1e-12
+    theta = np.where(
+        lost,
+        np.arctan2(matrix[..., 2, 1], matrix[..., 1, 1]),
+        np.arctan2(-matrix[..., 1, 2], matrix[..., 2, 2]),
+    )
+    phi = np.where(lost, 0.0, np.arctan2(-matrix[..., 0, 1], matrix[..., 0, 0]))
+    angles = np.stack([np.arctan2(matrix[..., 0, 2], cosine), theta, phi], axis=-1)
+    return np.concatenate([position, angles], axis=-1)
+
+
+def angular_rate_matrix(pose: np.ndarray) -> np.ndarray:
+    """E with ω = E (ψ̇, θ̇, φ̇) in the world frame: ``(..., 6)`` → ``(..., 3, 3)``."""
+    # The turns are about x, y, z in the order θ, ψ, φ; the coordinates are ψ, θ, φ.
+    return euler_rate_matrix("xyz", pose[..., [4, 3, 5]])[..., :, [1, 0, 2]]

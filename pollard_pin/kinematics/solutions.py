@@ -1,0 +1,210 @@
+"""What inverse kinematics answers: angles, margins, residuals, reasons."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from pollard_pin.kinematics.geometry import Branch, Geometry, pose_rotation
+from pollard_pin.kinematics.screws import Posture
+from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.errors import SingularPose, Unreachable, WrongShape
+from thesis_pin.numeric.checks import element
+from thesis_pin.tolerances import TOLERANCES
+
+_CONDITIONS = ("chain 0", "chain 1", "chain 2")
+
+
+@dataclass(frozen=True)
+class Solutions:
+    """Inverse kinematics of one pose or a stack, on one branch or several.
+
+    Where several branches were asked for, every attribute has an axis of
+    ``len(branches)`` after the axes of the stack.
+
+    Attributes:
+        geometry: The robot's lengths.
+        branches: Labels, in the order of that axis.
+        pose: The poses asked for, shape ``(..., 6)`` or ``(..., 1, 6)``.
+        angles: Joint angles [rad] in (−π, π], shape ``(..., 12)``; NaN if unreachable.
+        cosines: What the arccosines of chains 0, 1, 2 are taken of, shape ``(..., 3)``:
+            a chain closes if its own is within ±1 (NaN after a chain that doesn't).
+    """
+
+    geometry: Geometry
+    branches: tuple[Branch, ...]
+    pose: np.ndarray
+    angles: np.ndarray
+    cosines: np.ndarray
+
+    @cached_property
+    def margin(self) -> np.ndarray:
+        """Reach margin, shape ``(...)``: 1 − the largest |cosine|, negative if unreachable."""
+        return 1.0 - np.abs(np.where(np.isnan(self.cosines), np.inf, self.cosines)).max(axis=-1)
+
+    @cached_property
+    def reachable(self) -> np.ndarray:
+        """Whether a solution exists, joint limits aside, shape ``(...)``."""
+        return ~np.isnan(self.angles).any(axis=-1)
+
+    @cached_property
+    def beyond_limits(self) -> np.ndarray:
+        """By how much each angle leaves its limits [rad], ≤ 0 inside, ``(..., 12)``."""
+        return np.maximum(self.geometry.lower - self.angles, self.angles - self.geometry.upper)
+
+    @cached_property
+    def valid(self) -> np.ndarray:
+        """Whether a solution exists and keeps the joint limits, shape ``(...)``."""
+        # NaN compares false, so unreachable poses drop out.
+        return np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1)
+
+    @cached_property
+    def posture(self) -> Posture:
+        """Points and axes of the mechanism at the solutions."""
+        return Posture.of(self.geometry, self.angles)
+
+    @property
+    def position_residual(self) -> np.ndarray:
+        """Distance of the spray tip from the pose asked for [m], shape ``(...)``."""
+        return np.linalg.norm(self.posture.tip - self.pose[..., :3], axis=-1)
+
+    @property
+    def rotation_residual(self) -> np.ndarray:
+        """Largest entry of the difference of the two orientations [-], shape ``(...)``."""
+        gap = self.posture.tool_rotation - pose_rotation(self.pose)
+        return np.abs(gap).max(axis=(-1, -2))
+
+    @property
+    def loop_residual(self) -> np.ndarray:
+        """Opening of the two ball joints [m], shape ``(..., 2)``."""
+        return np.linalg.norm(self.posture.opening, axis=-1)
+
+    @property
+    def rod_angles(self) -> np.ndarray:
+        """θ98i, θ109i, θ1110i of the two ball joints [rad], shape ``(..., 2, 3)``.
+
+        Source: Pollard thesis, (2.107), (2.114), (2.123), (2.131).
+        """
+        return self.posture.rod_angles
+
+    @property
+    def singularity(self) -> np.ndarray:
+        """Names of the singular sets each solution lies in, shape ``(...)``, empty if none."""
+        near = np.abs(self.posture.serial_sines) < TOLERANCES.near_singular
+        text = np.full(near.shape[:-1], "", dtype=object)
+        for index in map(tuple, np.argwhere(near.any(axis=-1))):
+            names = zip(Posture.SERIAL_NAMES, near[index], strict=True)
+            text[index] = "; ".join(name for name, lost in names if lost)
+        return text
+
+    def explain(self, index: tuple[int, ...] | int = ()) -> str:
+        """Say in words why a solution doesn't exist, or that it does.
+
+        Args:
+            index: Which element of the stack (and which branch); nothing for a
+                single result.
+
+        Raises:
+            BadInput: The index doesn't pick one element.
+        """
+        axes = "poses, then branches" if len(self.branches) > 1 else "poses"
+        index = element(index, self.reachable.shape, axes)
+        cosines = self.cosines[index]
+        if not self.reachable[index]:
+            return "unreachable: " + self._gap(index, cosines)
+        beyond = self.beyond_limits[index]
+        text = f"reachable with margin {float(self.margin[index]):.3f}"
+        if not self.valid[index]:
+            joint = int(np.argmax(beyond))
+            low, high = np.degrees([self.geometry.lower[joint], self.geometry.upper[joint]])
+            angle = float(np.degrees(self.angles[index][joint]))
+            text = (
+                f"reachable, but outside the joint limits: {JOINT_NAMES[joint]} "
+                f"({JOINT_SYMBOLS[joint]}) at {angle:.2f}°, outside {low:g}° to {high:g}°"
+            )
+        singular = str(self.singularity[index])
+        return text + (f" (singular: {singular})" if singular else "")
+
+    def _gap(self, index: tuple[int, ...], cosines: np.ndarray) -> str:
+        broken = int(np.argmax(~(np.abs(cosines) <= 1.0)))
+        geometry = self.geometry
+        if broken:
+            side = broken - 1
+            arm, rod = float(geometry.x_43[side]), float(geometry.x_87[side])
+            far = "too far from" if cosines[broken] > 0 else "too near to"
+            return (
+                f"{_CONDITIONS[broken]} can't close: its ball joint would be {far} its base for "
+                f"an arm of {arm:g} m that turns about a vertical axis and a rod of {rod:g} m "
+                f"(cosine {cosines[broken]:.4f}, allowed ±1)"
+            )
+        pose = np.broadcast_to(self.pose, (*self.reachable.shape, 6))[index]
+        wrist = pose[:3] - geometry.x_1918 * pose_rotation(pose)[:, 0]
+        beside = abs(float(wrist[1]))
+        if beside >= geometry.forearm:
+            return (
+                f"the wrist would be {beside:.3f} m beside the plane in which the upper arm moves, "
+                f"and the forearm is {geometry.forearm:.3f} m long"
+            )
+        reach = math.sqrt(geometry.forearm**2 - beside**2)
+        distance = math.hypot(wrist[0], wrist[2] - geometry.z_10)
+        low, high = abs(geometry.x_32 - reach), geometry.x_32 + reach
+        near = "near to" if distance < low else "far from"
+        return (
+            f"the wrist would be too {near} the shoulder: {distance:.3f} m from its axis, where "
+            f"upper arm and forearm span {low:.3f} to {high:.3f} m (wrist {beside:.3f} m to the "
+            "side)"
+        )
+
+    def require_one(self, *, allow_singular: bool = False) -> Solutions:
+        """Return itself, or raise if one pose has no valid, regular solution on any branch.
+
+        Args:
+            allow_singular: Accept singular solutions.
+
+        Raises:
+            Unreachable: No branch reaches the pose within the limits.
+            SingularPose: Every branch that does is singular.
+        """
+        if self.pose.size != 6:
+            raise WrongShape("pose", self.pose.shape, "(6,), one pose")
+        valid = np.atleast_1d(self.valid)
+        if not valid.any():
+            near = int(np.argmax(np.atleast_1d(self.margin)))
+            reason = self.explain(near if self.valid.ndim else ()).removeprefix("unreachable: ")
+            raise Unreachable(
+                f"no branch of {len(self.branches)} reaches the pose; the nearest, "
+                f"{self.branches[near]}: {reason}",
+                remedy="Move it, or turn the tool",
+            )
+        singular = np.atleast_1d(self.singularity)
+        if not allow_singular and not (valid & (singular == "")).any():
+            raise SingularPose(
+                f"the pose is singular: {singular[int(np.argmax(valid))]}",
+                remedy="Move it a little, or pass --allow-singular for angles alone",
+            )
+        return self
+
+    def require(self, what: str = "pose", time: np.ndarray | None = None) -> Solutions:
+        """Return itself, or raise if any pose has no solution within the limits.
+
+        Raises:
+            Unreachable: Names the first bad pose and the reason.
+        """
+        if self.valid.all():
+            return self
+        index = tuple(int(k) for k in np.argwhere(~np.atleast_1d(self.valid))[0])
+        index = index if self.valid.ndim else ()
+        pose = np.broadcast_to(self.pose, (*self.valid.shape, 6))[index]
+        where = f"{what} {list(index)}" if index else what
+        if time is not None:
+            where += f" at t = {float(time[index[0]]):.4g} s"
+        values = ", ".join(f"{value:.4g}" for value in pose)
+        raise Unreachable(
+            f"({values}) on branch {self.branches[index[-1] if len(self.branches) > 1 else 0]}: "
+            f"{self.explain(index)}",
+            where=where,
+            remedy="Move it, turn the tool, or choose another branch",
+        )

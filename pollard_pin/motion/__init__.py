@@ -1,0 +1,1 @@
+"""Paths of the spray tip, their files, and the joints that follow them."""

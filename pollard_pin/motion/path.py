@@ -1,0 +1,346 @@
+"""Paths of the spray tip: appendix B's curve, lines, arcs, and the user's own.
+
+A path is a pose (x, y, z, ψ, θ, φ) over time with exact first and second
+derivatives. Geometry and timing are separate: a curve over s in [0, 1], and a law
+s(t). Orientations are interpolated in ψ, θ, φ themselves.
+
+Source: Pollard thesis, appendix B.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from pollard_pin.specification import Specification
+from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
+from thesis_pin.numeric.arrays import finite_array, vector
+from thesis_pin.numeric.checks import choice, instance, real, shown, whole
+
+Timing = Literal["constant-rate", "rest-to-rest"]
+TIMINGS: tuple[str, ...] = get_args(Timing)
+
+Triple = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""A pose and its first and second derivatives, each ``(n, 6)``."""
+
+_REACH = 60 * math.pi  # the parameter of appendix B runs from −60π to 60π
+_MM = 1e-3
+
+
+@dataclass(frozen=True)
+class ToolMotion:
+    """A sampled path.
+
+    Attributes:
+        time: Sample times [s], shape ``(n,)``.
+        pose: x, y, z [m], ψ, θ, φ [rad], shape ``(n, 6)``.
+        rate: First time derivative, shape ``(n, 6)``.
+        acceleration: Second time derivative, shape ``(n, 6)``.
+    """
+
+    time: np.ndarray
+    pose: np.ndarray
+    rate: np.ndarray
+    acceleration: np.ndarray
+
+    def part(self, samples: slice) -> ToolMotion:
+        """Some consecutive samples, as views."""
+        return ToolMotion(
+            self.time[samples], self.pose[samples], self.rate[samples], self.acceleration[samples]
+        )
+
+
+@dataclass(frozen=True)
+class Path:
+    """A pose over time.
+
+    Attributes:
+        name: For reports.
+        duration: How long it takes [s].
+        function: Times ``(n,)`` → pose and derivatives, each ``(n, 6)``.
+        parameters: What it was made from, for reports.
+    """
+
+    name: str
+    duration: float
+    function: Callable[[np.ndarray], Triple]
+    parameters: dict[str, Any]
+
+    def at(self, time: Any) -> ToolMotion:
+        """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""
+        time = np.atleast_1d(finite_array("time", time))
+        if time.ndim != 1 or not time.size:
+            raise WrongShape("time", time.shape, "(n,), n at least 1")
+        slack = 1e-9 * self.duration
+        if (time < -slack).any() or (time > self.duration + slack).any():
+            raise TrajectoryError(
+                f"time runs from {time.min():g} to {time.max():g} s",
+                where=f"path {self.name!r}",
+                allowed=f"0 to {self.duration:g} s",
+            )
+        return ToolMotion(time, *self.function(time))
+
+    def sample(self, count: int) -> ToolMotion:
+        """Evenly spaced samples from beginning to end.
+
+        Raises:
+            TrajectoryError: Fewer than two samples.
+        """
+        count = whole("samples", count, 2, error=TrajectoryError)
+        return self.at(np.linspace(0.0, self.duration, count))
+
+
+def timing_law(timing: str, duration: float, time: np.ndarray) -> Triple:
+    """s(t) in [0, 1] and its first two derivatives.
+
+    Args:
+        timing: ``"constant-rate"`` or ``"rest-to-rest"`` (the quintic
+            10τ³ − 15τ⁴ + 6τ⁵, at rest without acceleration at both ends).
+        duration: [s].
+        time: [s], shape ``(n,)``.
+
+    Raises:
+        UnknownName: No such law.
+        TrajectoryError: The duration isn't positive.
+    """
+    choice("timing", timing, TIMINGS)
+    duration = real("the duration", duration, low=1e-6, high=1e6, unit="s", error=TrajectoryError)
+    time = finite_array("time", time, None)
+    tau, one = time / duration, np.ones_like(time)
+    if timing == "constant-rate":
+        return tau, one / duration, 0 * one
+    return (
+        tau**3 * (10 - 15 * tau + 6 * tau**2),
+        30 * tau**2 * (1 - tau) ** 2 / duration,
+        60 * tau * (1 - tau) * (1 - 2 * tau) / duration**2,
+    )
+
+
+def along(curve: Callable[[np.ndarray], Triple], law: Triple) -> Triple:
+    """A curve over s, driven by s(t): pose and time derivatives by the chain rule."""
+    s, ds, dds = law
+    value, first, second = curve(s)
+    return (
+        value,
+        first * ds[:, None],
+        second * (ds**2)[:, None] + first * dds[:, None],
+    )
+
+
+def appendix_b(
+    specification: Specification | None = None,
+    *,
+    placement: Sequence[float] | None = None,
+    orientation: Sequence[float] | None = None,
+    duration: float | None = None,
+    timing: str | None = None,
+) -> Path:
+    """The thesis's spray path, placed and timed.
+
+    Printed in millimetres and without a time: x = −0.001 t², y = t,
+    z = 100 sin(0.3 t), t from −60π to 60π. As printed it can't be reached with any
+    orientation of the tool: at t = 0 the wrist is too near the shoulder.
+
+    Args:
+        specification: Gives what is None below; None for the thesis's robot.
+        placement: What is added to (x, y, z) [m].
+        orientation: ψ, θ, φ, kept all along [rad].
+        duration: [s].
+        timing: Law for t: ``"constant-rate"`` or ``"rest-to-rest"``.
+
+    Source: Pollard thesis, appendix B.
+    """
+    if specification is not None:
+        instance("specification", specification, Specification, "Specification.read()")
+    assumed = (specification or Specification.read()).assumptions
+    place = vector("placement", assumed.placement.position if placement is None else placement, 3)
+    tool = vector(
+        "orientation",
+        np.radians(assumed.placement.orientation_deg) if orientation is None else orientation,
+        3,
+    )
+    seconds = assumed.motion.duration if duration is None else duration
+    law = assumed.motion.timing if timing is None else timing
+    timing_law(law, seconds, np.zeros(1))
+
+    def curve(s: np.ndarray) -> Triple:
+        u, span = _REACH * (2 * s - 1), 2 * _REACH
+        value, first, second = np.zeros((3, len(s), 6))
+        value[:, 0], value[:, 1] = -0.001 * u**2, u
+        value[:, 2] = 100 * np.sin(0.3 * u)
+        first[:, 0], first[:, 1], first[:, 2] = -0.002 * u, 1.0, 30 * np.cos(0.3 * u)
+        second[:, 0], second[:, 2] = -0.002, -9 * np.sin(0.3 * u)
+        value = value * _MM + np.concatenate([place, tool])
+        return value, first * (_MM * span), second * (_MM * span**2)
+
+    return Path(
+        "appendix B",
+        seconds,
+        lambda time: along(curve, timing_law(law, seconds, time)),
+        {
+            "path": "appendix B",
+            "placement": place.tolist(),
+            "orientation": tool.tolist(),
+            "duration": seconds,
+            "timing": law,
+        },
+    )
+
+
+def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") -> Path:
+    """A straight line between two poses (x, y, z, ψ, θ, φ)."""
+    first, last = vector("start", start, 6), vector("end", end, 6)
+
+    def curve(s: np.ndarray) -> Triple:
+        step = np.broadcast_to(last - first, (len(s), 6))
+        return first + s[:, None] * step, step, np.zeros_like(step)
+
+    return _single("line", curve, duration, timing)
+
+
+def arc(
+    start: Any,
+    via: Any,
+    end: Any,
+    duration: float,
+    timing: str = "rest-to-rest",
+) -> Path:
+    """A circular arc.
+
+    Args:
+        start: First pose (x, y, z, ψ, θ, φ).
+        via: Point [m] the arc passes through.
+        end: Last pose.
+        duration: [s].
+        timing: Timing law.
+
+    Raises:
+        TrajectoryError: The three points lie on a line.
+    """
+    first, last = vector("start", start, 6), vector("end", end, 6)
+    middle = vector("via", via, 3)
+    one, two = middle - first[:3], last[:3] - first[:3]
+    normal = np.cross(one, two)
+    area = float(np.linalg.norm(normal))
+    if area < 1e-9 * max(float(one @ one), float(two @ two)):
+        raise TrajectoryError(
+            "start, via and end of an arc lie on a line", remedy="Use a line, or move via"
+        )
+    normal = normal / area
+    to_centre = np.cross((two @ two) * one - (one @ one) * two, normal) / (2 * area)
+    # Circumcentre of 0, a, b: (|a|² b − |b|² a) × (a × b) / (2 |a × b|²).
+    centre = first[:3] - to_centre
+    radius = first[:3] - centre
+    side = np.cross(normal, radius)
+    gap = last[:3] - centre
+    angle = math.atan2(float(gap @ side), float(gap @ radius)) % (2 * math.pi)
+
+    def curve(s: np.ndarray) -> Triple:
+        value = first + s[:, None] * (last - first)
+        slope = np.broadcast_to(last - first, value.shape).copy()
+        bend = np.zeros_like(value)
+        c, sn = np.cos(angle * s)[:, None], np.sin(angle * s)[:, None]
+        value[:, :3] = centre + c * radius + sn * side
+        slope[:, :3] = angle * (c * side - sn * radius)
+        bend[:, :3] = -(angle**2) * (c * radius + sn * side)
+        return value, slope, bend
+
+    return _single("arc", curve, duration, timing)
+
+
+def _single(name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str) -> Path:
+    timing_law(timing, duration, np.zeros(1))
+    duration = float(duration)
+    return Path(
+        name,
+        duration,
+        lambda time: along(curve, timing_law(timing, duration, time)),
+        {"path": name, "duration": float(duration), "timing": timing},
+    )
+
+
+def through(time: Any, poses: Any, method: str = "cubic", *, name: str = "poses over time") -> Path:
+    """A spline through poses at given times, with its exact derivatives.
+
+    Args:
+        time: [s], strictly increasing, shape ``(n,)``; the path begins at its first.
+        poses: x, y, z [m], ψ, θ, φ [rad], shape ``(n, 6)``.
+        method: See :data:`thesis_pin.numeric.interpolation.METHODS`.
+        name: For reports.
+
+    Raises:
+        TrajectoryError: Too few poses or time not increasing.
+        UnknownName: No such method.
+    """
+    from thesis_pin.numeric.interpolation import interpolate
+
+    poses, time = finite_array("poses", poses, None, 6), finite_array("time", time, None)
+    if len(poses) != len(time):
+        raise TrajectoryError(f"{len(time)} times and {len(poses)} poses", allowed="as many")
+    begin = time[0] if len(time) else 0.0
+    curves = [interpolate(time - begin, column, method) for column in poses.T]
+
+    def function(at: np.ndarray) -> Triple:
+        rows = [np.stack([curve(at, order) for curve in curves], axis=-1) for order in (0, 1, 2)]
+        return rows[0], rows[1], rows[2]
+
+    parameters = {"path": name, "nodes": len(time), "interpolation": method}
+    duration = float(time[-1] - begin)
+    return Path(name, duration, function, {**parameters, "duration": duration})
+
+
+def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
+    """Paths that follow each other without a jump in pose or rate.
+
+    Raises:
+        TrajectoryError: There is none, or pose or rate jumps between two of them.
+    """
+    if not isinstance(paths, list | tuple) or not paths:
+        raise TrajectoryError(
+            f"segments are {'empty' if isinstance(paths, list | tuple) else shown(paths)}",
+            allowed="a list of at least one path",
+        )
+    for path in paths:
+        instance("a segment", path, Path, "line(), arc() or through()")
+    for number, (before, after) in enumerate(itertools.pairwise(paths), start=1):
+        end, start = before.at(before.duration), after.at(0.0)
+        for what, one, two in (
+            ("pose", end.pose, start.pose),
+            ("rate", end.rate, start.rate),
+        ):
+            jump = float(np.abs(one - two).max())
+            if jump > 1e-9:
+                raise TrajectoryError(
+                    f"the {what} jumps by {jump:.3g} between segments {number} and {number + 1}",
+                    remedy="Let the segments meet, and use rest-to-rest timing around corners",
+                )
+    ends = np.cumsum([path.duration for path in paths])
+
+    def function(at: np.ndarray) -> Triple:
+        which = np.minimum(np.searchsorted(ends, at, side="right"), len(paths) - 1)
+        rows = np.empty((3, len(at), 6))
+        for k, path in enumerate(paths):
+            some = which == k
+            local = np.clip(at[some] - (ends[k] - path.duration), 0.0, path.duration)
+            rows[:, some] = path.function(local)
+        return rows[0], rows[1], rows[2]
+
+    parameters = {"path": name, "segments": [path.parameters for path in paths]}
+    return Path(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})
+
+
+def load_path(file: Any) -> Path:
+    """A path from a CSV or TOML file; see :mod:`pollard_pin.motion.files`."""
+    from pollard_pin.motion.files import read_csv, read_toml_path
+
+    suffix = str(file).rpartition(".")[2].lower()
+    if suffix == "csv":
+        return read_csv(file)
+    if suffix == "toml":
+        return read_toml_path(file)
+    raise BadInput(f"a path can't be a .{suffix} file", where=str(file), allowed=".csv or .toml")

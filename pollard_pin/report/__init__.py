@@ -1,0 +1,1 @@
+"""The trajectory report: numbers, motors' limits, documents, figures, page, animation."""

@@ -1,0 +1,246 @@
+"""Tables and small documents of the command ``pollard-pin``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+
+from pollard_pin.kinematics.forward import Assemblies
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, POSE_NAMES
+from pollard_pin.kinematics.solutions import Solutions
+from pollard_pin.model import Pollard
+from pollard_pin.report.numbers import TrajectoryReport
+from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.command.parser import print_table, print_text
+from thesis_pin.errors import Unreachable
+from thesis_pin.loops import kinematics as loops
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.report import branches
+
+
+def print_report(report: TrajectoryReport) -> None:
+    """Print the summary of a trajectory report."""
+    a, summary = report.actuators, report.summary()
+    three = report.three is not None
+    rows = []
+    for k, symbol in enumerate(ACTUATOR_SYMBOLS[: 3 if three else 6]):
+        rows.append(
+            (
+                symbol,
+                f"{a.peak_torque[k]:.4f}",
+                f"{a.rms_torque[k]:.4f}",
+                f"{a.peak_speed[k]:.3f}",
+                f"{a.peak_power[k]:.4f}",
+                f"{a.positive_work[k]:.4f}",
+                f"{a.negative_work[k]:.4f}",
+                f"{a.net_work[k]:.5f}",
+            )
+        )
+    print_table(
+        ("motor", "peak", "RMS", "speed", "power", "work +", "work −", "net"),
+        rows,
+        title=f"{report.robot.specification.name} on {report.path.name}, "
+        f"{report.path.duration:g} s, {report.robot.inertia} inertias "
+        "(N·m, rad/s, W, J)",
+    )
+    energy, condition = summary["energy"], summary["condition"]
+    margin, reading = summary["margin"], summary["other_inertia"]
+    force = summary["peak_loop_force"]
+    joint = int(np.argmax(summary["peak_joint_force"]))
+    print_text(
+        f"Energy: the motors' net work is {energy['net_work'] * 1e3:.4f} mJ, the robot's energy "
+        f"changes by {energy['change'] * 1e3:.4f} mJ ({energy['relative_error']:.1e} of the "
+        f"{energy['exchanged']:.3f} J exchanged)."
+        if not three
+        else f"Three motors leave up to {summary['missing_share']:.2%} of the generalized force "
+        "unexplained: (3.154) inverts a 3×6 matrix, and these torques are its least-squares "
+        "solution. Their work can't balance the energy.",
+        *report.motor_use.sentences(),
+        f"Loop reactions: up to {force[0]:.3f} N and {force[1]:.3f} N in the ball joints; the "
+        f"most loaded other joint is {JOINT_NAMES[joint]} with "
+        f"{summary['peak_joint_force'][joint]:.2f} N.",
+        f"Actuation: condition number {condition['least']:.2f} to {condition['largest']:.2f} "
+        f"(largest at t = {condition['time']:.3f} s), determinant of constant sign. "
+        f"Reach margin at least {margin['least']:.3f} (t = {margin['time']:.3f} s).",
+        f"With {reading['reading']} inertias the base motors of six would peak at "
+        f"{', '.join(f'{value:.3f}' for value in reading['peak_torque'][:3])} N·m.",
+        "",
+        "These numbers rest on assumptions:",
+        *(
+            f"- {one['name'].replace('_', ' ')}{_values(one)}: {one['why']}"
+            for one in report.assumptions()
+        ),
+    )
+
+
+def _values(assumption: dict[str, Any]) -> str:
+    """The numbers of an assumption in brackets, if they are few."""
+    parts = [
+        f"{key.replace('_', ' ')} {value}"
+        for key, value in assumption.items()
+        if key not in ("name", "why", "link", "inertia", "inertia_convention")
+    ]
+    return f" ({', '.join(parts)})" if 0 < len(parts) <= 4 else ""
+
+
+def ik_document(robot: Pollard, solutions: Solutions) -> dict[str, Any]:
+    """Inverse kinematics of one pose on several branches, JSON-ready."""
+    own = {
+        "margin": (solutions.margin, True),
+        "loop_residual": (solutions.loop_residual, False),
+        "rod_angles": (solutions.rod_angles, False),
+    }
+    return branches.document(
+        "pollard-pin",
+        robot.specification.name,
+        joints=JOINT_NAMES,
+        coordinates=POSE_NAMES,
+        pose=solutions.pose.reshape(6),
+        branches=[
+            branches.branch(solutions, k, str(one), solutions.explain(k), **own)
+            for k, one in enumerate(solutions.branches)
+        ],
+        explanation=_best(solutions),
+    )
+
+
+def print_solutions(solutions: Solutions) -> None:
+    """Print joint angles of one pose: two tables, a row a branch."""
+    for title, joints in (("chain 0", range(6)), ("chains 1 and 2", range(6, 12))):
+        rows = []
+        for k, branch in enumerate(solutions.branches):
+            if not solutions.reachable[k]:
+                continue
+            angles = [f"{np.degrees(solutions.angles[k, j]):.3f}" for j in joints]
+            rows.append((str(branch), *angles))
+        if rows:
+            columns = ("branch", *(JOINT_SYMBOLS[j] for j in joints))
+            print_table(columns, rows, title=f"{title}, degrees")
+    print_text(_best(solutions))
+
+
+def _best(solutions: Solutions) -> str:
+    """How many branches are valid, and what can be said of the best."""
+    labels = solutions.branches
+    best = labels.index(DEFAULT_BRANCH) if DEFAULT_BRANCH in labels else 0
+    best = best if solutions.valid[best] else int(np.argmax(solutions.valid))
+    return (
+        f"{int(solutions.valid.sum())} of {len(labels)} branches are valid. "
+        f"{labels[best]}: {solutions.explain(best)}."
+    )
+
+
+def fk_document(robot: Pollard, modes: Assemblies) -> dict[str, Any]:
+    """Assembly modes of one set of motor angles, JSON-ready."""
+    return {
+        "schema": "pollard-pin/forward-kinematics",
+        "version": 1,
+        "actuators": list(ACTUATOR_NAMES),
+        "joints": list(JOINT_NAMES),
+        "modes": [
+            {
+                "branch": str(robot.branch_of(modes.angles[k])),
+                "pose": modes.pose[k],
+                "angles": modes.angles[k],
+                "residual": float(modes.residual[k]),
+                "outside_limits": [JOINT_NAMES[j] for j in np.flatnonzero(modes.outside[k])],
+            }
+            for k in range(int(modes.count))
+        ],
+    }
+
+
+def print_modes(robot: Pollard, modes: Assemblies) -> None:
+    """Print the assembly modes of one set of motor angles."""
+    rows = []
+    for k in range(int(modes.count)):
+        pose = [f"{value:.4f}" for value in modes.pose[k, :3]]
+        pose += [f"{value:.2f}" for value in np.degrees(modes.pose[k, 3:])]
+        rows.append((str(robot.branch_of(modes.angles[k])), *pose))
+    if rows:
+        print_table(("branch", *POSE_NAMES), rows, title="assembly modes, metres and degrees")
+    worst = float(np.nanmax(modes.residual))
+    print_text(
+        f"{len(rows)} assembly modes; ball joints closed to {worst:.0e} m.",
+        *(
+            f"{robot.branch_of(modes.angles[k])} is outside the joint limits: "
+            f"{', '.join(JOINT_SYMBOLS[j] for j in np.flatnonzero(modes.outside[k]))}."
+            for k in range(len(rows))
+            if modes.outside[k].any()
+        ),
+    )
+
+
+def check_document(robot: ClosedRobot) -> dict[str, Any]:
+    """Loops, motors and degrees of freedom of any looped robot, JSON-ready.
+
+    Freedom is counted at a closed configuration found from a few spread-out guesses;
+    None if none of them closes.
+    """
+    generator, closed = np.random.default_rng(0), None
+    for _ in range(20):
+        guess = pin.integrate(robot.model, robot.q0, generator.uniform(-1.5, 1.5, robot.model.nv))
+        try:
+            closed = loops.close(robot, guess)
+            break
+        except Unreachable:
+            continue
+    freedom = None
+    if closed is not None:
+        found = loops.mobility(robot, closed)
+        freedom = {
+            "counted": found.counted,
+            "by_rank": found.freedom,
+            "equations": found.equations,
+            "independent": found.independent,
+            "held_by_motors": found.held,
+            "configuration": closed,
+        }
+    return {
+        "schema": "pollard-pin/check",
+        "version": 1,
+        "robot": robot.model.name,
+        "joints": list(robot.model.names)[1:],
+        "motors": list(robot.actuators),
+        "loops": [
+            {"name": loop.name, "type": loop.kind, "frames": list(loop.frames)}
+            for loop in robot.loops
+        ],
+        "freedom": freedom,
+    }
+
+
+def print_check(document: dict[str, Any]) -> None:
+    """Print what :func:`check_document` found."""
+    rows = [(loop["name"], loop["type"], *loop["frames"]) for loop in document["loops"]]
+    if rows:
+        print_table(("loop", "type", "frame", "frame"), rows)
+    motors = ", ".join(document["motors"])
+    print_text(
+        f"{document['robot']}: {len(document['joints'])} joints, "
+        f"{len(document['motors'])} motors ({motors})."
+    )
+    freedom = document["freedom"]
+    if freedom is None:
+        print_text("No closed configuration was found from 20 random guesses.")
+        return
+    print_text(
+        f"Degrees of freedom: {freedom['by_rank']} by rank "
+        f"({freedom['independent']} of {freedom['equations']} loop equations are independent), "
+        f"{freedom['counted']} by counting.",
+        _held(len(document["motors"]), freedom["held_by_motors"], freedom["by_rank"]),
+    )
+
+
+def _held(motors: int, held: int, freedom: int) -> str:
+    """What the motors hold, in words."""
+    if held < freedom:
+        return (
+            f"The motors hold {held} of them: with all motors still, "
+            f"{freedom - held} can move by itself."
+        )
+    if motors > freedom:
+        return f"The motors hold all of them, {motors - freedom} more than needed."
+    return "The motors hold all of them."

@@ -1,0 +1,192 @@
+"""What there is to see of a path: the mechanism, its closed loops, motors and margins."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pollard_pin.report.numbers import TrajectoryReport
+from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
+from pollard_pin.urdf import TOOL_FRAME
+from thesis_pin.numeric.checks import instance
+from thesis_pin.pages.drawing import (
+    CLOSED,
+    OPEN,
+    axis_placements,
+    closure_items,
+    frame_placements,
+    joint_placements,
+    robot_items,
+)
+from thesis_pin.pages.scene import (
+    Arc,
+    Arrow,
+    Ball,
+    Group,
+    Item,
+    Readout,
+    Scene,
+    Trace,
+    levels,
+    thinned,
+)
+from thesis_pin.report.summary import PALETTE
+
+BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = PALETTE
+YELLOW, BLACK, BASE = "#F0E442", "#1A1A1A", "#5F6B76"
+_CHAIN = {"chain1": ORANGE, "chain2": GREEN, "base": BASE, "tool": BLACK}
+
+MARGIN_BOUNDS = (0.05, 0.2)
+"""Reach margins at which the tip's colour changes: nearly stretched, near, far."""
+CONDITION_BOUNDS = (100.0, 30.0)
+"""Condition numbers of the six motors' Jacobian at which it changes."""
+_MARGIN_COLOURS = (VERMILLION, YELLOW, BLUE)
+_MARGIN_TEXTS = ("nearly singular", "near a singularity", "far from singularities")
+
+_WORK_COLOURS = (ORANGE, BLUE)
+_HAIRS = 33
+MOST_SAMPLES = 1201
+
+
+def path_scene(report: TrajectoryReport) -> Scene:
+    """A trajectory report as a scene: everything toggles, nothing is computed anew but poses.
+
+    Args:
+        report: The report; at most :data:`MOST_SAMPLES` of its samples are shown.
+    """
+    instance("report", report, TrajectoryReport, "trajectory_report()")
+    robot, keep = report.robot, thinned(report.joints.time, MOST_SAMPLES)
+    q = report.joints.q[keep]
+    zone = margin_zone(report)[keep]
+    largest = (float(np.abs(report.torque[:, :3]).max()), float(np.abs(report.torque[:, 3:]).max()))
+    force_scale = 0.12 / max(float(report.loop_force_size.max()), 1e-12)
+    moves = joint_placements(robot.model, q)
+    low = min(float(moves[..., 2].min()), float(report.motion.pose[:, 2].min()))
+    return Scene(
+        title=f"{robot.specification.name.capitalize()}, path {report.path.name}",
+        description=_description(report),
+        time=report.joints.time[keep],
+        groups=_groups(largest, force_scale),
+        items=(
+            *robot_items(robot.model, robot.visual_model, q, group="robot", colour=_colour),
+            *closure_items(robot.model, robot.closures.closed_loop, q, "loops", 0.011),
+            *_tool(report, keep, q, zone),
+            *_motors(report, keep, moves, largest),
+            *_loop_forces(report, keep, q, force_scale),
+        ),
+        readouts=(
+            Readout("reach margin", report.solutions.margin[keep], digits=3),
+            Readout("condition number", report.holding.condition[keep], digits=1),
+            Readout("posture", zone, texts=_MARGIN_TEXTS),
+            *(
+                Readout(f"torque {ACTUATOR_SYMBOLS[k]}", report.torque[keep, k], "N·m", 3)
+                for k in range(6)
+            ),
+            Readout("loops open by", _opening(report)[keep] * 1e12, "pm", 4),
+        ),
+        floor=low - 0.05,
+        forward=(1.0, 0.0),
+    )
+
+
+def margin_zone(report: TrajectoryReport) -> np.ndarray:
+    """0 nearly singular, 1 near, 2 far, by reach margin and condition, shape ``(n,)``."""
+    reach = levels(report.solutions.margin, MARGIN_BOUNDS)
+    hold = levels(-report.holding.condition, [-bound for bound in CONDITION_BOUNDS])
+    return np.minimum(reach, hold)
+
+
+def _colour(name: str) -> str:
+    return _CHAIN.get(name.split("_")[0], SKY)
+
+
+def _groups(largest: tuple[float, float], force_scale: float) -> tuple[Group, ...]:
+    chains = ((SKY, "chain 0"), (ORANGE, "chain 1"), (GREEN, "chain 2"), (BLACK, "tool"))
+    return (
+        Group("robot", "robot", chains),
+        Group("loops", "ball joints", ((CLOSED, "closed"), (OPEN, "open"))),
+        Group(
+            "tip",
+            "spray tip, by its distance from singularities",
+            tuple(zip(_MARGIN_COLOURS, _MARGIN_TEXTS, strict=True)),
+        ),
+        Group("trace", "trace of the tip", ((PURPLE, ""),)),
+        Group("spray", "spray direction", ((PURPLE, ""),)),
+        Group(
+            "torques",
+            f"motor torques (a full turn is {largest[0]:.3g} N·m at the base, "
+            f"{largest[1]:.2g} N·m in the wrist)",
+            ((BLUE, "drives"), (ORANGE, "brakes")),
+        ),
+        Group(
+            "forces",
+            f"ball-joint forces on the forearm (1 N is {force_scale * 1e3:.3g} mm long)",
+            ((VERMILLION, ""),),
+        ),
+    )
+
+
+def _description(report: TrajectoryReport) -> str:
+    return (
+        f"Animation of the parallel robot {report.robot.specification.name} on path "
+        f"{report.path.name}, {report.path.duration:.3g} seconds: three chains carry a spray tip "
+        f"along its path. The reach margin is at least {report.solutions.margin.min():.3f}, the "
+        f"condition number at most {report.holding.condition.max():.1f}."
+    )
+
+
+def _opening(report: TrajectoryReport) -> np.ndarray:
+    return np.linalg.norm(report.solutions.posture.opening, axis=-1).max(axis=-1)
+
+
+def _tool(
+    report: TrajectoryReport, keep: np.ndarray, q: np.ndarray, zone: np.ndarray
+) -> list[Item]:
+    place = frame_placements(report.robot.model, TOOL_FRAME, q)
+    tip, along = place[:, :3], report.solutions.posture.tool_rotation[keep, :, 0]
+    items: list[Item] = [
+        Ball("tip", "tip", tip, 8e-3, _MARGIN_COLOURS, zone),
+        Trace("trace", "trace", tip, 2e-3, PURPLE),
+        Arrow("spray", "spray", tip, along, 0.08, 3e-3, PURPLE),
+    ]
+    for k in thinned(keep, _HAIRS):
+        where, there = np.tile(tip[k], (len(keep), 1)), np.tile(along[k], (len(keep), 1))
+        items.append(Arrow(f"spray {k}", "spray", where, there, 0.03, 8e-4, PURPLE, head=False))
+    return items
+
+
+def _motors(
+    report: TrajectoryReport, keep: np.ndarray, moves: np.ndarray, largest: tuple[float, float]
+) -> list[Item]:
+    """Arcs about the motors' axes; blue while the motor gives work, orange while it takes some."""
+    items: list[Item] = []
+    for k, name in enumerate(ACTUATOR_NAMES):
+        share = report.torque[keep, k] / max(largest[k // 3], 1e-12)
+        items.append(
+            Arc(
+                f"torque_{name}",
+                "torques",
+                axis_placements(report.robot.model, name, moves),
+                2 * np.pi * share,
+                0.05 if k < 3 else 0.025 + 0.006 * (k - 3),  # three wrist axes share a point
+                _WORK_COLOURS,
+                levels(report.power[keep, k], (0.0,)),
+            )
+        )
+    return items
+
+
+def _loop_forces(
+    report: TrajectoryReport, keep: np.ndarray, q: np.ndarray, scale: float
+) -> list[Item]:
+    return [
+        Arrow(
+            f"loop_force_{i + 1}",
+            "forces",
+            frame_placements(report.robot.model, frame, q)[:, :3],
+            report.dynamics.loop_force[keep, i],
+            scale,
+            4e-3,
+            VERMILLION,
+        )
+        for i, (frame, _) in enumerate(report.robot.closures.closed_loop)
+    ]

@@ -1,0 +1,1 @@
+"""What each symbol of the thesis must equal, worked out without its formulas."""

@@ -1,0 +1,1 @@
+"""Torques and floor wrenches of a motion, landings, stability."""

@@ -1,0 +1,254 @@
+"""Inverse dynamics of the biped on the floor, and what a foot's landing does.
+
+RNEA gives the generalized forces of the free-flying robot. Its six base rows
+are the wrench the floor must supply; carried to the stance foot, that wrench
+takes its share of the leg's joint rows away. No Jacobian has to be formed and
+no system solved while one foot stands.
+
+Source: Scout thesis, 4.5–4.7, corrected: six constraint rows a stance foot and
+A_τ = [0; I] instead of the printed (4.15)–(4.23); see docs/audit/scout.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pinocchio as pin
+
+from scout_pin.dynamics.load_sharing import share_load
+from scout_pin.kinematics.rates import leg_rates
+from scout_pin.kinematics.screws import LegScrews
+from scout_pin.model import Scout
+from scout_pin.motion.gait import Motion
+from scout_pin.specification import SIDES
+from thesis_pin.contacts.cones import Contact
+from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
+from thesis_pin.numeric.checks import element, instance
+from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.rotations import quaternions
+from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
+from thesis_pin.numeric.vectors import cross, into, rows
+from thesis_pin.tolerances import TOLERANCES
+
+_LEGS = (slice(0, 6), slice(6, 12))  # each leg's joints, in the order of SIDES
+
+
+@dataclass(frozen=True)
+class ContactDynamics:
+    """Joint torques and floor wrenches of a motion.
+
+    Attributes:
+        torque: Joint torques [N·m], shape ``(n, 12)``, joint friction included.
+        wrench: Floor's wrench on each foot, world axes, about p_i: force [N],
+            moment [N·m], shape ``(n, 2, 6)``, left then right; zero off the floor.
+        sole_wrench: The same in the sole's axes.
+        contacts: Contact of each sole, left then right.
+        support: Feet in support, shape ``(n, 2)``.
+        required: Wrench the floor must supply in all, about the torso's origin in
+            its axes, shape ``(n, 6)``.
+        double_violation: Least wrench missing in double support [N·m, forces
+            scaled], zero where the floor can supply it, NaN in single support.
+    """
+
+    torque: np.ndarray
+    wrench: np.ndarray
+    sole_wrench: np.ndarray
+    contacts: tuple[Contact, Contact]
+    support: np.ndarray
+    required: np.ndarray
+    double_violation: np.ndarray
+
+    @cached_property
+    def contact_margin(self) -> np.ndarray:
+        """Distance of each foot's wrench inside its cone [N·m], ``(n, 2)``; NaN off the floor."""
+        margin = np.full(self.support.shape, np.nan)
+        for k, contact in enumerate(self.contacts):
+            standing = self.support[:, k]
+            margin[standing, k] = contact.margin(self.sole_wrench[standing, k])
+        return margin
+
+    @cached_property
+    def admissible(self) -> np.ndarray:
+        """Whether the floor can supply the wrench, booleans ``(n,)``."""
+        single = np.where(self.support, self.contact_margin, np.inf).min(axis=1)
+        double = self.support.all(axis=1)
+        # On the cone's border the margin is zero to rounding: a QP stops there.
+        return np.where(double, self.double_violation <= 1e-7, single >= -1e-7)
+
+    @cached_property
+    def friction_used(self) -> np.ndarray:
+        """Share of the admissible friction in use by each foot, ``(n, 2)``; NaN off the floor."""
+        used = [c.friction_used(self.sole_wrench[:, k]) for k, c in enumerate(self.contacts)]
+        return np.where(self.support, np.stack(used, axis=1), np.nan)
+
+    @cached_property
+    def centre_of_pressure(self) -> np.ndarray:
+        """Centre of pressure in each sole's frame [m], ``(n, 2, 2)``; NaN off the floor."""
+        points = [c.centre_of_pressure(self.sole_wrench[:, k]) for k, c in enumerate(self.contacts)]
+        return np.where(self.support[..., None], np.stack(points, axis=1), np.nan)
+
+    def least_violation(self, sample: int) -> tuple[float, np.ndarray]:
+        """Least wrench, in size [N·m, forces scaled] and itself ``(6,)``, the floor can't supply.
+
+        In single support about the stance foot's origin, in its axes; in double
+        support only the size is known, and the wrench is NaN.
+        """
+        (sample,) = element(sample, (len(self.support),), "samples")
+        if self.support[sample].all():
+            return float(self.double_violation[sample]), np.full(6, np.nan)
+        k = int(np.argmax(self.support[sample]))
+        return self.contacts[k].violation(self.sole_wrench[sample, k])
+
+
+def joint_trajectory(
+    robot: Scout, motion: Motion, reference: np.ndarray | None = None
+) -> JointTrajectory:
+    """Inverse kinematics of a whole motion, rates and accelerations included.
+
+    Args:
+        robot: The biped.
+        motion: The sampled gait.
+        reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
+
+    Raises:
+        Unreachable: Some pose has no valid branch.
+        SingularPose: A leg's Jacobian loses rank on the way.
+    """
+    instance("robot", robot, Scout, "scout_pin.load()")
+    instance("motion", motion, Motion, "Gait.sample()")
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, reference)
+    feet = (motion.left_foot, motion.right_foot)
+    v, a = np.empty(q.shape), np.empty(q.shape)
+    for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):
+        v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
+    return JointTrajectory(motion.time, q, v, a)
+
+
+def walking(robot: Scout) -> Scout:
+    """The biped, if its root is a free flyer.
+
+    Raises:
+        BadInput: It is no :class:`Scout`, or has the thesis's eighteen coordinates.
+    """
+    instance("robot", robot, Scout, "scout_pin.load()")
+    if robot.root != "free_flyer":
+        raise BadInput(
+            f"the robot's root is {robot.root!r}",
+            allowed="'free_flyer'",
+            remedy="Load it with scout_pin.load(), and convert with to_free_flyer()",
+        )
+    return robot
+
+
+def free_flyer_state(
+    torso: BodyMotion, joints: JointTrajectory
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root."""
+
+    count, turn = len(joints.q), rows(torso.rotation)
+    q, v, a = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
+    linear, angular = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
+    moving = into(turn, rows(torso.acceleration)) - cross(angular, linear)
+    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternions(turn).T, joints.q
+    v[:, :3], v[:, 3:6], v[:, 6:] = linear.T, angular.T, joints.v
+    a[:, :3], a[:, 3:6], a[:, 6:] = moving.T, into(turn, rows(torso.alpha)).T, joints.a
+    return q, v, a
+
+
+def free_flying_forces(robot: Scout, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> np.ndarray:
+    """RNEA of many samples, shape ``(n, 18)``; the robot must have a free-flyer root."""
+    # Pinocchio wants one sample a column; the transpose of a C array is that, uncopied.
+    columns = [np.ascontiguousarray(part).T for part in (q, v, a)]
+    return np.asarray(pin.rneaInParallel(1, robot.pool, *columns)).reshape(18, -1).T
+
+
+def inverse_dynamics(
+    robot: Scout, motion: Motion, joints: JointTrajectory | None = None
+) -> ContactDynamics:
+    """Torques and floor wrenches of a motion.
+
+    With one foot on the floor both are determined. With two, six components are
+    free: of all admissible pairs of wrenches the one with the least sum of
+    squared joint torques is taken (a quadratic programme; all its terms are N²·m²).
+    Where no admissible pair exists, the same rule holds without the floor's
+    limits (feet glued), and ``double_violation`` says how much is missing.
+
+    Args:
+        robot: The biped, with a free-flyer root.
+        motion: The sampled gait.
+        joints: Its joint trajectory; None computes it.
+
+    Raises:
+        BadInput: The robot's root is no free flyer, or the joints aren't this motion's.
+        TrajectoryError: At some sample no foot is in support.
+        Unreachable, SingularPose: See :func:`joint_trajectory`.
+    """
+    walking(robot)
+    if joints is None:
+        joints = joint_trajectory(robot, motion)
+    instance("motion", motion, Motion, "Gait.sample()")
+    instance("joints", joints, JointTrajectory, "joint_trajectory()")
+    if np.shape(joints.q) != (len(motion.time), 12):
+        raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
+    if not motion.support.any(axis=1).all():
+        k = int(np.argmin(motion.support.any(axis=1)))
+        raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
+    count = len(joints.q)
+    result = ContactDynamics(
+        torque=np.empty((count, 12)),
+        wrench=np.zeros((count, 2, 6)),
+        sole_wrench=np.zeros((count, 2, 6)),
+        contacts=robot.contacts,
+        support=motion.support,
+        required=np.empty((count, 6)),
+        double_violation=np.full(count, np.nan),
+    )
+    for part in blocks(count):
+        _fill(result, part, robot, motion.part(part), joints.part(part))
+    return result
+
+
+def _fill(
+    result: ContactDynamics, part: slice, robot: Scout, motion: Motion, joints: JointTrajectory
+) -> None:
+    """Work out one block of samples and write it where it belongs."""
+    forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
+    result.required[part] = forces[:, :6]
+    torque, total = rows(forces[:, 6:]), rows(forces[:, :6])
+    shares = [np.where(motion.support[:, k], total, 0.0) for k in (0, 1)]
+    double = np.flatnonzero(motion.support.all(axis=1))
+    if double.size:
+        both, missing = share_load(robot, motion, joints, forces, double)
+        result.double_violation[part][double] = missing
+        for k in (0, 1):
+            shares[k][:, double] = both[:, k].T
+    turn = rows(motion.torso.rotation)
+    feet = (motion.left_foot, motion.right_foot)
+    for k, (side, foot, mine) in enumerate(zip(SIDES, feet, _LEGS, strict=True)):
+        if not motion.support[:, k].any():
+            continue
+        force, moment = shares[k][:3], shares[k][3:]
+        torque[mine] -= LegScrews(robot.legs[side], joints.q[:, mine]).torques(force, moment)
+        # From the torso's axes to the world's, and from its origin to the sole's.
+        back = turn.transpose(1, 0, 2)
+        arm = rows(foot.position) - rows(motion.torso.position)
+        force = into(back, force)
+        moment = into(back, moment) - cross(arm, force)
+        own = rows(foot.rotation)
+        for column, vector in ((0, force), (3, moment)):
+            result.wrench[part, k, column : column + 3] = vector.T
+            result.sole_wrench[part, k, column : column + 3] = into(own, vector).T
+    result.torque[part] = torque.T
+    result.torque[part] += joint_friction(robot, joints.v)
+
+
+def joint_friction(robot: Scout, v: np.ndarray) -> np.ndarray:
+    """Torque that overcomes joint friction [N·m]: ``(n, 12)`` rates → ``(n, 12)``.
+
+    Coulomb friction of a joint at rest is undetermined and taken as zero.
+    """
+    friction = robot.specification.assumptions.joint_friction
+    moving = np.abs(v) > TOLERANCES.static
+    return friction.viscous * v + friction.coulomb * np.where(moving, np.sign(v), 0.0)

@@ -1,0 +1,1 @@
+"""Closed-form kinematics of a leg, both ways, with rates, accelerations and singularities."""

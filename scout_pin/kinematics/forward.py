@@ -1,0 +1,86 @@
+"""Forward kinematics of a leg, batched: axes, joint centres and sole.
+
+Symbols, in the torso frame: γ = θ + β; (i3, j3, e) is the frame of link 2
+(thesis frame 3i), e the common axis of joints 3, 4, 5; a = i_11i and j11 = j_11i
+are axes of the foot link. Inside, the sample is the last axis of every array.
+
+Source: Scout thesis, 3.1 (transformations) and the loop equation (3.4).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from scout_pin.kinematics.geometry import LegGeometry
+from thesis_pin.numeric.rotations import transform
+
+
+@dataclass(frozen=True)
+class LegFrames:
+    """Joint axes, joint centres and sole of a leg, in the torso frame.
+
+    Attributes:
+        axes: Unit axes of joints 1 to 6, shape ``(6, 3, n)``.
+        points: Centres p1 to p6 [m], shape ``(6, 3, n)``.
+        foot_link: Axes of the foot link, one a row, shape ``(3, 3, n)``.
+        sole: Origin of the sole frame [m], shape ``(3, n)``.
+    """
+
+    axes: np.ndarray
+    points: np.ndarray
+    foot_link: np.ndarray
+    sole: np.ndarray
+
+
+def leg_frames(leg: LegGeometry, theta: np.ndarray) -> LegFrames:
+    """Axes and centres of a leg's joints.
+
+    Args:
+        leg: Geometry of the leg.
+        theta: Joint angles [rad], shape ``(n, 6)``.
+    """
+    gamma = np.ascontiguousarray((theta + leg.beta).T)
+    count = gamma.shape[1]
+    sum_3 = gamma[2]
+    sum_4 = sum_3 + gamma[3]
+    sum_5 = sum_4 + gamma[4]
+    c1, c2, c3, c34, c345, c6 = np.cos([gamma[0], gamma[1], sum_3, sum_4, sum_5, gamma[5]])
+    s1, s2, s3, s34, s345, s6 = np.sin([gamma[0], gamma[1], sum_3, sum_4, sum_5, gamma[5]])
+    zero = np.zeros(count)
+    i3 = np.stack([c1 * c2, s1 * c2, -s2])
+    j3 = np.stack([-s1, c1, zero])
+    e = np.stack([c1 * s2, s1 * s2, c2])
+    a = c345 * i3 + s345 * j3
+    b = c345 * j3 - s345 * i3
+    axes = np.empty((6, 3, count))
+    axes[0] = [[0.0], [0.0], [1.0]]
+    axes[1], axes[2:5], axes[5] = j3, e, a
+    points = np.empty((6, 3, count))
+    points[0] = [[leg.x_0], [0.0], [0.0]]
+    points[1] = [[leg.x_0], [0.0], [-leg.z_1]]
+    points[2] = points[1] + leg.x_2 * i3
+    points[3] = points[2] + leg.x_3 * (c3 * i3 + s3 * j3)
+    points[4] = points[3] + leg.x_4 * (c34 * i3 + s34 * j3)
+    points[5] = points[4] + leg.x_5 * a
+    j11, k11 = c6 * b + s6 * e, c6 * e - s6 * b
+    return LegFrames(axes, points, np.stack([a, j11, k11]), points[5] + leg.y_6 * j11)
+
+
+def leg_forward_kinematics(leg: LegGeometry, theta: Any) -> np.ndarray:
+    """Placement of the sole in the torso frame, equation (3.4).
+
+    Args:
+        leg: Geometry of the leg.
+        theta: Joint angles [rad], shape ``(..., 6)``; NaN gives NaN.
+
+    Returns:
+        Placements, shape ``(..., 4, 4)``.
+    """
+    theta = np.asarray(theta, dtype=float)
+    frames = leg_frames(leg, theta.reshape(-1, 6))
+    rotation_part = np.einsum("jkn,ji->nki", frames.foot_link, leg.foot)
+    placement = transform(rotation_part, frames.sole.T)
+    return placement.reshape(*theta.shape[:-1], 4, 4)

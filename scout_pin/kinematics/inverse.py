@@ -1,0 +1,318 @@
+"""Closed-form inverse kinematics of a leg: every branch.
+
+A leg has joint axes z y z z z x. Joints 1 and 2 meet in p2; joints 3, 4, 5 are
+parallel, with common direction e; joint 6 passes through p5. So the foot fixes
+p5 and the axis a of joint 6, and e must be perpendicular to a and to
+v = p5 − p2: two choices of e, two of joint 2 for each, two of the knee.
+
+Symbols as in :mod:`scout_pin.kinematics.forward`.
+
+Source: Scout thesis, 3.1, the loop equation (3.4); the closed form replaces the
+thesis's numeric solver.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from scout_pin.kinematics.geometry import LegGeometry
+from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
+from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
+from thesis_pin.errors import Unreachable
+from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
+from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
+from thesis_pin.tolerances import TOLERANCES
+
+_PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the knee each
+
+Free = tuple[Any, tuple[Any, Any, Any]]
+"""γ1 and the direction of e that a singular pose leaves free."""
+
+
+def leg_inverse_kinematics(
+    leg: LegGeometry, torso_to_foot: Any, reference: Any = None
+) -> LegSolutions:
+    """Every set of joint angles that brings a sole to a pose.
+
+    Args:
+        leg: Geometry of the leg.
+        torso_to_foot: Placement of the sole frame in the torso frame: a
+            ``pin.SE3``, a sequence of them, or an array ``(..., 4, 4)``.
+        reference: Angles θ [rad], ``(..., 6)`` or ``(6,)``, that fill in what a
+            singular pose leaves free.
+
+    Returns:
+        The eight branches with validity, residuals and reasons.
+
+    Raises:
+        BadInput: Wrong shape, NaN or not a rigid placement.
+    """
+    target = pose_array("torso_to_foot", torso_to_foot)
+    if reference is not None:
+        reference = finite_array("reference", reference, 6)
+    return every_branch(leg, target, reference)
+
+
+def every_branch(
+    leg: LegGeometry, target: np.ndarray, reference: np.ndarray | None
+) -> LegSolutions:
+    """:func:`leg_inverse_kinematics` of arrays that have been checked."""
+    stack = target.shape[:-2]
+    count = math.prod(stack)
+    if reference is not None:
+        reference = spread("reference", finite_array("reference", reference, 6), stack)
+        reference = reference.reshape(count, 6)
+    work = _few if count < FEW else _many
+    theta, excess, sine_axis, sine_hip = work(leg, target.reshape(count, 16), reference)
+    if (beyond := excess > TOLERANCES.reach).any():
+        theta[beyond] = np.nan
+    return LegSolutions(
+        leg,
+        target,
+        theta.reshape(*stack, 8, 6),
+        excess.reshape(*stack, 8),
+        sine_axis.reshape(stack),
+        sine_hip.reshape(stack),
+    )
+
+
+_Solved = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""θ ``(n, 8, 6)``, excess ``(n, 8)``, two sines ``(n,)``."""
+
+
+def _few(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -> _Solved:
+    """All branches of a few poses, by floats."""
+    numbers: list[float] = []  # one list for all: an array costs more to begin than to fill
+    for k, matrix in enumerate(matrices.tolist()):
+        free = _free(leg, FLOATS, None if reference is None else (reference[k] + leg.beta).tolist())
+        chunk = _Chunk(FLOATS, leg, matrix, free)
+        excesses: list[float] = []
+        for axis, two in _PAIRS:
+            one, other, excess = chunk.solve(axis, two)
+            numbers += one
+            numbers += other
+            excesses += (excess, excess)
+        numbers += (*excesses, chunk.sine_axis, chunk.h)
+    rows = np.array(numbers).reshape(-1, 58)
+    theta = wrap(rows[:, :48].reshape(-1, 8, 6) - leg.beta)
+    return theta, rows[:, 48:56], rows[:, 56], rows[:, 57]
+
+
+def _many(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -> _Solved:
+    """All branches of many poses, by arrays, in blocks; the sample is their last axis."""
+    count = len(matrices)
+    theta, excess, sines = np.empty((8, 6, count)), np.empty((8, count)), np.empty((2, count))
+    for part in blocks(count):
+        given = None if reference is None else (reference[part] + leg.beta).T
+        columns = np.ascontiguousarray(matrices[part].T)
+        chunk = _Chunk(ARRAYS, leg, columns, _free(leg, ARRAYS, given))
+        for k, pair in enumerate(_PAIRS):
+            one, other, excess[2 * k : 2 * k + 2, part] = chunk.solve(*pair)
+            theta[2 * k, :, part], theta[2 * k + 1, :, part] = one, other
+        theta[:, :, part] = wrap(theta[:, :, part] - leg.beta[:, None])
+        sines[:, part] = chunk.sine_axis, chunk.h
+    return theta.transpose(2, 0, 1), excess.T, sines[0], sines[1]
+
+
+def one_branch(
+    leg: LegGeometry, side: str, target: np.ndarray, reference: np.ndarray | None
+) -> np.ndarray:
+    """Angles ``(..., 6)`` on one branch a pose, by the rule of ``Scout.inverse_kinematics``.
+
+    Raises:
+        Unreachable: Some pose has no valid branch.
+    """
+    if target.ndim == 3 and len(target) and (reference is None or reference.ndim == 1):
+        entries = target.reshape(-1, 16).T
+        found = follow_branch(leg, len(target), lambda part: entries[:, part].copy(), reference)
+        if found is not None:
+            return found
+    return choose_branch(every_branch(leg, target, reference), side, reference)
+
+
+def choose_branch(solutions: LegSolutions, side: str, reference: Any = None) -> np.ndarray:
+    """One valid branch a pose, by the rule of ``Scout.inverse_kinematics``.
+
+    Args:
+        solutions: All branches, of a single pose or a stack.
+        side: Name of the leg, for messages.
+        reference: Angles [rad], ``(6,)`` or ``(..., 6)``.
+
+    Returns:
+        Angles [rad], shape ``(..., 6)``.
+
+    Raises:
+        Unreachable: Some pose has no valid branch.
+    """
+    valid, angles = solutions.valid, solutions.angles
+    possible = valid.any(axis=-1)
+    if not possible.all():
+        index = tuple(int(k) for k in np.argwhere(~np.atleast_1d(possible))[0])[: possible.ndim]
+        where = f"{side} foot" + (f", sample {index[0]}" if index else "")
+        raise Unreachable(
+            solutions.explain(index), where=where, remedy="Move the torso or the foot closer"
+        )
+    start = np.zeros(6) if reference is None else np.asarray(reference)
+    each = np.ndim(start) > 1
+    if angles.ndim == 2 or each:
+        cost = np.where(valid, np.abs(wrap(angles - start[..., None, :])).max(axis=-1), np.inf)
+        best = np.argmin(cost, axis=-1)
+        return np.take_along_axis(angles, best[..., None, None], axis=-2)[..., 0, :]
+    first = np.abs(wrap(angles[0] - start)).max(axis=-1)
+    throughout = valid.reshape(-1, 8).all(axis=0)
+    if throughout.any():
+        cost = np.where(throughout, first.reshape(-1, 8).max(axis=0), np.inf)
+        return angles[..., int(np.argmin(cost)), :]
+    chosen = np.empty((*angles.shape[:-2], 6))
+    previous = np.broadcast_to(start, chosen.shape[1:])
+    for k in range(len(angles)):
+        step = np.abs(wrap(angles[k] - previous[..., None, :])).max(axis=-1)
+        best = np.argmin(np.where(valid[k], step, np.inf), axis=-1)
+        chosen[k] = np.take_along_axis(angles[k], best[..., None, None], axis=-2)[..., 0, :]
+        previous = chosen[k]
+    return chosen
+
+
+def follow_branch(
+    leg: LegGeometry,
+    count: int,
+    matrices: Callable[[slice], np.ndarray],
+    reference: np.ndarray | None = None,
+) -> np.ndarray | None:
+    """One branch along a whole motion, if one is valid throughout: no other is worked out.
+
+    The branch is the one :func:`choose_branch` takes: of those valid throughout,
+    the nearest to the reference at the first sample.
+
+    Args:
+        leg: Geometry of the leg.
+        count: Number of samples, at least 1.
+        matrices: Gives the rows of the rigid placements torso to sole of some
+            samples, entries first, shape ``(12 or 16, n)``.
+        reference: Angles [rad], ``(6,)``; None for zero.
+
+    Returns:
+        Angles [rad], shape ``(count, 6)``; None if no branch is valid throughout.
+    """
+    start = np.zeros(6) if reference is None else reference
+    free = _free(leg, FLOATS, None if reference is None else (reference + leg.beta).tolist())
+    first = _Chunk(FLOATS, leg, matrices(slice(0, 1))[:, 0].tolist(), free)
+    gammas = [gamma for pair in _PAIRS for gamma in first.solve(*pair)[:2]]
+    step = np.abs(wrap(np.array(gammas) - leg.beta - start)).max(axis=1)
+    lower, upper = (
+        (limit + sign * TOLERANCES.joint_limit)[:, None]
+        for limit, sign in ((leg.lower, -1), (leg.upper, 1))
+    )
+    theta = np.empty((count, 6))
+    for k in np.argsort(step, kind="stable"):
+        for part in blocks(count):
+            *gammas, excess = _Chunk(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
+            angles = wrap(np.array(gammas[k % 2]) - leg.beta[:, None])
+            if not (
+                (excess <= TOLERANCES.reach).all()
+                and (angles >= lower).all()
+                and (angles <= upper).all()
+            ):
+                break
+            theta[part] = angles.T
+        else:
+            return theta
+    return None
+
+
+def _free(leg: LegGeometry, xp: Elementwise, gamma: Any) -> Free:
+    """What a reference, as γ with the joint first, says of γ1 and e; None is neutral."""
+    if gamma is None:
+        return float(leg.beta[0]), (1.0, 0.0, 0.0)
+    (c1, s1), (c2, s2) = xp.cosine_sine(gamma[0]), xp.cosine_sine(gamma[1])
+    return gamma[0], (c1 * s2, s1 * s2, c2)
+
+
+class _Chunk:
+    """A chunk of poses; what several branches share is computed once.
+
+    Works on floats and arrays alike. ``m`` holds the rows of the placement,
+    entry by entry.
+    """
+
+    def __init__(self, xp: Elementwise, leg: LegGeometry, m: Any, free: Free) -> None:
+        self.xp, self.leg = xp, leg
+        self.planes: dict[int, tuple[Any, ...]] = {}
+        (f_ax, f_ay, f_az), (f_jx, f_jy, f_jz) = leg.foot_rows
+        ax, ay, az = (m[k] * f_ax + m[k + 1] * f_ay + m[k + 2] * f_az for k in (0, 4, 8))
+        jx, jy, jz = (m[k] * f_jx + m[k + 1] * f_jy + m[k + 2] * f_jz for k in (0, 4, 8))
+        vx = m[3] - leg.y_6 * jx - leg.x_5 * ax - leg.x_0
+        vy = m[7] - leg.y_6 * jy - leg.x_5 * ay
+        vz = m[11] - leg.y_6 * jz - leg.x_5 * az + leg.z_1
+        ex, ey, ez = self._axis((vx, vy, vz), (ax, ay, az), free[1])
+
+        self.h = h = xp.sqrt(ex * ex + ey * ey)
+        if xp.some(yaw_free := h < TOLERANCES.singular):
+            safe, (c, s) = xp.where(yaw_free, 1.0, h), xp.cosine_sine(free[0])
+            c, s = xp.where(yaw_free, c, ex / safe), xp.where(yaw_free, s, ey / safe)
+            self.yaw = xp.where(yaw_free, free[0], xp.atan2(ey, ex))
+        else:
+            c, s, self.yaw = ex / h, ey / h, xp.atan2(ey, ex)
+        self.tilt = xp.atan2(h, ez)
+        # Components along i3 and j3 of the branch S_E = S_2 = +1.
+        self.v = ez * (c * vx + s * vy) - h * vz, c * vy - s * vx
+        self.foot = xp.atan2(c * ay - s * ax, ez * (c * ax + s * ay) - h * az)
+        self.turn_6 = xp.atan2(
+            jx * ex + jy * ey + jz * ez,
+            jx * (ey * az - ez * ay) + jy * (ez * ax - ex * az) + jz * (ex * ay - ey * ax),
+        )
+
+    def _axis(self, v: Any, a: Any, free: Any) -> tuple[Any, Any, Any]:
+        """e, perpendicular to v and a; where v is along a, the free axis, perpendicular to a."""
+        xp, (vx, vy, vz), (ax, ay, az) = self.xp, v, a
+        ex, ey, ez = vy * az - vz * ay, vz * ax - vx * az, vx * ay - vy * ax
+        size = xp.sqrt(ex * ex + ey * ey + ez * ez)
+        length = xp.sqrt(vx * vx + vy * vy + vz * vz)
+        self.sine_axis = size / xp.where(length > 0.0, length, 1.0)
+        if xp.some(lost := self.sine_axis < TOLERANCES.singular):
+            fx, fy, fz = free
+            # Where the free axis itself is along a, the torso's y.
+            other = abs(fx * ax + fy * ay + fz * az) > 0.99
+            fx, fy, fz = (xp.where(other, y, f) for y, f in ((0.0, fx), (1.0, fy), (0.0, fz)))
+            ex, ey, ez = (xp.where(lost, f, e) for f, e in ((fx, ex), (fy, ey), (fz, ez)))
+        along = ex * ax + ey * ay + ez * az  # rounding only, except for the free axis
+        ex, ey, ez = ex - along * ax, ey - along * ay, ez - along * az
+        size = xp.sqrt(ex * ex + ey * ey + ez * ez)
+        return ex / size, ey / size, ez / size
+
+    def solve(self, axis: int, two: int) -> tuple[list[Any], list[Any], Any]:
+        """γ of the two branches with S_E = axis and S_2 = two, knee one way and the other.
+
+        Last is by how much their hip-to-ankle distance misses [m].
+        """
+        excess, knee, thigh, ankle = self.planes.get(two) or self._plane(two)
+        # In the plane of two = −1 the foot's direction is turned by π.
+        foot = axis * (self.foot if two > 0 else self.foot + math.pi)
+        gamma_1 = self.yaw if axis == two else self.yaw + math.pi
+        gamma_2 = two * (self.tilt if axis > 0 else math.pi - self.tilt)
+        gamma_6 = self.turn_6 if axis > 0 else self.turn_6 + math.pi
+        one, other = axis * ankle - thigh, axis * ankle + thigh
+        return (
+            [gamma_1, gamma_2, one, knee, foot - one - knee, gamma_6],
+            [gamma_1, gamma_2, other, -knee, foot - other + knee, gamma_6],
+            excess,
+        )
+
+    def _plane(self, two: int) -> tuple[Any, ...]:
+        """The triangle of thigh and shank: excess, knee, angle at the hip, direction."""
+        xp, x_3, x_4 = self.xp, self.leg.x_3, self.leg.x_4
+        u_i, u_j = two * self.v[0] - self.leg.x_2, two * self.v[1]
+        square = u_i * u_i + u_j * u_j
+        reach = xp.sqrt(square)
+        c_4 = xp.clipped((square - x_3 * x_3 - x_4 * x_4) / (2 * x_3 * x_4))
+        self.planes[two] = plane = (
+            xp.larger(reach - (x_3 + x_4), abs(x_3 - x_4) - reach),
+            xp.acos(c_4),
+            xp.atan2(x_4 * xp.sqrt(1.0 - c_4 * c_4), x_3 + x_4 * c_4),
+            xp.atan2(u_j, u_i),
+        )
+        return plane

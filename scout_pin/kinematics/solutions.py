@@ -1,0 +1,147 @@
+"""What the inverse kinematics of a leg answers: branches, residuals, reasons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from scout_pin.kinematics.forward import leg_forward_kinematics
+from scout_pin.kinematics.geometry import LegGeometry
+from thesis_pin.numeric.checks import element
+from thesis_pin.report.branches import label
+from thesis_pin.tolerances import TOLERANCES
+
+BRANCHES = tuple((e, two, knee) for e in (1, -1) for two in (1, -1) for knee in (1, -1))
+"""Signs (S_E, S_2, S_K) of the eight branches: direction of e, sign of
+sin γ2, sign of sin γ4. The thesis's gait lies on (1, 1, 1) for the left leg and
+on (−1, 1, −1) for the right."""
+
+
+@dataclass(frozen=True)
+class LegSolutions:
+    """All branches of a leg's inverse kinematics, for one pose or a stack.
+
+    Attributes:
+        geometry: The leg.
+        target: The poses asked for, torso to sole, shape ``(..., 4, 4)``.
+        angles: Joint angles θ [rad] in (−π, π], shape ``(..., 8, 6)``, in the order
+            of :data:`BRANCHES`; NaN where a branch doesn't exist.
+        excess: By how much the hip-to-ankle distance |p5 − p3| of a branch misses
+            what thigh and shank can span [m], shape ``(..., 8)``; ≤ 0 if reachable.
+        sine_axis: Sine of the angle between v and a; zero where e is free.
+        sine_hip: |sin γ2|; zero where joint 1 is free.
+    """
+
+    geometry: LegGeometry
+    target: np.ndarray
+    angles: np.ndarray
+    excess: np.ndarray
+    sine_axis: np.ndarray
+    sine_hip: np.ndarray
+
+    @property
+    def reachable(self) -> np.ndarray:
+        """Whether a branch exists, limits aside, shape ``(..., 8)``."""
+        return self.excess <= TOLERANCES.reach
+
+    @cached_property
+    def beyond_limits(self) -> np.ndarray:
+        """By how much each angle leaves its limits [rad], ≤ 0 inside, ``(..., 8, 6)``."""
+        leg = self.geometry
+        return np.maximum(leg.lower - self.angles, self.angles - leg.upper)
+
+    @cached_property
+    def valid(self) -> np.ndarray:
+        """Whether a branch exists and keeps every joint limit, shape ``(..., 8)``."""
+        # NaN compares false, so unreachable branches drop out.
+        return np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1)
+
+    @cached_property
+    def _reached(self) -> np.ndarray:
+        return leg_forward_kinematics(self.geometry, self.angles)
+
+    @property
+    def position_residual(self) -> np.ndarray:
+        """Distance between the pose a branch reaches and the target [m], ``(..., 8)``."""
+        gap = self._reached[..., :3, 3] - self.target[..., None, :3, 3]
+        return np.linalg.norm(gap, axis=-1)
+
+    @property
+    def rotation_residual(self) -> np.ndarray:
+        """Largest entry of the difference of the two rotations [-], ``(..., 8)``."""
+        gap = self._reached[..., :3, :3] - self.target[..., None, :3, :3]
+        return np.abs(gap).max(axis=(-1, -2))
+
+    @property
+    def singularity(self) -> np.ndarray:
+        """Names of the singular sets each pose lies in, shape ``(...)``, empty if none.
+
+        ``yaw free``: θ2 = ±90° from neutral, joint 1 turns about the leg's normal;
+        the reference's joint 1 is kept (θ1 = 0 without one). ``axis free``: p2 lies on
+        link 5's line; e is the reference's, or nearest the torso's x axis. ``knee
+        straight`` or ``knee folded``: two branches coincide on the reach boundary.
+        """
+        leg = self.geometry
+        text = np.where(self.sine_hip < TOLERANCES.near_singular, "yaw free; ", "").astype("U64")
+        text = np.char.add(
+            text, np.where(self.sine_axis < TOLERANCES.near_singular, "axis free; ", "")
+        )
+        sine_knee = np.abs(np.sin(self.angles[..., 3] + leg.beta[3]))
+        cosine_knee = np.cos(self.angles[..., 3] + leg.beta[3])
+        flat = sine_knee < TOLERANCES.near_singular
+        for name, which in (
+            ("knee straight; ", flat & (cosine_knee > 0)),
+            ("knee folded; ", flat & (cosine_knee < 0)),
+        ):
+            text = np.char.add(text, np.where(which.any(axis=-1), name, ""))
+        return np.asarray(np.char.rstrip(text, "; "))
+
+    def explain(self, index: tuple[int, ...] | int = (), branch: int | None = None) -> str:
+        """Say in words which branches a pose has, or why it, or one of them, fails.
+
+        Args:
+            index: Which pose of the stack.
+            branch: Number of a branch in :data:`BRANCHES`; None speaks of the pose.
+
+        Raises:
+            BadInput: There is no such pose or branch.
+        """
+        index = element(index, self.target.shape[:-2], "poses")
+        branch = None if branch is None else element(branch, (8,), "branches")[0]
+        if branch is not None:
+            text = f"branch {label(BRANCHES[branch])} is {self._explain_branch(index, branch)}"
+        elif (valid := self.valid[index]).any():
+            text = f"{int(valid.sum())} of 8 branches are valid"
+        elif (reachable := self.reachable[index]).any():
+            beyond = np.where(reachable[:, None], self.beyond_limits[index], np.inf)
+            best = int(np.argmin(beyond.max(axis=-1)))
+            text = (
+                f"reachable, but outside the joint limits in each of the "
+                f"{int(reachable.sum())} branches; the nearest, {label(BRANCHES[best])}, "
+                f"is {self._explain_branch(index, best)}"
+            )
+        else:
+            text = self._explain_branch(index, int(np.argmin(self.excess[index])))
+        singular = str(self.singularity[index])
+        return text + (f" (singular: {singular})" if singular else "")
+
+    def _explain_branch(self, index: tuple[int, ...], branch: int) -> str:
+        leg = self.geometry
+        if not self.reachable[index][branch]:
+            low, high = abs(leg.x_3 - leg.x_4), leg.x_3 + leg.x_4
+            return (
+                f"unreachable: hip and ankle would be {self.excess[index][branch] * 1e3:.3f} mm "
+                f"outside the {low * 1e3:.2f} to {high * 1e3:.2f} mm that thigh and shank span"
+            )
+        if self.valid[index][branch]:
+            return "valid"
+        joint = int(np.argmax(self.beyond_limits[index][branch]))
+        angle, low, high = np.degrees(
+            [self.angles[index][branch, joint], leg.lower[joint], leg.upper[joint]]
+        )
+        return (
+            f"outside the limits: it needs {leg.names[joint]} at {angle:.2f}°, "
+            f"outside {low:g}° to {high:g}°"
+        )

@@ -1,0 +1,294 @@
+"""Gaits from files: nodes, polynomials or constants in TOML, samples in CSV.
+
+The formats are described in docs/scout.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+from scipy.interpolate import PPoly
+
+from scout_pin.kinematics.geometry import POSE_NAMES
+from scout_pin.motion.gait import BODIES, Gait, Phase
+from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
+from thesis_pin.model.samples import Row, check_increasing, check_width, numbers, read_rows
+from thesis_pin.model.specification import Key, Positive, Strict, read_toml
+from thesis_pin.numeric.checks import choice
+from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
+from thesis_pin.tolerances import TOLERANCES
+
+GAITS = Path(__file__).parents[1] / "gaits"
+PRESETS = ("thesis", "thesis-program")
+
+Method = Literal["linear", "quadratic", "cubic", "free", "quintic"]
+
+
+class Segment(Strict):
+    """Part of a curve: nodes to interpolate, or a polynomial, over an interval of t.
+
+    ``until`` carries the last piece of a node segment past its last node, as the
+    thesis does with y_B; only quadratic curves do so literally, other methods
+    pass through the start of the next segment instead.
+    """
+
+    t: Annotated[tuple[float, ...], Field(min_length=2)]
+    value: Annotated[tuple[float, ...], Field(min_length=1)] | None = None
+    polynomial: Annotated[tuple[float, ...], Field(min_length=1)] | None = None
+    interpolation: Method | None = None
+    until: float | None = None
+
+    @property
+    def end(self) -> float:
+        """Where the segment stops."""
+        return self.t[-1] if self.until is None else self.until
+
+
+class Body(Strict):
+    """Curves of one body; a number is a constant. ``_mm`` and ``_deg`` change the unit."""
+
+    x: float | tuple[Segment, ...] | None = None
+    y: float | tuple[Segment, ...] | None = None
+    z: float | tuple[Segment, ...] | None = None
+    x_mm: float | tuple[Segment, ...] | None = None
+    y_mm: float | tuple[Segment, ...] | None = None
+    z_mm: float | tuple[Segment, ...] | None = None
+    pitch: float | tuple[Segment, ...] | None = None
+    roll: float | tuple[Segment, ...] | None = None
+    yaw: float | tuple[Segment, ...] | None = None
+    pitch_deg: float | tuple[Segment, ...] | None = None
+    roll_deg: float | tuple[Segment, ...] | None = None
+    yaw_deg: float | tuple[Segment, ...] | None = None
+
+
+class GaitFile(Strict):
+    """The format of a gait's TOML file."""
+
+    format: Literal[1]
+    name: str
+    source: str = ""
+    time_unit: Positive
+    interpolation: Method = "quadratic"
+    torso: Body
+    left_foot: Body
+    right_foot: Body
+    phases: Annotated[tuple[Phase, ...], Field(min_length=1)]
+
+    def cross_check(self) -> Iterator[tuple[Key, str, object]]:
+        """Phases follow each other; segments do, with as many values as nodes."""
+        for k, phase in enumerate(self.phases):
+            if phase.end < phase.start:
+                yield ("phases", k, "end"), "a phase can't end before it starts", phase.end
+            if k and phase.start != self.phases[k - 1].end:
+                yield (
+                    ("phases", k, "start"),
+                    f"must be the end of the phase before, {self.phases[k - 1].end:g}",
+                    phase.start,
+                )
+        if self.phases[-1].end <= self.phases[0].start:
+            yield ("phases",), "the gait lasts no time", None
+        for body in BODIES:
+            for name, curve in getattr(self, body):
+                if isinstance(curve, tuple):
+                    yield from self._check_curve((body, name), curve)
+            for coordinate in POSE_NAMES:
+                unit = "_mm" if coordinate in "xyz" else "_deg"
+                both = [
+                    n
+                    for n in (coordinate, coordinate + unit)
+                    if getattr(getattr(self, body), n) is not None
+                ]
+                if len(both) > 1:
+                    yield (body, both[1]), f"given twice, as {both[0]} and {both[1]}", None
+
+    def _check_curve(
+        self, key: Key, curve: tuple[Segment, ...]
+    ) -> Iterator[tuple[Key, str, object]]:
+        start, end = self.phases[0].start, self.phases[-1].end
+        if not curve:
+            yield key, "has no segment", None
+            return
+        for k, segment in enumerate(curve):
+            here = (*key, k)
+            if (segment.value is None) == (segment.polynomial is None):
+                yield here, "needs either value or polynomial", None
+            if segment.value is not None and len(segment.value) != len(segment.t):
+                yield (
+                    (*here, "value"),
+                    f"must have one value for each of the {len(segment.t)} nodes in t",
+                    segment.value,
+                )
+            if segment.polynomial is not None and (len(segment.t) != 2 or segment.interpolation):
+                yield here, "a polynomial takes t = [start, end] and no interpolation", segment.t
+            if any(b <= a for a, b in zip(segment.t, segment.t[1:], strict=False)):
+                yield (*here, "t"), "must increase strictly", segment.t
+            if segment.until is not None and segment.until <= segment.t[-1]:
+                yield (
+                    (*here, "until"),
+                    f"must be after the last node, {segment.t[-1]:g}",
+                    segment.until,
+                )
+            if k and segment.t[0] != curve[k - 1].end:
+                yield (
+                    (*here, "t"),
+                    f"must start where the segment before ends, {curve[k - 1].end:g}",
+                    segment.t[0],
+                )
+        if curve[0].t[0] > start or curve[-1].end < end:
+            yield (
+                key,
+                f"covers t = {curve[0].t[0]:g} to {curve[-1].end:g}; the phases need "
+                f"{start:g} to {end:g}",
+                None,
+            )
+
+
+def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -> Gait:
+    """Load a preset, a TOML gait or a CSV file of samples.
+
+    Args:
+        source: One of :data:`PRESETS`, or a path ending in ``.toml`` or ``.csv``.
+        interpolation: Method for every node segment, instead of the file's.
+
+    Raises:
+        BadInput: The file can't be read, has an unknown ending, or a cell of a CSV
+            file isn't a number.
+        SpecificationError: The TOML is invalid; carries every problem.
+        TrajectoryError: The samples of a CSV file make no motion.
+    """
+    if interpolation is not None:
+        choice("interpolation", interpolation, list(METHODS))
+    if not isinstance(source, str | Path):
+        raise BadInput(f"{source!r} isn't a gait", allowed=f"{', '.join(PRESETS)} or a path")
+    if str(source) in PRESETS:
+        source = GAITS / f"{source}.toml"
+    path = Path(source)
+    if path.suffix.lower() == ".csv":
+        return _from_csv(path, interpolation or "free")
+    if path.suffix.lower() != ".toml":
+        raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
+    file = read_toml("gait", GaitFile, path)
+    curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
+    return Gait(file.name, file.source, file.time_unit, curves, file.phases)
+
+
+def _curves(file: GaitFile, body: Body, override: str | None) -> tuple[PPoly, ...]:
+    curves = []
+    for coordinate in POSE_NAMES:
+        suffix, scale = ("_mm", 1e-3) if coordinate in "xyz" else ("_deg", np.pi / 180)
+        plain, scaled = getattr(body, coordinate), getattr(body, coordinate + suffix)
+        curve = plain if plain is not None else scaled
+        factor = 1.0 if scaled is None else scale
+        start, end = file.phases[0].start, file.phases[-1].end
+        if curve is None:
+            curve = 0.0
+        if not isinstance(curve, tuple):
+            curves.append(constant(start, end, curve * factor))
+            continue
+        made = _join_segments(curve, override, file.interpolation)
+        made = PPoly(made.c * factor, made.x)
+        _refuse_jumps(made, f"gait {file.name!r}: {coordinate}")
+        curves.append(made)
+    return tuple(curves)
+
+
+def _refuse_jumps(curve: PPoly, where: str) -> None:
+    """Segments must meet; the thesis's own rounding leaves gaps below 0.06 mm."""
+    sizes = np.abs(jumps(curve))
+    if (sizes > TOLERANCES.seam).any():
+        k = int(np.argmax(sizes))
+        raise TrajectoryError(
+            f"its value jumps by {sizes[k]:.3g}",
+            where=f"{where} at t = {curve.x[k + 1]:g}",
+            allowed=f"{TOLERANCES.seam:g} m or rad",
+            remedy="Let each segment begin with the value the one before ends with",
+        )
+
+
+def _join_segments(curve: tuple[Segment, ...], override: str | None, default: str) -> PPoly:
+    pieces: list[PPoly] = []
+    for k, segment in enumerate(curve):
+        if segment.polynomial is not None:
+            pieces.append(polynomial(segment.t[0], segment.t[1], segment.polynomial))
+            continue
+        values = segment.value or ()
+        constant_value = len(set(values)) == 1
+        method = override or segment.interpolation or default
+        t = segment.t
+        if segment.until is not None and method != "quadratic":
+            following = curve[k + 1] if k + 1 < len(curve) else None
+            if following is not None and following.value is not None:
+                t, values = (*t, segment.until), (*values, following.value[0])
+        if constant_value and len(values) == len(segment.t):
+            pieces.append(constant(t[0], segment.end, values[0]))
+            continue
+        piece = interpolate(t, values, method)
+        if segment.end > piece.x[-1]:
+            piece = PPoly(piece.c, np.append(piece.x[:-1], segment.end))
+        pieces.append(piece)
+    return join(pieces)
+
+
+def _from_csv(path: Path, method: str) -> Gait:
+    """Columns ``t`` [s], ``support`` and any of ``<body>_<coordinate>`` [m], [rad]."""
+    known = [f"{body}_{coordinate}" for body in BODIES for coordinate in POSE_NAMES]
+    lines = read_rows("gait", path)
+    columns = _columns(path, lines[0].cells, known)
+    check_width(lines)
+    rows = lines[1:]
+    if len(rows) < 4:
+        raise TrajectoryError(f"{len(rows)} samples", where=str(path), allowed="at least 4")
+    names = [name for name in columns if name != "support"]
+    table = numbers(rows, [columns.index(name) for name in names], names)
+    values = dict(zip(names, table.T, strict=True))
+    t = values["t"]
+    check_increasing(rows, t)
+    for name in names:
+        if name.endswith(("pitch", "roll", "yaw")):
+            values[name] = np.unwrap(values[name])
+    phases = tuple(_csv_phases(rows, columns.index("support"), t))
+    absent = np.zeros(len(t))
+    curves = {
+        body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in POSE_NAMES)
+        for body in BODIES
+    }
+    return Gait(path.stem, str(path), 1.0, curves, phases)
+
+
+def _columns(path: Path, header: Sequence[str], known: Sequence[str]) -> list[str]:
+    """The header, checked: known names, none twice, the two that must be there."""
+    columns = list(header)
+    for name in columns:
+        if name not in (*known, "t", "support"):
+            raise UnknownName("column", name, ["t", "support", *known], where=str(path))
+        if columns.count(name) > 1:
+            raise TrajectoryError(f"column {name!r} is given twice", where=str(path))
+    for name in ("t", "support"):
+        if name not in columns:
+            raise TrajectoryError(f"there is no column {name!r}", where=str(path))
+    return columns
+
+
+def _sampled(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:
+    """A curve through samples; one that doesn't move stays a constant."""
+    if np.ptp(values) > 0:
+        return interpolate(t, values, method)
+    return constant(t[0], t[-1], float(values[0]))
+
+
+def _csv_phases(rows: Sequence[Row], column: int, t: np.ndarray) -> Iterator[Phase]:
+    """Runs of equal support; a change happens at the first sample that shows it."""
+    names = [row.cells[column] for row in rows]
+    for row, name in zip(rows, names, strict=True):
+        if name not in ("left", "right", "double"):
+            raise UnknownName("support", name, ("left", "right", "double"), where=row.where)
+    start = 0
+    for k in range(1, len(names) + 1):
+        if k == len(names) or names[k] != names[start]:
+            end = min(k, len(names) - 1)
+            yield Phase(start=t[start], end=t[end], support=names[start])  # type: ignore[arg-type]
+            start = k

@@ -1,0 +1,268 @@
+"""Gaits: eighteen curves over time and who stands when.
+
+The thesis's own gait comes as two files: ``thesis`` with the exact splines of
+appendix C through table 5.1, ``thesis-program`` with the rounded coefficients
+of its program (appendix D), which produced the printed tables.
+
+Time t inside a gait counts in its own unit; ``time_unit`` seconds make one.
+
+Source: Scout thesis, chapter 5, appendices C and D.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+from scipy.interpolate import PPoly
+
+from scout_pin.kinematics.geometry import POSE_NAMES
+from thesis_pin.errors import TrajectoryError, WrongShape
+from thesis_pin.model.specification import Strict
+from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.numeric.checks import choice, real, whole
+from thesis_pin.numeric.interpolation import jumps
+from thesis_pin.numeric.rotations import euler_placement
+from thesis_pin.numeric.trajectory import BodyMotion
+from thesis_pin.tolerances import TOLERANCES
+
+BODIES = ("torso", "left_foot", "right_foot")
+Support = Literal["left", "right", "double"]
+
+
+class Phase(Strict):
+    """Which feet bear load between two times; equal times mean an instant."""
+
+    start: float
+    end: float
+    support: Support
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A sampled gait: what inverse kinematics and dynamics work on.
+
+    Attributes:
+        time: Sample times [s], shape ``(n,)``.
+        t: The same in the gait's unit, shape ``(n,)``.
+        support: Feet in support, left then right, booleans ``(n, 2)``.
+        torso, left_foot, right_foot: Motions in the world.
+    """
+
+    time: np.ndarray
+    t: np.ndarray
+    support: np.ndarray
+    torso: BodyMotion
+    left_foot: BodyMotion
+    right_foot: BodyMotion
+
+    @cached_property
+    def phase(self) -> list[str]:
+        """``"left"``, ``"right"`` or ``"double"`` for each sample."""
+        names = {(True, False): "left", (False, True): "right", (True, True): "double"}
+        return [names[bool(left), bool(right)] for left, right in self.support]
+
+    def part(self, samples: slice) -> Motion:
+        """Some consecutive samples, as views."""
+        return Motion(
+            self.time[samples],
+            self.t[samples],
+            self.support[samples],
+            *(body.part(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+        )
+
+    def at_rest(self, samples: np.ndarray) -> Motion:
+        """The poses of some samples (indices or a mask), without any motion."""
+        return Motion(
+            self.time[samples],
+            self.t[samples],
+            self.support[samples],
+            *(body.at_rest(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+        )
+
+
+@dataclass(frozen=True)
+class RateJump:
+    """A planned rate that changes in an instant: it would take an infinite force.
+
+    Attributes:
+        t: Time in the gait's unit.
+        body: One of :data:`BODIES`.
+        coordinate: One of :data:`POSE_NAMES`.
+        size: Jump [m/s] or [rad/s].
+    """
+
+    t: float
+    body: str
+    coordinate: str
+    size: float
+
+
+@dataclass(frozen=True)
+class Gait:
+    """A gait ready to be sampled.
+
+    Attributes:
+        name: Its name.
+        source: Where it comes from.
+        time_unit: Seconds in one unit of t.
+        curves: For each body of :data:`BODIES`, six curves of t in the order of
+            :data:`POSE_NAMES`, in metres and radians.
+        phases: Contact phases in order.
+    """
+
+    name: str
+    source: str
+    time_unit: float
+    curves: dict[str, tuple[PPoly, ...]]
+    phases: tuple[Phase, ...]
+
+    @property
+    def start(self) -> float:
+        """First t."""
+        return self.phases[0].start
+
+    @property
+    def end(self) -> float:
+        """Last t."""
+        return self.phases[-1].end
+
+    def support(self, t: np.ndarray) -> np.ndarray:
+        """Feet in support at times t, left then right: ``(n,)`` → booleans ``(n, 2)``.
+
+        At an instant where phases meet, a foot of either bears load.
+        """
+        t = _times(t)
+        result = np.zeros((len(t), 2), dtype=bool)
+        for phase in self.phases:
+            inside = (t >= phase.start) & (t <= phase.end)
+            for k, side in enumerate(("left", "right")):
+                if phase.support in (side, "double"):
+                    result[inside, k] = True
+        return result
+
+    def touchdowns(self) -> list[tuple[float, str]]:
+        """Times t at which a foot starts to bear load, with its side."""
+        events = []
+        for before, after in zip(self.phases, self.phases[1:], strict=False):
+            for side in ("left", "right"):
+                had = before.support in (side, "double")
+                has = after.support in (side, "double")
+                # Zero-length phases at the start are standing, not landing.
+                if has and not had and after.start > self.start:
+                    events.append((after.start, side))
+        return events
+
+    def sample_times(self, samples: int) -> np.ndarray:
+        """Times t evenly spaced from start to end, and both sides of every change.
+
+        Phases and pieces of curves begin and end in an instant; a few more samples
+        just before and after each make sure that no peak depends on the spacing.
+
+        Args:
+            samples: Number of evenly spaced times.
+        """
+        samples = whole("samples", samples, 2)
+        changes = [p.start for p in self.phases] + [p.end for p in self.phases]
+        changes += [x for curves in self.curves.values() for curve in curves for x in curve.x]
+        side = 1e-9 * (self.end - self.start)
+        near = np.concatenate([np.unique(changes) - side, np.unique(changes) + side])
+        near = near[(near > self.start) & (near < self.end)]
+        return np.union1d(np.linspace(self.start, self.end, samples), near)
+
+    def rate_jumps(self, time_unit: float | None = None) -> list[RateJump]:
+        """Instants at which a planned rate jumps, largest first.
+
+        A foot's lift-off and landing count too: a foot can't start in an instant.
+        """
+        unit = self._unit(time_unit)
+        found = []
+        for body, curves in self.curves.items():
+            for coordinate, curve in zip(POSE_NAMES, curves, strict=True):
+                sizes = np.abs(jumps(curve, 1)) / unit
+                inside = (curve.x[1:-1] > self.start) & (curve.x[1:-1] < self.end)
+                for k in np.flatnonzero((sizes > TOLERANCES.rate_jump) & inside):
+                    found.append(RateJump(float(curve.x[k + 1]), body, coordinate, sizes[k]))
+        return sorted(found, key=lambda jump: -jump.size)
+
+    def body(self, name: str, t: np.ndarray, time_unit: float | None = None) -> BodyMotion:
+        """Motion of one body at times t; derivatives are per second."""
+        choice("body", name, BODIES)
+        t, unit = _times(t), self._unit(time_unit)
+        # Derivatives beyond a curve's degree vanish; most curves are constant.
+        values, rates, second = found = np.zeros((3, 6, len(t)))
+        for k, curve in enumerate(self.curves[name]):
+            for order in range(min(3, len(curve.c))):
+                found[order, k] = curve(t, order) / unit**order
+        rotation, omega, alpha = euler_placement("xyz", values[3:].T, rates[3:].T, second[3:].T)
+        return BodyMotion(rotation, values[:3].T, rates[:3].T, second[:3].T, omega, alpha)
+
+    def sample(self, t: np.ndarray, time_unit: float | None = None) -> Motion:
+        """Sample the gait and check that it can be meant.
+
+        Args:
+            t: Times in the gait's unit, shape ``(n,)``.
+            time_unit: Seconds in a unit; None for the gait's own.
+
+        Raises:
+            TrajectoryError: A time is outside the gait, or a foot in support isn't
+                flat on the floor, or moves.
+        """
+        t = _times(t)
+        unit = self._unit(time_unit)
+        if t.min() < self.start or t.max() > self.end:
+            raise TrajectoryError(
+                f"t from {t.min():g} to {t.max():g}",
+                where=f"gait {self.name!r}",
+                allowed=f"{self.start:g} to {self.end:g}",
+            )
+        bodies = {name: self.body(name, t, unit) for name in BODIES}
+        self._check_stance()
+        return Motion(time=t * unit, t=t, support=self.support(t), **bodies)
+
+    def _unit(self, time_unit: float | None) -> float:
+        """Seconds in a unit of t: what was given, or the gait's own."""
+        if time_unit is None:
+            return self.time_unit
+        return real("the time unit", time_unit, low=1e-6, high=1e6, unit="s")
+
+    def _check_stance(self) -> None:
+        """A foot that bears load must rest flat on the floor z = 0."""
+        limit = TOLERANCES.stance_drift
+        for phase in self.phases:
+            if phase.end == phase.start:
+                continue
+            # Inside the phase, so that curves of the neighbours don't count.
+            margin = 1e-9 * (phase.end - phase.start)
+            t = np.linspace(phase.start + margin, phase.end - margin, 65)
+            for side in ("left", "right"):
+                if phase.support not in (side, "double"):
+                    continue
+                values = np.stack([c(t) for c in self.curves[f"{side}_foot"]], axis=-1)
+                height = np.abs(values[:, [2, 3, 4]]).max()
+                drift = np.abs(values - values[0]).max()
+                here = f"gait {self.name!r}, {side} foot, t = {phase.start:g} to {phase.end:g}"
+                if height > limit:
+                    raise TrajectoryError(
+                        f"it bears load but z, pitch or roll reaches {height:.3g}",
+                        where=here,
+                        allowed=f"{limit:g} m or rad: flat on the floor z = 0",
+                        remedy="Correct the curve, or the phase's support",
+                    )
+                if drift > limit:
+                    raise TrajectoryError(
+                        f"it bears load but moves by {drift:.3g}",
+                        where=here,
+                        allowed=f"{limit:g} m or rad: at rest",
+                        remedy="Correct the curve, or the phase's support",
+                    )
+
+
+def _times(t: Any) -> np.ndarray:
+    """Times of samples, shape ``(n,)``."""
+    t = finite_array("t", t, None)
+    if t.ndim != 1 or not t.size:
+        raise WrongShape("t", t.shape, "(n,), n at least 1")
+    return t

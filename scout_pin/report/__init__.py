@@ -1,0 +1,1 @@
+"""The gait report: numbers, servos' limits, verdict, documents, figures, page, animation."""

@@ -1,0 +1,120 @@
+"""The gait report as a page one can mail."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scout_pin.report.numbers import GaitReport
+from scout_pin.report.page_plots import report_plots
+from scout_pin.report.view import gait_scene
+from scout_pin.specification import JOINT_SYMBOLS
+from thesis_pin.pages.page import Page, Table, Tile, assumptions_table, html, software
+
+
+def gait_page(report: GaitReport) -> bytes:
+    """A gait report as one self-contained HTML file.
+
+    Args:
+        report: The report; plots and animation show at most 1 201 of its samples.
+    """
+    seconds = report.joints.time[-1] - report.joints.time[0]
+    return html(
+        Page(
+            title=f"{report.robot.specification.name.capitalize()}: gait {report.gait.name}",
+            subtitle=f"{seconds:.4g} s, time unit {report.time_unit:g} s, "
+            f"{len(report.joints.time)} samples. {report.gait.source}",
+            good=report.within_limits,
+            verdict=report.verdict(),
+            tiles=_tiles(report),
+            plots=report_plots(report),
+            tables=_tables(report),
+            scene=gait_scene(report),
+        )
+    )
+
+
+def _tiles(report: GaitReport) -> list[Tile]:
+    use, fastest = report.servo_use.max(), report.fastest.line
+    used = report.summary()["peak_friction_used"]
+    return [
+        Tile(
+            "worst ZMP margin", f"{report.margin.min() * 1e3:.1f} mm", bool(report.margin.min() > 0)
+        ),
+        Tile(
+            "samples whose wrench the floor can give",
+            f"{report.dynamics.admissible.mean():.1%}",
+            bool(report.dynamics.admissible.all()),
+        ),
+        Tile("worst use of a servo's torque-speed line", f"{use:.0%}", bool(use <= 1)),
+        Tile("peak torque", f"{report.actuators.peak_torque.max():.3f} N·m"),
+        Tile(
+            "lowest swinging corner", f"{report.clearance * 1e3:.1f} mm", report.clearance >= -1e-9
+        ),
+        Tile("fastest time unit", "none" if fastest is None else f"{fastest:.4f} s"),
+        Tile("work of all servos", f"{report.actuators.positive_work.sum() * 1e3:.0f} mJ"),
+        Tile("friction used, most", "–" if used is None else f"{used:.0%}"),
+    ]
+
+
+def _tables(report: GaitReport) -> list[Table]:
+    a = report.actuators
+    joints = Table(
+        "Joints",
+        (
+            "joint",
+            "",
+            "peak N·m",
+            "RMS N·m",
+            "peak rad/s",
+            "peak W",
+            "work + mJ",
+            "work − mJ",
+            "servo",
+        ),
+        [
+            (
+                name,
+                JOINT_SYMBOLS[k],
+                f"{a.peak_torque[k]:.3f}",
+                f"{a.rms_torque[k]:.3f}",
+                f"{a.peak_speed[k]:.2f}",
+                f"{a.peak_power[k]:.3f}",
+                f"{a.positive_work[k] * 1e3:.1f}",
+                f"{a.negative_work[k] * 1e3 + 0.0:.1f}",
+                f"{report.servo_use[k]:.0%}",
+            )
+            for k, name in enumerate(a.names)
+        ],
+        note="'servo' is the worst |τ|/stall + |θ̇|/no-load, at most 100 %.",
+    )
+    parameters = report.document()["parameters"]
+    return [
+        joints,
+        *_impacts(report),
+        assumptions_table(report.assumptions()),
+        Table(
+            "Parameters",
+            ("parameter", "value"),
+            [(name.replace("_", " "), str(value)) for name, value in parameters.items()],
+            prose=True,
+        ),
+        software(),
+    ]
+
+
+def _impacts(report: GaitReport) -> list[Table]:
+    if not report.impacts:
+        return []
+    rows = [
+        (
+            impact.side,
+            f"{impact.t * report.time_unit:.3f}",
+            f"{-impact.foot_velocity[2] * 1e3:.0f}",
+            f"{impact.impulse[0, 2] * 1e3:.1f}",
+            f"{np.abs(impact.velocity_jump).max():.2f}",
+            f"{impact.energy_lost * 1e3:.2f}",
+        )
+        for impact in report.impacts
+    ]
+    columns = ("foot", "time s", "down mm/s", "impulse mN·s", "joints jump rad/s", "lost mJ")
+    return [Table("Touchdowns", columns, rows)]

@@ -1,0 +1,105 @@
+"""Tables and small documents of the command ``scout-pin``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from scout_pin.kinematics.geometry import POSE_NAMES
+from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
+from scout_pin.specification import JOINT_SYMBOLS
+from thesis_pin.command.parser import print_table, print_text
+from thesis_pin.report import branches
+
+if TYPE_CHECKING:  # inverse kinematics alone needs no report
+    from scout_pin.model import Scout
+    from scout_pin.report.numbers import GaitReport
+
+
+def print_report(report: GaitReport) -> None:
+    """Print the summary of a gait report."""
+    a, use = report.actuators, report.servo_use
+    rows = [
+        (
+            name,
+            JOINT_SYMBOLS[k],
+            f"{a.peak_torque[k]:.3f}",
+            f"{a.rms_torque[k]:.3f}",
+            f"{a.peak_speed[k]:.2f}",
+            f"{a.peak_power[k]:.3f}",
+            f"{use[k]:.0%}",
+        )
+        for k, name in enumerate(a.names)
+    ]
+    duration = report.joints.time[-1] - report.joints.time[0]
+    print_table(
+        ("joint", "", "peak N·m", "RMS N·m", "peak rad/s", "peak W", "servo"),
+        rows,
+        title=f"{report.robot.specification.name}, gait {report.gait.name!r}: {duration:g} s, "
+        f"time unit {report.time_unit:g} s, {len(report.joints.time)} samples",
+    )
+    s, f = report.robot, report.fastest
+    torque, line = (f"{x:.4f} s" if x is not None else "none" for x in (f.torque, f.line))
+    used = report.summary()["peak_friction_used"]
+    print_text(
+        f"Servo limits: {s.stall_torque.min():g} N·m, {s.no_load_speed.min():g} rad/s; "
+        "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
+        f"Fastest time unit by speed {f.speed:.4f} s, by torque {torque}, by both (line) {line}.",
+        f"ZMP margin: worst {report.margin.min() * 1e3:.1f} mm; stable in "
+        f"{report.stable_share:.1%} of the time.",
+        f"Floor wrench: admissible in {report.dynamics.admissible.mean():.1%} of samples; "
+        f"friction used up to {used:.0%}.",
+        f"Lowest corner of a swinging sole: {report.clearance * 1e3:.1f} mm above the floor.",
+    )
+    for impact in report.impacts:
+        normal = impact.impulse[0, 2]
+        print_text(
+            f"Touchdown of the {impact.side} foot at t = {impact.t:g}: "
+            f"{-impact.foot_velocity[2] * 1e3:.0f} mm/s down, impulse {normal * 1e3:.1f} mN·s, "
+            f"joints jump by {abs(impact.velocity_jump).max():.2f} rad/s, "
+            f"{impact.energy_lost * 1e3:.2f} mJ lost"
+            + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
+        )
+    print_text("", *report.verdict())
+
+
+def ik_document(robot: Scout, solutions: LegSolutions, pose: np.ndarray) -> dict[str, Any]:
+    """Inverse kinematics of one foot pose on every branch, JSON-ready.
+
+    Args:
+        robot: The biped.
+        solutions: All branches of one pose.
+        pose: The pose as asked for: x, y, z [m], pitch, roll, yaw [rad], ``(6,)``.
+    """
+    excess = (solutions.excess, True)
+    return branches.document(
+        "scout-pin",
+        robot.specification.name,
+        joints=solutions.geometry.names,
+        coordinates=POSE_NAMES,
+        pose=pose,
+        branches=[
+            branches.branch(
+                solutions, k, branches.label(signs), solutions.explain((), k), reach_excess=excess
+            )
+            for k, signs in enumerate(BRANCHES)
+        ],
+        explanation=solutions.explain(),
+    )
+
+
+def print_solutions(solutions: LegSolutions) -> None:
+    """Print joint angles of one pose, a row a branch."""
+    rows = []
+    for k, signs in enumerate(BRANCHES):
+        label = branches.label(signs)
+        if not solutions.reachable[k]:
+            rows.append((label, *[""] * 6, f"{solutions.excess[k] * 1e3:.1f} mm off"))
+            continue
+        angles = [f"{value:.2f}" for value in np.degrees(solutions.angles[k])]
+        rows.append((label, *angles, "valid" if solutions.valid[k] else "limits"))
+    side = solutions.geometry.names[0].split("_")[0]
+    columns = ("branch", "hip yaw", "roll", "pitch", "knee", "ankle", "roll", "")
+    print_table(columns, rows, title=f"{side} leg, angles in degrees")
+    print_text(solutions.explain().capitalize() + ".")

@@ -1,0 +1,1 @@
+"""Statements of the thesis that no single identity decides."""

@@ -1,0 +1,230 @@
+"""Checks of the thesis's dynamics that aren't identities: the law of motion,
+the constraints, the inertias' use. They hold the explicit model against Pinocchio.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+import pinocchio as pin
+
+from scout_pin.dynamics.inverse import free_flyer_state, inverse_dynamics, joint_trajectory
+from scout_pin.model import Scout, load
+from scout_pin.motion.files import load_gait
+from scout_pin.motion.gait import Motion
+from scout_pin.specification import Specification
+from scout_pin.thesis.explicit import ExplicitModel, Interval, resting, solve_one
+from scout_pin.thesis.references import References
+from scout_pin.thesis.state import Parameters
+from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.formula import Symbol
+from thesis_pin.errors import NoSolution
+from thesis_pin.model.inertia import Reading
+
+SEED = 20100
+
+
+def claims(states: int) -> dict[str, Callable[[], ClaimResult]]:
+    """The checks by name.
+
+    Args:
+        states: Random states used for the law of motion.
+    """
+    return {
+        "equation_of_motion": partial(_equation_of_motion, states),
+        "printed_law_has_no_solution": _law,
+        "actuation": _actuation,
+        "inertias_as_used": _inertias_as_used,
+        "zmp_at_rest": _zmp_at_rest,
+        **{f"stance_{k}": partial(_stance, k) for k in (1, 2, 3)},
+    }
+
+
+def random_motion(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Seeded q, q̇, q̈, each ``(count, 18)``."""
+    generator = np.random.default_rng(SEED)
+    return (
+        generator.uniform(-1.2, 1.2, (count, 18)),
+        generator.uniform(-2, 2, (count, 18)),
+        generator.uniform(-5, 5, (count, 18)),
+    )
+
+
+def gait_in_thesis_coordinates(
+    robot: Scout, t: np.ndarray
+) -> tuple[Motion, np.ndarray, np.ndarray, np.ndarray]:
+    """The thesis's gait at times t, with q, q̇, q̈ in the coordinates (4.2)."""
+    motion = load_gait("thesis").sample(t)
+    joints = joint_trajectory(robot, motion)
+    q, v, a = robot.to_thesis(*free_flyer_state(motion.torso, joints))
+    assert v is not None
+    assert a is not None
+    return motion, q, v, a
+
+
+def _equation_of_motion(states: int) -> ClaimResult:
+    """D, V q̇ and C of the corrected thesis against CRBA, Coriolis and gravity terms."""
+    q, v, _ = random_motion(states)
+    worst, notes = 0.0, []
+    readings: tuple[Reading, ...] = ("physical", "printed")
+    for reading in readings:
+        model, robot = ExplicitModel(inertia=reading), load(root="thesis", inertia=reading)
+        mass, velocity, gravity = model.terms(q, v)
+        terms = mass, (velocity @ v[..., None])[..., 0], gravity
+        truth = _pinocchio_terms(robot, q, v)
+        gaps = [_largest_relative(a, b) for a, b in zip(terms, truth, strict=True)]
+        worst = max(worst, *gaps)
+        notes.append(f"{reading}: D {gaps[0]:.0e}, V q̇ {gaps[1]:.0e}, C {gaps[2]:.0e}")
+    note = f"left side against Pinocchio at {states} random states; {'; '.join(notes)}"
+    return ClaimResult(worst, note=note)
+
+
+def _pinocchio_terms(
+    robot: Scout, q: np.ndarray, v: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    data, mass, bias, gravity = robot.model.createData(), [], [], []
+    for one, rate in zip(q, v, strict=True):
+        upper = np.triu(pin.crba(robot.model, data, one))
+        mass.append(upper + np.triu(upper, 1).T)
+        gravity.append(pin.computeGeneralizedGravity(robot.model, data, one).copy())
+        bias.append(pin.nonLinearEffects(robot.model, data, one, rate) - gravity[-1])
+    return np.array(mass), np.array(bias), np.array(gravity)
+
+
+def _largest_relative(found: np.ndarray, truth: np.ndarray) -> float:
+    """Largest error of a state, relative to that state's largest entry."""
+    axes = tuple(range(1, truth.ndim))
+    return float((np.abs(found - truth).max(axis=axes) / np.abs(truth).max(axis=axes)).max())
+
+
+def _actuation() -> ClaimResult:
+    """A_τ against the power of joint torques, τ·θ̇, and what it does to a robot at rest."""
+    right = np.vstack([np.zeros((6, 12)), np.eye(12)])
+    q = random_motion(20)[0]
+    printed, corrected = (ExplicitModel(edition=e).A_tau(q) for e in ("printed", "corrected"))
+    _, still, *_ = gait_in_thesis_coordinates(load(), np.array([0.0]))
+    model = ExplicitModel()
+    force, stance = model.C(still[0]), model.dPhi_dq(still[0], 1)
+    matrices = ExplicitModel(edition="printed").A_tau(still[0]), right
+    solutions = [solve_one(force, actuation, stance) for actuation in matrices]
+    shift = float(np.abs(solutions[0][:12] - solutions[1][:12]).max())
+    left = float(solutions[0][-1])
+    note = (
+        "standing on the left foot, with the right constraints, no torques balance the robot: "
+        f"at best {left:.2g} N·m are left over, with torques off by up to {shift:.2g} N·m"
+    )
+    return ClaimResult(
+        float(np.abs(printed - right).max()),
+        float(np.abs(corrected - right).max()),
+        note,
+        {"torque standing still [N·m]": shift, "unbalanced moment [N·m]": left},
+    )
+
+
+def _stance(interval: Interval) -> ClaimResult:
+    """Does ∂Φ/∂q span the motion of the stance feet?
+
+    Residual: the largest part of the feet's true Jacobian that lies outside the
+    row space, relative to it; of the correction, its difference from Pinocchio.
+    """
+    q, _, _ = random_motion(20)
+    robot = load(root="thesis")
+    truth = _sole_jacobians(robot, q, interval)
+    printed = ExplicitModel(edition="printed").dPhi_dq(q, interval)
+    corrected = ExplicitModel().dPhi_dq(q, interval)
+    outside, ranks = 0.0, []
+    for rows, whole in zip(printed, truth, strict=True):
+        projector = np.linalg.pinv(rows) @ rows
+        left = whole - whole @ projector
+        outside = max(outside, float(np.linalg.norm(left) / np.linalg.norm(whole)))
+        ranks.append(int(np.linalg.matrix_rank(rows)))
+    right_rank = min(int(np.linalg.matrix_rank(rows)) for rows in corrected)
+    note = f"rank {max(ranks)} as printed, {right_rank} corrected, {truth.shape[-2]} rows"
+    # What no λ can carry of a resting robot's weight, joint torques being free.
+    weight = ExplicitModel().C(q[0])[:6]
+    carried = printed[0][:, :6].T
+    left = weight - carried @ np.linalg.lstsq(carried, weight, rcond=1e-11)[0]
+    effect: dict[str, float | str] = {"unbalanced force [N]": float(np.linalg.norm(left[:3]))}
+    return ClaimResult(outside, float(np.abs(corrected - truth).max()), note, effect)
+
+
+def _sole_jacobians(robot: Scout, q: np.ndarray, interval: Interval) -> np.ndarray:
+    sides = {1: ("left",), 2: ("left", "right"), 3: ("right",)}[interval]
+    data, found = robot.model.createData(), []
+    for one in q:
+        pin.computeJointJacobians(robot.model, data, one)
+        pin.updateFramePlacements(robot.model, data)
+        found.append(
+            np.vstack(
+                [
+                    pin.getFrameJacobian(
+                        robot.model, data, robot.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
+                    )
+                    for side in sides
+                ]
+            )
+        )
+    return np.array(found)
+
+
+def _law() -> ClaimResult:
+    """(4.23) as printed for the robot standing still, and corrected along the gait."""
+    robot = load()
+    weight = robot.mass * 9.81
+    times = np.linspace(0.5, 39.5, 40)
+    motion, q, v, a = gait_in_thesis_coordinates(robot, times)
+    expected = inverse_dynamics(robot, motion).torque
+    model, gap = ExplicitModel(), 0.0
+    intervals: tuple[tuple[Interval, int], ...] = ((1, 0), (3, 1))
+    for interval, foot in intervals:
+        mine = motion.support[:, foot]
+        torque = model.solve(q[mine], v[mine], a[mine], interval).torque
+        gap = max(gap, float(np.abs(torque - expected[mine]).max()))
+    still = np.zeros(18)
+    try:
+        ExplicitModel(edition="printed").solve(q[0], still, still, 1)
+        left = 0.0
+    except NoSolution as error:
+        left = error.residual
+    return ClaimResult(
+        left / weight,
+        gap / float(np.abs(expected).max()),
+        f"standing still, {left:.4g} N of {weight:.4g} N stay unbalanced; corrected, the gait's "
+        f"torques are those of the contact inverse dynamics"
+        + (f", to {gap:.0e} N·m" if gap > 1e-9 else " to rounding"),
+        {"unbalanced force [N]": left},
+    )
+
+
+def _inertias_as_used() -> ClaimResult:
+    """The mass matrix with the printed matrices as centroidal tensors, against the body's."""
+    q, _, _ = random_motion(10)
+    truth = _pinocchio_terms(load(root="thesis"), q, np.zeros_like(q))[0]
+    used, right = (ExplicitModel(inertia=reading).D(q) for reading in ("printed", "physical"))
+    times = np.linspace(0.5, 39.5, 40)
+    torques = {}
+    for reading in ("physical", "printed"):
+        robot = load(inertia=reading)
+        torques[reading] = inverse_dynamics(robot, load_gait("thesis").sample(times)).torque
+    change = float(np.abs(torques["printed"] - torques["physical"]).max())
+    return ClaimResult(
+        _largest_relative(used, truth),
+        _largest_relative(right, truth),
+        "the kinetic energy of 4.1 counts m c² twice",
+        {"gait torque [N·m]": change},
+    )
+
+
+def _zmp_at_rest() -> ClaimResult:
+    q, _, _ = random_motion(20)
+    zero = np.zeros_like(q)
+    references = References(resting(Parameters.of(Specification.read()), q, zero, zero))
+    centre = evaluate(Symbol("b", "T", "0", bold=True), references, {}).array
+    gap = [
+        np.abs(evaluate(Symbol("ZMP", axis), references, {}).array - centre[..., k]).max()
+        for k, axis in enumerate("xy")
+    ]
+    return ClaimResult(float(max(gap)))

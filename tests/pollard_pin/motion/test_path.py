@@ -1,0 +1,227 @@
+"""Paths: the thesis's curve, lines, arcs, files; derivatives, ends and refusals."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pollard_pin.motion.path import appendix_b, arc, joined, line, load_path, through, timing_law
+from thesis_pin.errors import BadInput, SpecificationError, TrajectoryError, UnknownName
+
+START, END = [0.4, 0.0, 0.0, 0.0, 0.0, 0.0], [0.5, 0.1, 0.1, 0.1, 0.2, 0.3]
+
+PATHS = {
+    "appendix B": lambda: appendix_b(),
+    "appendix B, rest to rest": lambda: appendix_b(timing="rest-to-rest", duration=7),
+    "line": lambda: line(START, END, 3),
+    "arc": lambda: arc(START, [0.45, 0.1, 0.1], END, 3, "constant-rate"),
+    "spline": lambda: through([0, 1, 2.5, 3], np.outer([0, 1, 2, 4], np.arange(6)) * 0.1),
+    "segments": lambda: joined([line(START, END, 3), arc(END, [0.45, 0, 0.1], START, 2)]),
+}
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_rates_and_accelerations_are_exact_derivatives(name):
+    path, step = PATHS[name](), 1e-5
+    time = np.linspace(0.013, path.duration - 0.017, 200)
+    now, ahead, behind = path.at(time), path.at(time + step), path.at(time - step)
+    numeric = (ahead.pose - behind.pose) / (2 * step)
+    np.testing.assert_allclose(now.rate, numeric, atol=1e-7)
+    numeric = (ahead.rate - behind.rate) / (2 * step)
+    np.testing.assert_allclose(now.acceleration, numeric, atol=1e-5)
+
+
+def test_the_curve_is_appendix_b_in_metres():
+    """By hand: t = −60π at the start, 0 in the middle, 10π/3·… where sin = 1."""
+    path = appendix_b(placement=[0, 0, 0])
+    ends = path.sample(3).pose
+    reach = 60 * np.pi * 1e-3
+    np.testing.assert_allclose(
+        ends[0, :3], [-0.001 * (60 * np.pi) ** 2 * 1e-3, -reach, 0], atol=1e-12
+    )
+    np.testing.assert_allclose(ends[1, :3], [0, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(ends[2, :3], [ends[0, 0], reach, 0], atol=1e-12)
+    # t = 5π/3 is where sin(0.3 t) = 1.
+    at = path.duration * (0.5 + (5 * np.pi / 3) / (120 * np.pi))
+    np.testing.assert_allclose(path.at(at).pose[0, 2], 0.1, atol=1e-12)
+
+
+def test_default_placement_duration_and_timing_are_the_specifications():
+    path = appendix_b()
+    assert path.duration == 20.0
+    assert path.parameters["placement"] == [0.45, 0.0, 0.0]
+    assert path.parameters["timing"] == "constant-rate"
+
+
+@pytest.mark.parametrize("name", ["appendix B, rest to rest", "line"])
+def test_rest_to_rest_begins_and_ends_at_rest(name):
+    ends = PATHS[name]().sample(2)
+    assert np.abs(ends.rate).max() < 1e-12
+    assert np.abs(ends.acceleration).max() < 1e-12
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.floats(-0.5, 0.5), min_size=9, max_size=9),
+)
+def test_an_arc_passes_through_its_three_points_on_one_circle(values):
+    points = np.array(values).reshape(3, 3)
+    area = np.linalg.norm(np.cross(points[1] - points[0], points[2] - points[0]))
+    if area < 1e-2:
+        return
+    path = arc([*points[0], 0, 0, 0], points[1], [*points[2], 0, 0, 0], 1.0, "constant-rate")
+    fine = path.sample(20001).pose[:, :3]
+    np.testing.assert_allclose(fine[0], points[0], atol=1e-9)
+    np.testing.assert_allclose(fine[-1], points[2], atol=1e-9)
+    gaps = np.linalg.norm(fine - points[1], axis=1)
+    speed = np.linalg.norm(path.at(0.3).rate[0, :3])
+    assert gaps.min() < speed / 20000
+    # A circle: constant speed and an acceleration perpendicular to it.
+    motion = path.sample(50)
+    speeds = np.linalg.norm(motion.rate, axis=1)
+    np.testing.assert_allclose(speeds, speed, rtol=1e-9)
+    product = np.einsum("ni,ni->n", motion.rate, motion.acceleration)
+    assert np.abs(product).max() < 1e-8 * speed**2 * (1 + speed)
+
+
+def test_an_arc_through_points_on_a_line_is_refused():
+    with pytest.raises(TrajectoryError, match="lie on a line"):
+        arc(START, [0.45, 0.05, 0.05], END, 1.0)
+
+
+def test_a_spline_passes_through_its_poses():
+    poses = np.random.default_rng(1).uniform(-1, 1, (6, 6))
+    time = [0, 0.5, 1.5, 2, 3, 3.5]
+    path = through(time, poses)
+    np.testing.assert_allclose(path.at(time).pose, poses, atol=1e-12)
+
+
+def test_segments_that_do_not_meet_are_refused():
+    with pytest.raises(TrajectoryError, match=r"pose jumps by 0\.3 between segments 1 and 2"):
+        joined([line(START, END, 1), line(START, END, 1)])
+
+
+def test_a_corner_taken_at_speed_is_refused():
+    with pytest.raises(TrajectoryError, match="rate jumps"):
+        joined([line(START, END, 1, "constant-rate"), line(END, START, 1, "constant-rate")])
+
+
+def test_time_outside_the_path_is_refused():
+    with pytest.raises(TrajectoryError, match="0 to 3 s"):
+        line(START, END, 3).at([0.0, 3.1])
+
+
+@pytest.mark.parametrize(("law", "duration"), [("sometimes", 1.0), ("rest-to-rest", 0.0)])
+def test_bad_timing_is_refused(law, duration):
+    with pytest.raises((UnknownName, TrajectoryError)):
+        timing_law(law, duration, np.zeros(1))
+
+
+HEADER = "time_s,x_m,y_m,z_m,psi_deg,theta_deg,phi_deg\n"
+
+
+def write(tmp_path, name, text):
+    file = tmp_path / name
+    file.write_text(text)
+    return file
+
+
+def test_csv_columns_may_be_in_any_order_and_in_degrees(tmp_path):
+    rows = "phi_deg,time_s,x_m,y_m,z_m,psi_deg,theta_rad\n90,0,.4,0,0,45,1\n0,2,.5,.1,0,0,0\n"
+    path = load_path(write(tmp_path, "a.csv", rows))
+    assert path.duration == 2.0
+    pose = path.at(0.0).pose[0]
+    np.testing.assert_allclose(pose, [0.4, 0, 0, np.pi / 4, 1.0, np.pi / 2], atol=1e-14)
+
+
+def test_csv_without_a_header_is_seven_columns_in_radians(tmp_path):
+    path = load_path(write(tmp_path, "a.csv", "1,.4,0,0,.1,.2,.3\n2,.5,0,0,0,0,0\n"))
+    np.testing.assert_allclose(path.at(0.0).pose[0], [0.4, 0, 0, 0.1, 0.2, 0.3], atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("0,1,2,3\n1,1,2,3\n", "4 columns without a header"),
+        ("time_s,x_m,y_m,z_m\n0,1,2,3\n", "missing or repeated: psi_rad or psi_deg"),
+        (HEADER + "0,.4,0,0,0,0,0\n2,.4,0,0,0,0,0\n1,.4,0,0,0,0,0\n", "csv:4: time goes from 2"),
+        (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,0,0,0\n", "csv:3: 6 cells"),
+        (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,nan,0,0,0\n", "csv:3, column 4: z is 'nan'"),
+        (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,zero,0,0,0\n", "z is 'zero'; allowed: a finite number"),
+        (HEADER + "0,.4,0,0,0,0,0\n", "1 poses"),
+        ("", "the path is empty"),
+        (HEADER.replace("psi_deg", "psi_deg,psi_rad"), "missing or repeated: psi_rad or psi_deg"),
+    ],
+)
+def test_a_bad_csv_is_refused_with_line_and_reason(tmp_path, text, says):
+    with pytest.raises(BadInput, match=says.replace("(", r"\(")):
+        load_path(write(tmp_path, "bad.csv", text))
+
+
+SEGMENTS = """
+format = 1
+name = "arch"
+[start]
+position = [0.4, 0.0, 0.0]
+[[segments]]
+kind = "line"
+position = [0.45, 0.0, 0.05]
+orientation_deg = [0, 10, 0]
+duration = 1.0
+[[segments]]
+kind = "arc"
+via = [0.45, 0.05, 0.1]
+position = [0.45, 0.1, 0.05]
+duration = 2.0
+"""
+
+
+def test_toml_segments_follow_each_other(tmp_path):
+    path = load_path(write(tmp_path, "a.toml", SEGMENTS))
+    assert path.name == "arch"
+    assert path.duration == 3.0
+    poses = path.at([0.0, 1.0, 2.0, 3.0]).pose
+    np.testing.assert_allclose(poses[0], [0.4, 0, 0, 0, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(poses[1, :3], [0.45, 0, 0.05], atol=1e-12)
+    np.testing.assert_allclose(poses[2, :3], [0.45, 0.05, 0.1], atol=1e-12)
+    np.testing.assert_allclose(poses[3, 4], np.radians(10), atol=1e-12)
+
+
+def test_toml_poses_are_splined(tmp_path):
+    text = "format = 1\n" + "".join(
+        f"[[poses]]\ntime = {t}\nposition = [{x}, 0, 0]\n"
+        for t, x in ((0, 0.4), (1, 0.5), (3, 0.4))
+    )
+    path = load_path(write(tmp_path, "a.toml", text))
+    np.testing.assert_allclose(path.at([0, 1, 3]).pose[:, 0], [0.4, 0.5, 0.4], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("duration = 1.0", "duration = -1.0", "toml:10: segments.0..duration"),
+        ('kind = "line"', 'kind = "spiral"', "spiral"),
+        ("via = [0.45, 0.05, 0.1]", "", "segments.1..via"),
+        ("[start]\nposition = [0.4, 0.0, 0.0]", "", "need a .start."),
+        ("format = 1", "format = 2", "format"),
+        ("via = [0.45, 0.05, 0.1]", "via = [0.45, 0.05, 0.05]", "lie on a line"),
+        ("duration = 1.0", 'duration = 1.0\ntiming = "constant-rate"', "rate jumps"),
+    ],
+)
+def test_a_bad_toml_path_is_refused_with_key_and_reason(tmp_path, old, new, says):
+    file = write(tmp_path, "bad.toml", SEGMENTS.replace(old, new))
+    with pytest.raises((SpecificationError, TrajectoryError), match=says):
+        load_path(file)
+
+
+def test_toml_poses_with_time_going_backwards_are_refused(tmp_path):
+    text = "format = 1\n" + "".join(
+        f"[[poses]]\ntime = {t}\nposition = [0.4, 0, 0]\n" for t in (0, 2, 1)
+    )
+    with pytest.raises(SpecificationError, match="time goes from 2 to 1"):
+        load_path(write(tmp_path, "a.toml", text))
+
+
+def test_an_unknown_file_type_is_refused():
+    with pytest.raises(BadInput, match=r"\.csv or \.toml"):
+        load_path("path.xlsx")

@@ -1,0 +1,74 @@
+"""Workspace: agrees with inverse kinematics point by point, whatever the threads."""
+
+import numpy as np
+import pytest
+
+import pollard_pin
+from pollard_pin.study.workspace import evaluate_workspace
+from thesis_pin.errors import BadInput
+
+X, Y, Z = np.linspace(0.1, 0.8, 23), np.linspace(-0.3, 0.3, 7), np.linspace(-0.5, 0.5, 19)
+
+
+def test_every_position_agrees_with_inverse_kinematics_and_actuation(robot):
+    space = evaluate_workspace(robot, X, Y, Z, orientation=[0.1, 0.2, -0.1])
+    pose = np.concatenate([space.points, np.broadcast_to([0.1, 0.2, -0.1], space.points.shape)], -1)
+    found = robot.inverse_kinematics(pose)
+    np.testing.assert_array_equal(space.reachable, found.valid)
+    some = space.reachable & np.isfinite(space.condition)
+    holding = robot.actuation(found.angles[some])
+    np.testing.assert_allclose(space.condition[some], holding.condition, rtol=1e-9)
+    np.testing.assert_allclose(space.determinant[some], holding.base_determinant, rtol=1e-9)
+
+
+def test_what_a_joint_limit_forbids_is_out_of_reach():
+    data = pollard_pin.Specification.read().model_dump()
+    data["assumptions"]["joint_limits"]["lower_deg"] = -140
+    data["assumptions"]["joint_limits"]["upper_deg"] = 140
+    tight = pollard_pin.load(pollard_pin.Specification.model_validate(data))
+    space = evaluate_workspace(tight, X, 0.0, Z)
+    pose = np.concatenate([space.points, np.zeros_like(space.points)], -1)
+    found = tight.inverse_kinematics(pose)
+    assert (found.reachable & ~found.valid).any()
+    np.testing.assert_array_equal(space.reachable, found.valid)
+    assert np.isnan(space.condition[~found.valid]).all()
+
+
+def test_threads_and_progress_do_not_change_the_result(pollard):
+    seen = []
+    one = evaluate_workspace(pollard, X, Y, Z, jobs=1)
+    many = evaluate_workspace(
+        pollard, X, Y, Z, jobs=3, progress=lambda done, total: seen.append((done, total))
+    )
+    np.testing.assert_array_equal(one.condition, many.condition)
+    assert seen[-1] == (X.size * Y.size * Z.size,) * 2
+
+
+def test_most_of_the_space_in_front_has_the_default_paths_sign(printed):
+    fine = np.linspace(-0.45, 0.65, 45)
+    space = evaluate_workspace(printed, np.linspace(0.15, 0.9, 40), fine, fine)
+    known = np.isfinite(space.determinant)
+    assert (space.determinant[known] < 0).mean() == pytest.approx(0.895, abs=0.015)
+
+
+def test_a_slice_is_one_value_on_an_axis(pollard):
+    space = evaluate_workspace(pollard, X, 0.0, Z)
+    assert space.margin.shape == (23, 1, 19)
+    document = space.document()
+    assert len(document["position"]) == len(document["condition"]) == len(document["margin"])
+    assert np.isfinite(document["condition"]).all()
+    columns = space.columns()
+    assert len(columns["x_m"]) == 23 * 19
+
+
+def test_a_slice_is_drawn_without_a_display(pollard):
+    from pollard_pin.report.figures import workspace_figure
+
+    figure = workspace_figure(evaluate_workspace(pollard, X, 0.0, Z))
+    assert "y = 0 m" in figure.axes[0].get_title()
+
+
+@pytest.mark.parametrize("axes", [([], 0, 0), (np.zeros(3000), np.zeros(3000), np.zeros(3000))])
+def test_an_empty_or_endless_grid_is_refused(pollard, axes):
+    with pytest.raises(BadInput, match="positions"):
+        evaluate_workspace(pollard, *axes)

@@ -1,0 +1,76 @@
+"""Scenes reach the page whole; the viewer's modules stay light."""
+
+import json
+import re
+import struct
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+from example_robots import NAMES, SHARE
+
+from thesis_pin.pages import player as viewer
+from thesis_pin.pages import scene
+
+TIME = np.linspace(0.0, 1.0, 5)
+GROUPS = (scene.Group("a", "all"),)
+
+
+def made(*items):
+    return scene.Scene(title="t", description="d", time=TIME, groups=GROUPS, items=items)
+
+
+def ball(name, position):
+    return scene.Ball(name, "a", position, 0.1, ("#000000",))
+
+
+def decoded(buffer):
+    """The player's format, read by a reader of its own."""
+    (length,) = struct.unpack("<I", buffer[:4])
+    floats = np.frombuffer(buffer[4 + length :], dtype="<f4")
+
+    def revive(value):
+        if set(value) == {"$"}:
+            start, count = value["$"]
+            return floats[start : start + count]
+        return value
+
+    return json.loads(buffer[4 : 4 + length], object_hook=revive), len(floats)
+
+
+def test_encoding_keeps_every_number_to_single_precision():
+    path = np.random.default_rng(5).normal(size=(5, 3))
+    arrow = scene.Arrow("arrow", "a", path, 2 * path, 0.5, 0.01, "#112233")
+    document, _ = decoded(viewer.encode(made(ball("ball", path), arrow)))
+    first, second = document["items"]
+    np.testing.assert_array_equal(first["samples"]["position"], path.astype("f4").ravel())
+    np.testing.assert_array_equal(second["samples"]["vector"], (2 * path).astype("f4").ravel())
+    assert (second["kind"], second["scale"], second["colour"]) == ("arrow", 0.5, "#112233")
+    np.testing.assert_array_equal(document["time"], TIME.astype("f4"))
+
+
+def test_arrays_that_items_share_are_stored_once():
+    items = [ball(f"ball {k}", np.arange(15.0).reshape(5, 3)) for k in range(20)]
+    _, floats = decoded(viewer.encode(made(*items)))
+    assert floats == 15 + len(TIME)
+
+
+def test_the_example_of_the_documents_runs(tmp_path, monkeypatch):
+    document = Path(__file__).parents[3] / "docs" / "viewer.md"
+    section = document.read_text(encoding="utf-8").split("## Any Pinocchio model")[1]
+    code = re.findall(r"```python\n(.*?)```", section, flags=re.DOTALL)[0]
+    robots = SHARE / "example-robot-data" / "robots" / NAMES[0]
+    monkeypatch.chdir(tmp_path)
+    exec(code.replace('"panda.urdf"', repr(str(robots))).replace('"share"', repr(str(SHARE))), {})
+    assert (tmp_path / "panda.html").stat().st_size > 1e5
+
+
+def test_importing_the_viewer_imports_nothing_heavy():
+    code = (
+        "import sys; from thesis_pin.pages import drawing, page, player, scene, serving\n"
+        "heavy = {'pinocchio', 'scipy', 'matplotlib', 'meshcat', 'plotly', 'jinja2'}\n"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

@@ -1,0 +1,81 @@
+"""An audit as a JSON document."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from thesis_pin.audit.kinds import KINDS
+from thesis_pin.audit.rows import HOLDS, Report, Row
+
+SCHEMA, VERSION = "thesis-pin/audit", 2
+
+
+def document(report: Report) -> dict[str, Any]:
+    """The report for :func:`thesis_pin.report.summary.json_bytes`.
+
+    A residual of a formula that can't be evaluated is null, and ``reason`` says why.
+    """
+    return {
+        "schema": SCHEMA,
+        "version": VERSION,
+        "thesis": report.thesis,
+        "states": report.states,
+        "holds_below": HOLDS,
+        "counts": report.counts,
+        "chapters": report.by_chapter,
+        "kinds": {kind: {"is": KINDS[kind], **counts} for kind, counts in report.by_kind.items()},
+        "coverage": {
+            "numbered": len(report.numbers) - len(report.missing_numbers),
+            "numbers": len(report.numbers),
+            "missing": list(report.missing_numbers),
+            "sections": [
+                {
+                    "section": section.name,
+                    "rows": section.rows,
+                    "checked": section.checked,
+                    "gaps": [{"id": name, "reason": reason} for name, reason in section.gaps],
+                }
+                for section in report.sections
+            ],
+            "beyond": [{"what": what, "why": why} for what, why in report.beyond],
+        },
+        "causes": {
+            name: {
+                "title": cause.title,
+                "enters": cause.enters,
+                "explanation": cause.explanation,
+                "rows": [row.id for row in report.rows if row.cause == name],
+            }
+            for name, cause in report.causes.items()
+        },
+        "rows": [row_document(row) for row in report.rows],
+    }
+
+
+def row_document(row: Row) -> dict[str, Any]:
+    """One row as JSON."""
+    return {
+        "id": row.id,
+        "source": row.source,
+        "number": list(row.number),
+        "left": row.left,
+        "printed": list(row.printed),
+        "corrected": {str(k): text for k, text in row.corrected.items()} or None,
+        "verdict": row.verdict,
+        "attribution": row.attribution or None,
+        "why": row.why or None,
+        "residual_printed": _finite(row.residual_printed),
+        "residual_corrected": _finite(row.residual_corrected),
+        "places": list(row.places),
+        "kinds": list(row.kinds),
+        "reason": row.reason or None,
+        "effect": row.effect or None,
+        "note": row.note or None,
+        "cause": row.cause or None,
+        "check": row.check or None,
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None

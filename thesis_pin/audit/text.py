@@ -1,0 +1,280 @@
+"""Faces of an audit: terminal tables, Markdown."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from thesis_pin.audit.kinds import KINDS
+from thesis_pin.audit.rows import HOLDS, VERDICTS, Report, Row
+from thesis_pin.audit.slips import Cause
+
+
+def residual_text(value: float | None) -> str:
+    """A residual for people: two digits, or that there is none to give."""
+    if value is None:
+        return ""
+    if math.isinf(value):
+        return "not computable"
+    return f"< {HOLDS:.0e}".replace("e-0", "e-") if value < HOLDS else f"{value:.1e}"
+
+
+def place_text(place: str) -> str:
+    """A place for who sees the correction beside it: without repeating a whole statement."""
+    return re.sub(r"(?<=\bstatement): .*", "", place)
+
+
+def effect_text(row: Row) -> str:
+    """What following the print does, in words."""
+    parts = []
+    for name, value in row.effect.items():
+        if isinstance(value, str):
+            parts.append(f"{name}: {value}")
+        else:
+            quantity, _, unit = name.rstrip("]").partition(" [")
+            amount = f"{value:.2g} {unit.replace('-', '')}" if value >= HOLDS else "none"
+            parts.append(f"{quantity} {amount}".rstrip())
+    return "; ".join(parts)
+
+
+def grouped(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
+    """Rows that share a cause together, in the order of each group's first row."""
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(row.cause or row.id, []).append(row)
+    return list(groups.items())
+
+
+def ranges(names: Sequence[str]) -> str:
+    """Names in words, runs of consecutive numbers shortened: 2.1, 2.2, 2.3 → 2.1 … 2.3."""
+    runs: list[list[str]] = []
+    for name in names:
+        before = re.fullmatch(r"(.*?)(\d+)", runs[-1][-1]) if runs else None
+        if before and name == f"{before[1]}{int(before[2]) + 1}":
+            runs[-1].append(name)
+        else:
+            runs.append([name])
+    return ", ".join(f"{run[0]} … {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs)
+
+
+# -- terminal ---------------------------------------------------------------------
+
+
+def summary_lines(report: Report) -> Iterator[str]:
+    """Counts and coverage in sentences."""
+    counts = ", ".join(f"{report.counts[v]} {v}" for v in VERDICTS if report.counts[v])
+    yield f"{len(report.rows)} equations of the {report.thesis}: {counts}."
+    covered = len(report.numbers) - len(report.missing_numbers)
+    missing = f"; missing: {ranges(report.missing_numbers)}" if report.missing_numbers else ""
+    yield f"Numbered equations covered: {covered} of {len(report.numbers)}{missing}."
+    checked = sum(section.checked for section in report.sections)
+    yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
+
+
+def chapter_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Verdicts by chapter: headings and rows; a verdict that nowhere occurs has no column."""
+    verdicts = [v for v in VERDICTS if report.counts[v]]
+    rows = [
+        (chapter, str(sum(counts.values())), *(str(counts[v] or "-") for v in verdicts))
+        for chapter, counts in report.by_chapter.items()
+    ]
+    total = ("all", str(len(report.rows)), *(str(report.counts[v]) for v in verdicts))
+    return ("chapter", "lines", *verdicts), [*rows, total]
+
+
+def kind_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Mended lines by kind of slip: headings and rows, without the definitions."""
+    rows = [
+        (kind, *(str(n or "-") for n in counts.values())) for kind, counts in report.by_kind.items()
+    ]
+    return ("kind of slip", "misprint", "wrong"), rows
+
+
+VERDICT_NOTE = (
+    "A *misprint* fails as printed and holds corrected; *wrong* is a physically wrong",
+    "statement whose right form holds. Verdicts are computed from residuals: the largest",
+    f"difference over all states, relative to the larger side; below {HOLDS:.0e} it holds.",
+)
+"""What verdicts mean, in Markdown."""
+KIND_NOTE = "A line with slips of several kinds counts under each."
+
+
+def failure_rows(
+    report: Report, *, every: bool = False, width: int | None = None
+) -> list[tuple[str, ...]]:
+    """Rows of the failure table: what, lines, verdict, who, worst effect.
+
+    Args:
+        report: The audit.
+        every: A row for each line, not for each cause.
+        width: Characters a title may have; None for all of them.
+    """
+    found: list[tuple[str, ...]] = []
+    groups = [(row.id, [row]) for row in report.failures] if every else grouped(report.failures)
+    for name, rows in groups:
+        worst = rows[0]
+        shared = report.causes.get(name) if len(rows) > 1 else None
+        title = shared.title if shared else name.split(":", 1)[-1]
+        verdicts = "/".join(dict.fromkeys(row.verdict for row in rows))
+        who = set(row.attribution for row in rows)
+        by = "both" if len(who) > 1 else who.pop()
+        effect = _worst_effect(worst)
+        found.append((_short(title, width or len(title)), str(len(rows)), verdicts, by, effect))
+    return found
+
+
+def _worst_effect(row: Row) -> str:
+    """The largest effect with its unit; "blocked" where following isn't possible."""
+    if any(isinstance(v, str) for v in row.effect.values()):
+        return "blocked"
+    numbers = {name: v for name, v in row.effect.items() if isinstance(v, float) and v > 0}
+    if not numbers:
+        return "-"
+    name = max(numbers, key=lambda key: numbers[key])
+    unit = name.rstrip("]").partition(" [")[2].replace("-", "")
+    return f"{numbers[name]:.2g} {unit}".rstrip()
+
+
+def _short(text: str, width: int) -> str:
+    return text if len(text) <= width else text[: width - 1] + "…"
+
+
+def explain(row: Row, cause: Cause | None = None) -> Iterator[tuple[str, str]]:
+    """Everything about one equation: labels and what belongs to them.
+
+    Args:
+        row: The audit's answer.
+        cause: The slip it shares with other equations.
+    """
+    yield "equation", f"{row.id} ({row.source})"
+    yield "verdict", row.verdict + (f", by the {row.attribution}" if row.attribution else "")
+    yield "printed", row.left
+    for member in row.printed:
+        yield "", f"= {member}"
+    for number, text in sorted(row.corrected.items()):
+        label = "left side" if number == 0 else f"member {number}"
+        yield "corrected", f"{label}: {text or '(nothing)'}"
+    if row.residual_printed is not None:
+        yield "residual", f"as printed {residual_text(row.residual_printed)}"
+    if row.residual_corrected is not None:
+        yield "", f"corrected {residual_text(row.residual_corrected)}"
+    for place in row.places:
+        yield "where", place_text(place)
+    if row.kinds:
+        yield "kind", ", ".join(f"{kind} ({KINDS[kind]})" for kind in row.kinds)
+    texts = (
+        *(("effect", effect_text(row)), ("because", row.reason)),
+        *(("guess", row.why), ("note", row.note)),
+    )
+    yield from ((label, text) for label, text in texts if text)
+    if cause:
+        yield "cause", f"{cause.title}; enters in {cause.enters}"
+        yield "", cause.explanation
+
+
+# -- Markdown -----------------------------------------------------------------------
+
+
+def markdown(report: Report, command: str) -> str:
+    """The audit as a document; the same for the same verdicts on every machine."""
+    lines = [
+        f"# Audit of the {report.thesis}",
+        "",
+        f"<!-- Generated by `{command}`; don't edit. -->",
+        "",
+        *(line + "\n" for line in summary_lines(report)),
+        *VERDICT_NOTE,
+        *report.effects,
+        "",
+        "## Coverage",
+        "",
+        "| section | equations | computed | without a verdict |",
+        "| --- | ---: | ---: | --- |",
+    ]
+    for section in report.sections:
+        gaps = _gaps(section.gaps)
+        lines.append(f"| {section.name} | {section.rows} | {section.checked} | {gaps} |")
+    lines += ["", "Outside the audit:", ""]
+    lines += [f"- {what}: {why}." for what, why in report.beyond]
+    lines += ["", "## Verdicts by chapter", ""]
+    lines += _markdown_table(*chapter_table(report))
+    lines += ["", "## Mended lines by kind of slip", ""]
+    headings, rows = kind_table(report)
+    lines += _markdown_table((*headings, "what it is"), [(*row, KINDS[row[0]]) for row in rows])
+    lines += ["", KIND_NOTE, "", "## Failures by cause", ""]
+    lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
+    lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
+    lines += ["", "## Root causes", "", "Slips that several lines share, and where they enter.", ""]
+    for cause, rows_of_cause in used_causes(report):
+        lines += _markdown_cause(cause, rows_of_cause)
+    lines += ["## Failures", ""]
+    for row in report.failures:
+        lines += _markdown_row(row)
+    return "\n".join(lines) + "\n"
+
+
+def _markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+    """A table whose columns of numbers are set to the right."""
+    listed = [tuple(row) for row in rows]
+    numbers = [all(re.fullmatch(r"\d+|-", row[k]) for row in listed) for k in range(len(headings))]
+    yield "| " + " | ".join(headings) + " |"
+    yield "| " + " | ".join("---:" if right else "---" for right in numbers) + " |"
+    yield from ("| " + " | ".join(_cell(cell) for cell in row) + " |" for row in listed)
+
+
+def used_causes(report: Report) -> list[tuple[Cause, list[Row]]]:
+    """Slips that failing rows of a report share, with the rows; the most lines first."""
+    found = [
+        (cause, [row for row in report.failures if row.cause == name])
+        for name, cause in report.causes.items()
+    ]
+    return sorted((pair for pair in found if pair[1]), key=lambda pair: -len(pair[1]))
+
+
+def _markdown_cause(cause: Cause, rows: Sequence[Row]) -> Iterator[str]:
+    names = sorted((row.id.split(":", 1)[1] for row in rows), key=_natural)
+    yield f"### {cause.title}"
+    yield ""
+    yield f"Enters in: {cause.enters}."
+    yield ""
+    yield cause.explanation
+    yield ""
+    yield f"Lines ({len(names)}): {ranges(names)}."
+    yield ""
+
+
+def _natural(name: str) -> list[str]:
+    """Sorts V_9 before V_10."""
+    return [part.zfill(4) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
+
+
+def _gaps(gaps: tuple[tuple[str, str], ...]) -> str:
+    reasons: dict[str, list[str]] = {}
+    for name, reason in gaps:
+        reasons.setdefault(reason, []).append(name.split(":")[2])
+    return "; ".join(f"{_cell(', '.join(names))}: {why}" for why, names in reasons.items())
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", r"\|")
+
+
+def _markdown_row(row: Row) -> Iterator[str]:
+    who = f", by the {row.attribution}: {row.why}" if row.attribution else ""
+    yield f"### `{row.id}`"
+    yield ""
+    yield f"{row.verdict.capitalize()}{who}."
+    if row.note:
+        yield f"{row.note[:1].upper()}{row.note[1:]}."
+    yield ""
+    yield f"- residual as printed: {residual_text(row.residual_printed)}"
+    if row.reason:
+        yield f"- finding: {row.reason}"
+    for place in row.places:
+        yield f"- where: `{place}`"
+    if row.kinds:
+        yield f"- kind: {', '.join(row.kinds)}"
+    if row.effect:
+        yield f"- effect: {effect_text(row)}"
+    yield ""

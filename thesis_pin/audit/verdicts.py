@@ -1,0 +1,207 @@
+"""Verdicts on printed equations, computed from residuals.
+
+A member of an equation is evaluated with every symbol taken from the
+references, so an error is counted once, where it stands. What the print does
+to a reader who follows it is a second number, the effect, and comes from the
+robot's own audit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from thesis_pin.audit import kinds
+from thesis_pin.audit.rows import HOLDS, Row, Verdict
+from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
+from thesis_pin.equations.evaluation import Environment, evaluate
+from thesis_pin.equations.formula import FormulaError
+from thesis_pin.equations.values import Value
+
+_FLOOR = 1e-3  # what counts as zero is zero against this
+
+
+@dataclass(frozen=True)
+class Residual:
+    """How far a formula is from what it must equal.
+
+    Attributes:
+        value: Largest difference over all states, relative to the larger side;
+            infinity if the formula can't be evaluated.
+        members: The same for each member.
+        reason: Why it can't be evaluated.
+    """
+
+    value: float
+    members: tuple[float, ...] = ()
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class ClaimResult:
+    """What a check in code finds.
+
+    Attributes:
+        printed: Residual of the printed statement.
+        corrected: Residual of what should stand there; None if it holds as printed.
+        note: The finding in words.
+        effect: What following the print does.
+    """
+
+    printed: float
+    corrected: float | None = None
+    note: str = ""
+    effect: dict[str, float | str] = field(default_factory=dict)
+
+
+Claims = Mapping[str, Callable[[], ClaimResult]]
+
+
+def verdict(printed: float, mended: float | None, *, physical: bool) -> Verdict:
+    """The verdict that residuals give.
+
+    Args:
+        printed: Residual of the print.
+        mended: Residual of what is given in its place, if anything is.
+        physical: Whether the replacement is another statement, not another spelling.
+    """
+    if printed < HOLDS:
+        return "holds"
+    if mended is not None and mended < HOLDS:
+        return "wrong" if physical else "misprint"
+    return "unexplained"
+
+
+def difference(left: Value, right: Value) -> float:
+    """Largest difference of two values, relative to the larger of them.
+
+    Raises:
+        FormulaError: They have different shapes.
+    """
+    if min(left.rank, right.rank) >= 0 and (left.rank != right.rank or left.tail != right.tail):
+        raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
+    gap = float(np.abs(left.array - right.array).max())
+    if not math.isfinite(gap):
+        raise FormulaError("isn't finite")
+    return gap / max(float(np.abs(left.array).max()), float(np.abs(right.array).max()), _FLOOR)
+
+
+def residual(
+    catalogue: Catalogue,
+    equation: Equation,
+    members: Sequence[str],
+    environment: Environment,
+    left: str,
+) -> Residual:
+    """How far members are from the left side, symbols taken from the environment."""
+    values, reasons = [], []
+    for number, member in enumerate(members, start=1):
+        if number in equation.imposes:
+            continue
+        try:
+            values.append(max(_member(catalogue, left, member, environment)))
+        except FormulaError as error:
+            values.append(math.inf)
+            reasons.append(f"member {number} {error.what}" if len(members) > 1 else error.what)
+    return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
+
+
+def _member(
+    catalogue: Catalogue, left: str, member: str, environment: Environment
+) -> Iterator[float]:
+    if not member:
+        raise FormulaError("is empty")
+    sides = catalogue.parse(left), catalogue.parse(member)
+    for indices in index_values(*sides):
+        first, second = (evaluate(side, environment, indices) for side in sides)
+        yield difference(first, second)
+
+
+def judge(
+    catalogue: Catalogue, equation: Equation, environment: Environment, claims: Claims, thesis: str
+) -> Row:
+    """The audit's answer on one equation."""
+    number = f" ({', '.join(equation.number)})" if equation.number else ""
+    row = Row(
+        id=equation.id,
+        source=f"{thesis}, {equation.section}{number}",
+        number=equation.number,
+        left=equation.left_printed or equation.left,
+        printed=equation.printed,
+        corrected={**({0: equation.left} if equation.left_printed else {}), **equation.mending},
+        verdict="not checkable",
+        attribution=equation.attribution,
+        why=equation.why,
+        note=equation.note,
+        cause=equation.cause,
+    )
+    if equation.illegible:
+        return _with(row, verdict="illegible", reason=equation.illegible)
+    if equation.not_checkable:
+        return _with(row, reason=equation.not_checkable)
+    if equation.claim:
+        result = claims[equation.claim]()
+        answer = verdict(result.printed, result.corrected, physical=True)
+        return _with(
+            row,
+            check=equation.claim,
+            verdict=answer,
+            kinds=_kinds(equation, answer),
+            residual_printed=result.printed,
+            residual_corrected=result.corrected,
+            reason=result.note,
+            effect=result.effect,
+            places=tuple(_places(catalogue, equation)),
+        )
+    printed = residual(catalogue, equation, equation.printed, environment, row.left)
+    mended = None
+    if equation.mending or equation.left_printed:
+        members = equation.members("corrected")
+        mended = residual(catalogue, equation, members, environment, equation.left)
+    answer = verdict(printed.value, mended.value if mended else None, physical=bool(equation.right))
+    return _with(
+        row,
+        check="identity",
+        verdict=answer,
+        kinds=_kinds(equation, answer),
+        residual_printed=printed.value,
+        residual_corrected=mended.value if mended else None,
+        reason=printed.reason or (mended.reason if mended else ""),
+        places=tuple(_places(catalogue, equation)),
+    )
+
+
+def _kinds(equation: Equation, answer: Verdict) -> tuple[str, ...]:
+    """Kinds of a mended slip; none where nothing is mended."""
+    return kinds.of_equation(equation) if answer in ("misprint", "wrong") else ()
+
+
+def _with(row: Row, **changes: Any) -> Row:
+    return replace(row, **changes)
+
+
+def _places(catalogue: Catalogue, equation: Equation) -> Iterator[str]:
+    if equation.left_printed:
+        for place in catalogue.places(equation.left_printed, equation.left):
+            yield f"left side, {place}"
+    for number, text in equation.mending.items():
+        if number > len(equation.printed):
+            yield f"member {number} is missing: {text}"
+            continue
+        before = equation.printed[number - 1]
+        where = f"member {number}, " if len(equation.printed) > 1 else ""
+        found = catalogue.places(before, text) if text else ["should not be there"]
+        if equation.right and not _local(found, text):
+            yield f"{where or 'the whole '}statement: {text}"
+        else:
+            yield from (where + place for place in found)
+
+
+def _local(found: Sequence[str], text: str) -> bool:
+    """Whether a statement differs in so little that saying where is shorter than it."""
+    named = len(found) <= 2 and all(place.startswith("symbol") for place in found)
+    return named and "\\text" not in text and sum(map(len, found)) < len(text)

@@ -1,0 +1,1 @@
+"""What the three commands share: parsing, output, progress, common verbs."""

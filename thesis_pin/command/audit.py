@@ -1,0 +1,139 @@
+"""The verb ``audit`` of both commands: run, explain one equation, write documents."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Protocol
+
+from thesis_pin.errors import BadInput
+
+if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
+    from thesis_pin.audit.rows import Report
+    from thesis_pin.equations.catalogue import Catalogue, Equation
+
+    Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
+
+
+_NARROW = {"not checkable": "not\ncheckable", "unexplained": "un-\nexplained"}
+"""Headings on two lines: all verdicts fit 80 columns."""
+_TITLE = 31
+"""Characters of a failure's title, so that its row fits 80 columns."""
+
+
+class Audit(Protocol):
+    """A robot's audit, of some equations or of all."""
+
+    def __call__(self, *, only: Iterable[str] | None, progress: Progress) -> Report:
+        """The report on the equations of these ids; None for all."""
+
+
+def add_verb(verbs: Any, example: str, run: Callable[[argparse.Namespace], int]) -> None:
+    """Add the verb to a command's parser; ``example`` is an invocation for its help."""
+    verb = verbs.add_parser(
+        "audit",
+        help="is this printed equation of the thesis right?",
+        description="A computed verdict on every printed equation of the thesis.",
+        epilog=f"Example: {example}",
+    )
+    verb.add_argument(
+        "--equation", metavar="ID", help="explain one equation; also by its number or symbol"
+    )
+    verb.add_argument("--every", action="store_true", help="list every failing line")
+    verb.add_argument("--json", metavar="FILE|-", help="write all rows as JSON")
+    verb.add_argument("--html", metavar="FILE", help="write a page with rendered formulas")
+    verb.add_argument("--markdown", metavar="FILE", help="write the audit as a document")
+    verb.set_defaults(run=run)
+
+
+def run_verb(
+    arguments: argparse.Namespace, audit: Audit, catalogue: Catalogue, robot: str, command: str
+) -> int:
+    """Run the verb; returns the exit code.
+
+    Args:
+        arguments: As :func:`add_verb` reads them.
+        audit: The robot's audit.
+        catalogue: Its equations.
+        robot: First part of their ids, "scout" or "pollard".
+        command: What regenerates the document.
+    """
+    from thesis_pin.audit import text as faces
+    from thesis_pin.audit.document import document
+    from thesis_pin.audit.page import page
+    from thesis_pin.command.parser import OK, print_entries, print_table, print_text
+    from thesis_pin.command.progress import track
+    from thesis_pin.files import write_file
+    from thesis_pin.report.summary import json_bytes
+
+    only = known(arguments.equation, catalogue, robot) if arguments.equation is not None else None
+    report = audit(only=only, progress=lambda rows, total: track(rows, "auditing", total))
+    if arguments.html:
+        write_file(arguments.html, page(report).encode())
+    if arguments.markdown:
+        write_file(arguments.markdown, faces.markdown(report, command).encode())
+    if arguments.json:
+        write_file(arguments.json, json_bytes(document(report)))
+    if arguments.json == "-":
+        return OK
+    if only:
+        for k, row in enumerate(report.rows):
+            print_text(*[""] * (k > 0))
+            print_entries(faces.explain(row, report.causes.get(row.cause)))
+        return OK
+    lines = list(faces.summary_lines(report))
+    print_text(*lines[:1])
+    headings, chapters = faces.chapter_table(report)
+    print_table([_NARROW.get(h, h) for h in headings], chapters, title="verdicts by chapter")
+    print_table(*faces.kind_table(report), title="mended lines by kind of slip")
+    print_text(faces.KIND_NOTE, "")
+    columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
+    print_table(columns, faces.failure_rows(report, every=arguments.every, width=_TITLE))
+    print_text(
+        "Effect: the largest number of a row or group; blocked: the line can't be computed, or "
+        "following it leaves nothing to compute.",
+        *lines[1:],
+        "Without a verdict:",
+    )
+    print_entries(_without_verdict(report))
+    print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
+    return OK
+
+
+def _without_verdict(report: Report) -> Iterator[tuple[str, str]]:
+    """Section and names of lines that share a reason, and the reason."""
+    from thesis_pin.audit.text import ranges
+
+    for section in report.sections:
+        for reason in dict.fromkeys(reason for _, reason in section.gaps):
+            names = [name.split(":", 2)[2] for name, one in section.gaps if one == reason]
+            count = f"{len(names)} line{'s' if len(names) > 1 else ''}"
+            ways = (ranges(names), f"{names[0]} and {len(names) - 1} more", count)
+            yield f"  {section.name}: {next(way for way in ways if len(way) < 20)}", reason
+
+
+def known(identity: str, catalogue: Catalogue, robot: str) -> list[str]:
+    """The full ids of what is asked for: an id, a printed number or a symbol.
+
+    A number can stand beside several lines, and a symbol can be defined in several places.
+
+    Raises:
+        BadInput: There is none; names the nearest.
+    """
+    listed = list(catalogue.by_id)
+    full = identity if identity.startswith(f"{robot}:") else f"{robot}:{identity}"
+    if full in listed:
+        return [full]
+    number = identity.strip("()")
+    found = [one.id for one in catalogue.equations if number in one.number]
+    found = found or [name for name in listed if name.split(":", 2)[2] == identity]
+    if found:
+        return found
+    near = difflib.get_close_matches(full, listed, n=5, cutoff=0.5)
+    raise BadInput(
+        f"no equation is called {identity!r}",
+        where="--equation",
+        allowed=f"an id such as {', '.join(near) or listed[0]}",
+        remedy=f"{robot}-pin audit --json - lists all ids",
+    )

@@ -1,0 +1,1 @@
+"""Printed equations as data: notation, formulas, values, exact derivatives."""

@@ -1,0 +1,241 @@
+"""Printed equations as data: one table a printed equation, in TOML files.
+
+A file is read beside the thesis: each entry has the left side, every member of
+the chain of equalities as printed, and, only where the print fails, what should
+stand there instead. Nothing in a file says whether an equation is right; that
+is computed (:mod:`thesis_pin.audit.verdicts`).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from thesis_pin.audit.places import places
+from thesis_pin.equations import formula as nt
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.notation import Notation
+from thesis_pin.model.specification import Key, Strict, read_toml
+
+Edition = Literal["corrected", "printed"]
+
+
+def _as_tuple(value: object) -> object:
+    return (value,) if isinstance(value, str) else value
+
+
+def _as_members(value: object) -> object:
+    if isinstance(value, str):
+        return {1: value}
+    return {int(k): v for k, v in value.items()} if isinstance(value, dict) else value
+
+
+Members = Annotated[tuple[str, ...], BeforeValidator(_as_tuple)]
+Replacements = Annotated[dict[int, str], BeforeValidator(_as_members)]
+
+
+class Equation(Strict):
+    """One printed equation: a left side and the members it is set equal to.
+
+    Attributes:
+        id: ``robot:section:number or symbol``.
+        number: Numbers printed beside it; empty for most definitions.
+        left: Left side, LaTeX.
+        printed: Members as printed, LaTeX, in order.
+        corrected: Member number → what should be printed there.
+        right: The same, where the printed statement is physically wrong and not
+            just misprinted.
+        attribution: Who made the slip, as far as one can guess.
+        why: Reason of the guess.
+        note: What a reader should know.
+        left_printed: The left side as printed, where it isn't ``left``.
+        imposes: Members that are conditions to be met ("= 0"), not identities.
+        claim: Name of the check in code that decides, where no identity can.
+        cause: Name of the slip that several equations share.
+        kind: Kind of the slip, where the difference of the formulas doesn't show it;
+            see :data:`thesis_pin.audit.kinds.KINDS`.
+        illegible: What is missing in the text, if it can't be read.
+        not_checkable: Why nothing can be computed, if so.
+        closed: Whether it holds only where the mechanism's loops are closed.
+        defines: Symbol that stands for the first factor of the member before the last, as
+            J in ``ḃ = [i j k …] q̇ = J q̇``.
+    """
+
+    id: Annotated[str, Field(pattern=r"^[a-z]+:[\w.]+:\S+$")]
+    number: Members = ()
+    left: str = ""
+    printed: Members = ()
+    corrected: Replacements = Field(default_factory=dict)
+    right: Replacements = Field(default_factory=dict)
+    attribution: Literal["thesis", "scan", ""] = ""
+    why: str = ""
+    note: str = ""
+    left_printed: str = ""
+    imposes: tuple[int, ...] = ()
+    claim: str = ""
+    cause: str = ""
+    kind: Literal["frame", ""] = ""
+    illegible: str = ""
+    not_checkable: str = ""
+    closed: bool = False
+    defines: str = ""
+
+    @property
+    def section(self) -> str:
+        """Section of the thesis."""
+        return self.id.split(":")[1]
+
+    @property
+    def mending(self) -> dict[int, str]:
+        """Members to read differently, whether misprinted or wrong."""
+        return {**self.corrected, **self.right}
+
+    def members(self, edition: Edition) -> tuple[str, ...]:
+        """Members as printed or as they should be.
+
+        A number beyond the last member adds one; a member mended to "" is left out.
+        """
+        if edition == "printed":
+            return self.printed
+        count = max(len(self.printed), *self.mending, 0) if self.mending else len(self.printed)
+        listed = [
+            self.mending.get(k, self.printed[k - 1] if k <= len(self.printed) else "")
+            for k in range(1, count + 1)
+        ]
+        return tuple(member for member in listed if member)
+
+
+class EquationFile(Strict):
+    """A file of equations."""
+
+    equation: tuple[Equation, ...]
+
+    def cross_check(self) -> Iterator[tuple[Key, str, object]]:
+        """Unique ids; mendings of members that exist; reasons for every mending."""
+        seen: set[str] = set()
+        for k, equation in enumerate(self.equation):
+            key: Key = ("equation", k)
+            if equation.id in seen:
+                yield (*key, "id"), "used twice", equation.id
+            seen.add(equation.id)
+            silent = equation.illegible or equation.not_checkable
+            if not equation.printed and not silent:
+                yield (*key, "printed"), "missing, and neither illegible nor not_checkable", None
+            if (equation.mending or equation.left_printed) and not (
+                equation.attribution and equation.why
+            ):
+                yield key, "a correction needs attribution and why", equation.id
+            if equation.kind and not equation.mending:
+                yield (*key, "kind"), "there is no correction to be of a kind", equation.id
+            if equation.corrected and equation.right:
+                yield key, "either misprinted (corrected) or wrong (right), not both", equation.id
+
+
+Definition = tuple[Equation, dict[str, str]]
+
+
+class Catalogue:
+    """All equations of a thesis, parsed.
+
+    Args:
+        equations: The equations in the thesis's order.
+        notation: How its formulas are read.
+    """
+
+    def __init__(self, equations: Sequence[Equation], notation: Notation) -> None:
+        self.equations = tuple(equations)
+        self.notation = notation
+        self._parsed: dict[str, Node] = {}
+
+    @classmethod
+    def read(cls, paths: Sequence[Path], notation: Notation) -> Catalogue:
+        """Read files.
+
+        Raises:
+            SpecificationError: A file breaks the schema; lists every problem.
+        """
+        files = [read_toml("equations", EquationFile, path) for path in paths]
+        return cls([equation for file in files for equation in file.equation], notation)
+
+    def __getitem__(self, name: str) -> Equation:
+        return self.by_id[name]
+
+    @cached_property
+    def by_id(self) -> dict[str, Equation]:
+        """Equations by id."""
+        return {equation.id: equation for equation in self.equations}
+
+    def with_equation(self, changed: Equation) -> Catalogue:
+        """The same catalogue with one equation replaced by another of its id."""
+        listed = [changed if e.id == changed.id else e for e in self.equations]
+        other = Catalogue(listed, self.notation)
+        other._parsed = self._parsed  # a formula reads the same everywhere
+        return other
+
+    def parse(self, formula: str) -> Node:
+        """A single expression, read once."""
+        if formula not in self._parsed:
+            sides = self.notation.parse(formula)
+            if len(sides) > 1:
+                raise FormulaError("is an equation where an expression belongs")
+            self._parsed[formula] = sides[0]
+        return self._parsed[formula]
+
+    def places(self, before: str, after: str) -> list[str]:
+        """Where two formulas differ, symbol by symbol, each place in words."""
+        return places(before, after)
+
+    @cached_property
+    def definitions(self) -> dict[tuple[str, str, int], Definition]:
+        """First definition of each symbol: ("" or "∂", name, dots) → equation and indices."""
+        found: dict[tuple[str, str, int], Definition] = {}
+        for equation in self.equations:
+            if equation.claim or not (equation.printed or equation.mending):
+                continue
+            for text in filter(None, (equation.left, equation.defines)):
+                try:
+                    node = self.parse(text)
+                except FormulaError:
+                    continue
+                kind, symbol = "", node
+                if isinstance(node, nt.Derivative) and node.by == Symbol("q", "j"):
+                    kind, symbol = "∂", node.of
+                if isinstance(symbol, nt.Transpose):
+                    symbol = symbol.of
+                if not isinstance(symbol, Symbol):
+                    continue
+                for indices in index_values(node):
+                    key = (kind, symbol.bound(indices).name, symbol.dots)
+                    own = {k: v for k, v in indices.items() if k not in symbol.kept}
+                    found.setdefault(key, (equation, own))
+        return found
+
+
+_LETTERS = re.compile(r"theta|phi|psi|tau|times|ZMP|LDn")
+
+
+def free_indices(*nodes: Node) -> set[str]:
+    """Index letters among i and n that occur in subscripts or superscripts."""
+    found: set[str] = set()
+    for symbol in nt.symbols(tuple(nodes)):
+        for text in (symbol.sub, symbol.sup):
+            found |= set(_LETTERS.sub("", text)) & {"i", "n", "k"}
+    return found
+
+
+def index_values(*nodes: Node, also: str = "") -> Iterator[dict[str, str]]:
+    """All values of free indices: leg i, link n (m is 2n − 1, its frame), interval k."""
+    letters = free_indices(*nodes) | set(also)
+    for i in ("1", "2") if "i" in letters else ("",):
+        for n in "123456" if "n" in letters else ("",):
+            for k in "123" if "k" in letters else ("",):
+                yield {
+                    **({"i": i} if i else {}),
+                    **({"n": n, "m": str(2 * int(n) - 1)} if n else {}),
+                    **({"k": k} if k else {}),
+                }

@@ -1,0 +1,360 @@
+"""From a printed formula to a tree: one grammar for both theses.
+
+The grammar (``notation.lark``) knows LaTeX; this module knows what the theses
+mean by it: ``c θ`` and ``s(α + β)`` are cosine and sine, ``c θ^2`` is the
+square of a cosine, ``R_x(θ)`` is a rotation and ``k(q_j(t))`` is just ``k``,
+a superscript is a frame on a vector and a power on a scalar.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from lark import Lark, Token, Transformer, UnexpectedInput
+from lark.exceptions import VisitError
+
+from thesis_pin.equations.formula import (
+    Call,
+    Cross,
+    Derivative,
+    Dot,
+    FormulaError,
+    Matrix,
+    Node,
+    Norm,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Series,
+    Sum,
+    Symbol,
+    Transpose,
+)
+
+
+@dataclass(frozen=True)
+class _Mark(Node):
+    """Something waiting for the factor after it: a function, an operator, δ."""
+
+    kind: str
+    name: str = ""
+    by: Node | None = None
+    exponent: int = 1
+
+
+@dataclass(frozen=True)
+class _Group(Node):
+    """A bracketed expression; tells an argument from a factor."""
+
+    inside: Node
+
+
+@dataclass(frozen=True)
+class Notation:
+    """What the letters of one thesis mean.
+
+    Attributes:
+        functions: Symbols that are functions of the bracket after them ("R_x", "T_z4").
+        words: Names of several letters ("ZMP").
+        labelled: Bases whose numeric superscript is a label even when not bold.
+        ignored_arguments: Brackets after a symbol that say only what it depends on.
+        chains: Bases whose index i stays in the name: with i = 1 the vector k_{2i} of a
+            side chain would become k_21, which is another vector of chain 0.
+    """
+
+    functions: frozenset[str] = frozenset()
+    words: tuple[str, ...] = ()
+    labelled: frozenset[str] = frozenset()
+    ignored_arguments: frozenset[str] = frozenset({"t", "q_j"})
+    chains: frozenset[str] = frozenset()
+
+    def parse(self, formula: str) -> tuple[Node, ...]:
+        """Read a formula.
+
+        Args:
+            formula: LaTeX, one or more expressions joined by "=".
+
+        Returns:
+            The expressions.
+
+        Raises:
+            FormulaError: The formula isn't in the notation; says where.
+        """
+        try:
+            return _builder(self).transform(_parser(self.words).parse(formula))
+        except UnexpectedInput as error:
+            at = error.pos_in_stream or 0
+            place = formula[max(0, at - 25) : at + 25]
+            raise FormulaError(
+                f"the formula can't be read near '{place}'", allowed="the notation of notation.lark"
+            ) from None
+        except VisitError as error:
+            raise FormulaError(f"the formula can't be read: {error.orig_exc}") from None
+
+    def symbol(self, text: str) -> Symbol:
+        """Read a formula that is a single symbol."""
+        (node,) = self.parse(text)
+        if not isinstance(node, Symbol):
+            raise FormulaError(f"{text!r} isn't a symbol")
+        return node
+
+
+@functools.cache
+def _parser(words: tuple[str, ...]) -> Lark:
+    text = (Path(__file__).parent / "notation.lark").read_text(encoding="utf-8")
+    listed = "|".join(sorted(map(re.escape, words), key=len, reverse=True))
+    return Lark(text.replace("__WORDS__", f"{listed}|" if listed else ""), parser="lalr")
+
+
+@functools.cache
+def _builder(notation: Notation) -> _Builder:
+    return _Builder(notation)
+
+
+_PREFIX = {"\\mathbb": "bb", "\\mathcal": "cal"}
+_FONTS = re.compile(r"\\(mathbf|boldsymbol|mathrm|text|bm)(?![a-zA-Z])")
+
+
+def flatten(script: str) -> str:
+    """Sub- or superscript as plain characters: ``{\\theta_{1i}}`` → ``theta1i``."""
+    text = _FONTS.sub("", script)
+    text = re.sub(r"\\(dot|ddot)(?![a-zA-Z])", "", text)
+    return re.sub(r"[\\{}_\s,]", "", text)
+
+
+class _Builder(Transformer[Token, tuple[Node, ...]]):
+    """Turns the grammar's tree into nodes."""
+
+    def __init__(self, notation: Notation) -> None:
+        super().__init__()
+        self.notation = notation
+
+    def start(self, parts: list[Node]) -> tuple[Node, ...]:
+        return tuple(_open(part) for part in parts)
+
+    def name(self, parts: list[Token]) -> Node:
+        return self._letter(str(parts[0]).removeprefix("\\"))
+
+    def _letter(self, base: str) -> Symbol:
+        return Symbol(base, kept="i" if base in self.notation.chains else "")
+
+    def number(self, parts: list[Token]) -> Node:
+        return Number(float(parts[0]))
+
+    def font(self, parts: list[Any]) -> Node:
+        font, inside = str(parts[0]), parts[1]
+        node = self.name([inside]) if isinstance(inside, Token) else _open(inside)
+        if isinstance(node, Symbol):
+            if font in _PREFIX:
+                named = self._letter(f"{_PREFIX[font]}:{node.base}")
+                return replace(node, base=named.base, kept=named.kept)
+            return replace(node, bold=font not in ("\\text", "\\mathrm"))
+        return node
+
+    def accent(self, parts: list[Any]) -> Node:
+        dots, node = (2 if "dd" in str(parts[0]) else 1), _open(parts[1])
+        if isinstance(node, Symbol):
+            return replace(node, dots=node.dots + dots)
+        raise ValueError("a dot above something that isn't a symbol")
+
+    def accent_name(self, parts: list[Token]) -> Node:
+        return self.accent([parts[0], self.name([parts[1]])])
+
+    def function(self, parts: list[Token]) -> Node:
+        name = re.sub(r"\\(text|operatorname|mathrm)|[\\{}\s]", "", str(parts[0])).lower()
+        return _Mark("function", "sin" if name == "sen" else name)
+
+    def group(self, parts: list[Node]) -> Node:
+        return _Group(_open(parts[0]))
+
+    def row(self, parts: list[Any]) -> Node:
+        cells = tuple(_open(part) for part in parts if not isinstance(part, Token))
+        return Matrix((cells,))
+
+    def matrix_row(self, parts: list[Any]) -> tuple[Node, ...]:
+        return tuple(_open(part) for part in parts if not isinstance(part, Token))
+
+    def matrix(self, parts: list[Any]) -> Node:
+        return Matrix(tuple(part for part in parts if isinstance(part, tuple)))
+
+    def norm(self, parts: list[Any]) -> Node:
+        return Norm(_open(parts[1]))
+
+    def root(self, parts: list[Node]) -> Node:
+        return Call("sqrt", _open(parts[0]))
+
+    def total(self, parts: list[Token]) -> Node:
+        return _Mark("derivative")
+
+    def partial_operator(self, parts: list[Any]) -> Node:
+        return _Mark("derivative", by=_open(parts[-1]))
+
+    def partial(self, parts: list[Any]) -> Node:
+        above, below = (part for part in parts if not isinstance(part, Token))
+        return Derivative(_open(above), _open(below))
+
+    def quotient(self, parts: list[Any]) -> Node:
+        above, below = _open(parts[1]), _open(parts[2])
+        of, by = _differential(above), _differential(below)
+        if of is not None and by is not None:
+            return Derivative(of, None if by == Symbol("t") else by)
+        return Quotient(above, below)
+
+    def scripted(self, parts: list[Any]) -> Node:
+        node, scripts = parts[0], [str(part) for part in parts[1:]]
+        for script in scripts:
+            node = self._with_script(node, script)
+        return node
+
+    def _with_script(self, node: Node, script: str) -> Node:
+        if "prime" in script or script.startswith("'"):
+            if isinstance(node, Symbol):
+                return replace(node, primes=node.primes + max(1, script.count("'")))
+            raise ValueError("a prime on something that isn't a symbol")
+        text = flatten(script[1:])
+        if script.startswith("_"):
+            if isinstance(node, Symbol):
+                return replace(node, sub=node.sub + text)
+            raise ValueError("a subscript on something that isn't a symbol")
+        transposed = text.endswith("T")
+        label = text.removesuffix("T") if transposed else text
+        if isinstance(node, _Group) and label.isdigit() and not transposed:
+            return Power(node, int(label))  # still an argument: c(α + β)^2 is a squared cosine
+        if not isinstance(node, _Mark):
+            node = _open(node)
+        if label == "-":  # J^{-T}
+            label = "-1"
+        if re.fullmatch(r"-\d", label):
+            node = Power(node, int(label))
+        elif label:
+            if isinstance(node, _Mark):
+                node = replace(node, exponent=int(label))
+            elif isinstance(node, Symbol) and self._is_label(node, label):
+                node = replace(node, sup=node.sup + label)
+            elif label.isdigit() or label in ("i", "n"):
+                node = Power(node, int(label) if label.isdigit() else label)
+            else:
+                raise ValueError(f"a superscript {label!r} that is neither a frame nor a power")
+        return Transpose(node) if transposed else node
+
+    def _is_label(self, node: Symbol, label: str) -> bool:
+        return (
+            node.bold
+            or label == "0"
+            or not label.isdigit()
+            or (node.base in self.notation.labelled)
+        )
+
+    def product(self, parts: list[Node | None]) -> Node:
+        waiting = [part for part in parts if part is not None]
+        factors: list[Node] = []
+        while waiting:
+            factors.append(self._next_factor(waiting))
+        return factors[0] if len(factors) == 1 else Product(tuple(_open(f) for f in factors))
+
+    def _next_factor(self, waiting: list[Node]) -> Node:
+        node = waiting.pop(0)
+        if isinstance(node, Symbol):
+            follower = waiting[0] if waiting else None
+            if node.base == "delta" and isinstance(follower, Symbol | Derivative):
+                follower = self._next_factor(waiting)
+                if isinstance(follower, Symbol):
+                    return replace(follower, base=f"delta:{follower.base}")
+            plain = not (node.sub or node.sup or node.dots or node.bold)
+            if plain and node.base in "cs" and self._is_angle(follower):
+                node = _Mark("function", {"c": "cos", "s": "sin"}[node.base])
+        if isinstance(node, _Mark):
+            if not waiting:
+                raise ValueError(f"nothing follows {node.name or 'the derivative'}")
+            return self._apply(node, self._next_factor(waiting))
+        following = waiting[0] if waiting else None
+        if isinstance(node, Power) and isinstance(following, _Group):
+            # T^{-1}(θ) is the inverse of T(θ)
+            inner = node.base
+            if isinstance(inner, Symbol) and inner.name in self.notation.functions:
+                waiting.pop(0)
+                return Power(Call(inner.name, following.inside, inner.dots), node.exponent)
+        if (
+            isinstance(node, Symbol)
+            and isinstance(following, Transpose)
+            and self._says_only_dependence(following.of)
+        ):
+            waiting.pop(0)
+            return Transpose(node)
+        if isinstance(node, Symbol) and waiting and isinstance(waiting[0], _Group):
+            inside = waiting[0].inside
+            if node.name in self.notation.functions:
+                waiting.pop(0)
+                return Call(node.name, inside, node.dots)
+            if self._says_only_dependence(inside):
+                waiting.pop(0)
+        return node
+
+    def _says_only_dependence(self, inside: Node) -> bool:
+        return isinstance(inside, Symbol) and inside.name in self.notation.ignored_arguments
+
+    @staticmethod
+    def _is_angle(node: Node | None) -> bool:
+        if isinstance(node, Power):
+            node = node.base
+        if isinstance(node, Symbol):
+            return node.base in ("theta", "phi", "psi", "beta", "alpha", "gamma") and not node.bold
+        return isinstance(node, _Group)
+
+    @staticmethod
+    def _apply(mark: _Mark, argument: Node) -> Node:
+        if mark.kind == "derivative":
+            return Derivative(_open(argument), mark.by)
+        exponent = mark.exponent
+        # c θ^2 is the square of the cosine
+        if isinstance(argument, Power) and isinstance(argument.exponent, int):
+            exponent, argument = exponent * argument.exponent, argument.base
+        call = Call(mark.name, _open(argument))
+        return call if exponent == 1 else Power(call, exponent)
+
+    def series(self, parts: list[Any]) -> Node:
+        match = re.match(r"\\sum_\{(\w)=(\d+)\}\^\{?(\d+)\}?", str(parts[0]))
+        assert match
+        return Series(match[1], int(match[2]), int(match[3]), _open(parts[1]))
+
+    def cross(self, parts: list[Any]) -> Node:
+        return Cross(_open(parts[0]), _open(parts[2]))
+
+    def dot(self, parts: list[Any]) -> Node:
+        return Dot(_open(parts[0]), _open(parts[2]))
+
+    def first_term(self, parts: list[Any]) -> Node:
+        if len(parts) == 1:
+            return parts[0]
+        return Sum(((str(parts[0]), _open(parts[1])),))
+
+    def sum(self, parts: list[Any]) -> Node:
+        first = parts[0]
+        if len(parts) == 1:
+            return first
+        terms = list(first.terms) if isinstance(first, Sum) else [("+", _open(first))]
+        signs, rest = parts[1::2], parts[2::2]
+        terms += [(str(sign), _open(term)) for sign, term in zip(signs, rest, strict=True)]
+        return Sum(tuple(terms))
+
+
+def _differential(node: Node) -> Node | None:
+    """x of "dx"; None if it isn't one."""
+    if isinstance(node, Product) and node.factors[0] == Symbol("d"):
+        rest = node.factors[1:]
+        return rest[0] if len(rest) == 1 else Product(rest)
+    return None
+
+
+def _open(node: Node) -> Node:
+    """The node inside a bracket."""
+    while isinstance(node, _Group):
+        node = node.inside
+    if isinstance(node, Power) and isinstance(node.base, _Group):
+        return Power(_open(node.base), node.exponent)
+    return node

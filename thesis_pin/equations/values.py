@@ -1,0 +1,180 @@
+"""Scalars, vectors and matrices behind batch axes, and their arithmetic."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from thesis_pin.equations.formula import FormulaError
+
+STEP = 1e-30
+"""Complex step: small enough that its square vanishes, so derivatives are exact."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """A scalar, vector or matrix at a batch of states.
+
+    Attributes:
+        array: Numbers of shape ``(*batch, *tail)``.
+        rank: Number of tail axes: 0, 1 or 2; −1 for a zero of any shape.
+    """
+
+    array: np.ndarray
+    rank: int
+
+    @property
+    def tail(self) -> tuple[int, ...]:
+        """Shape without the batch axes."""
+        return self.array.shape[self.array.ndim - self.rank :] if self.rank > 0 else ()
+
+    def describe(self) -> str:
+        """In words, for messages."""
+        if self.rank <= 0:
+            return "a scalar" if self.rank == 0 else "zero"
+        if self.rank == 1:
+            return f"a vector of {self.tail[0]}"
+        return f"a {self.tail[0]}×{self.tail[1]} matrix"
+
+
+ZERO = Value(np.zeros(()), -1)
+
+
+def scalar(array: np.ndarray | float) -> Value:
+    """A scalar value."""
+    return Value(np.asarray(array), 0)
+
+
+def vector(array: np.ndarray) -> Value:
+    """A vector value, shape ``(*batch, n)``."""
+    return Value(array, 1)
+
+
+def matrix(array: np.ndarray) -> Value:
+    """A matrix value, shape ``(*batch, m, n)``."""
+    return Value(array, 2)
+
+
+def imaginary(value: Value) -> Value:
+    """The derivative that a complex step left in a value."""
+    return ZERO if value.rank == -1 else Value(np.imag(value.array) / STEP, value.rank)
+
+
+def add(first: Value, second: Value) -> Value:
+    """Sum of two values of one shape."""
+    if first.rank == -1 or second.rank == -1:
+        return second if first.rank == -1 else first
+    if first.rank != second.rank or first.tail != second.tail:
+        raise FormulaError(f"adds {first.describe()} and {second.describe()}")
+    return Value(first.array + second.array, first.rank)
+
+
+def multiply(first: Value, second: Value) -> Value:
+    """Product of two factors side by side."""
+    if first.rank == -1 or second.rank == -1:
+        return ZERO
+    if first.rank == 0:
+        return Value(_spread(first.array, second.rank) * second.array, second.rank)
+    if second.rank == 0:
+        return Value(first.array * _spread(second.array, first.rank), first.rank)
+    a, b = first.array, second.array
+    if first.rank == 1:
+        if second.rank == 2 and second.tail[0] == 1:
+            return matrix(a[..., :, None] * b)
+        raise FormulaError(f"multiplies {first.describe()} by {second.describe()}")
+    if first.tail[1] != second.tail[0]:
+        raise FormulaError(f"multiplies {first.describe()} by {second.describe()}")
+    if second.rank == 1:
+        result = np.matmul(a, b[..., None])[..., 0]
+        return scalar(result[..., 0]) if first.tail[0] == 1 else vector(result)
+    return matrix(np.matmul(a, b))
+
+
+def _spread(array: np.ndarray, rank: int) -> np.ndarray:
+    return array[(...,) + (None,) * rank] if rank > 0 else array
+
+
+def cross(first: Value, second: Value) -> Value:
+    """Vector product."""
+    if first.rank == -1 or second.rank == -1:
+        return ZERO
+    if first.rank != 1 or second.rank != 1 or first.tail != (3,) or second.tail != (3,):
+        raise FormulaError(
+            f"takes the vector product of {first.describe()} and {second.describe()}"
+        )
+    a, b = first.array, second.array
+    parts = [a[..., k - 2] * b[..., k - 1] - a[..., k - 1] * b[..., k - 2] for k in range(3)]
+    return vector(np.stack(parts, axis=-1))
+
+
+def transpose(value: Value) -> Value:
+    """Transpose; a vector becomes a row and a row a vector. Never conjugates."""
+    if value.rank <= 0:
+        return value
+    if value.rank == 1:
+        return matrix(value.array[..., None, :])
+    if value.tail[0] == 1:
+        return vector(value.array[..., 0, :])
+    return matrix(np.swapaxes(value.array, -1, -2))
+
+
+def power(value: Value, exponent: int | str) -> Value:
+    """Integer power of a scalar, inverse of a matrix."""
+    if isinstance(exponent, str):
+        raise FormulaError(f"the exponent {exponent} has no value")
+    if value.rank == 0:
+        return scalar(value.array ** float(exponent))
+    if value.rank == 2 and exponent == -1 and value.tail[0] != value.tail[1]:
+        raise FormulaError(f"inverts {value.describe()}, which has no inverse")
+    if value.rank == 2 and exponent == -1:
+        return matrix(np.linalg.inv(value.array))
+    raise FormulaError(f"raises {value.describe()} to the power {exponent}")
+
+
+def blocks(rows: list[list[Value]], columns: int) -> Value:
+    """Matrix from its cells: numbers, or vectors as columns; a column of both is one vector.
+
+    A row of vectors that ends in 0 and is too short stands for one whose last 0
+    fills the missing columns: the notation the Scout thesis uses for J_B.
+    """
+    cells = [cell for row in rows for cell in row]
+    if len({len(row) for row in rows}) > 1:
+        raise FormulaError("a matrix whose rows differ in length")
+    if all(cell.rank <= 0 for cell in cells):
+        batch = np.broadcast_shapes(*(cell.array.shape for cell in cells))
+        spread = [[np.broadcast_to(cell.array, batch) for cell in row] for row in rows]
+        array = np.stack([np.stack(row, axis=-1) for row in spread], axis=-2)
+        return vector(array[..., 0]) if len(rows[0]) == 1 < len(rows) else matrix(array)
+    if len(rows[0]) == 1 < len(rows) and {cell.rank for cell in cells} == {0, 1}:
+        return _stacked(cells)
+    height = next(cell.tail[0] for cell in cells if cell.rank > 0)
+    filled = []
+    for row in rows:
+        if len(rows) == 1 and len(row) < columns and row[-1].rank == -1:
+            row = row + [ZERO] * (columns - len(row))
+        filled.append(row)
+    batch = np.broadcast_shapes(
+        *(cell.array.shape[: cell.array.ndim - cell.rank] for cell in cells if cell.rank > 0)
+    )
+    lines = []
+    for row in filled:
+        parts = []
+        for cell in row:
+            if cell.rank == 0 or (cell.rank > 0 and cell.tail[0] != height):
+                raise FormulaError(f"puts {cell.describe()} beside vectors of {height}")
+            array = np.zeros((height, 1)) if cell.rank == -1 else cell.array
+            array = array[..., None] if cell.rank == 1 else array
+            parts.append(np.broadcast_to(array, (*batch, *array.shape[-2:])))
+        lines.append(np.concatenate(parts, axis=-1))
+    if len({line.shape[-1] for line in lines}) > 1:
+        raise FormulaError("puts rows of different length one below the other")
+    return matrix(np.concatenate(lines, axis=-2))
+
+
+def _stacked(cells: list[Value]) -> Value:
+    """One vector from vectors and numbers below each other."""
+    arrays = [cell.array if cell.rank else cell.array[..., None] for cell in cells]
+    batch = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
+    spread = [np.broadcast_to(array, (*batch, array.shape[-1])) for array in arrays]
+    return vector(np.concatenate(spread, axis=-1))

@@ -1,0 +1,1 @@
+"""Any robot with closed loops: closure files, configurations, inverse and forward dynamics."""

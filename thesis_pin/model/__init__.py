@@ -1,0 +1,1 @@
+"""Single robots, read and written: specifications, samples, inertias, URDFs, models."""

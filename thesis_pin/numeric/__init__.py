@@ -1,0 +1,1 @@
+"""Arrays, rotations, curves and sampled motions: mathematics that knows no robot."""

@@ -1,0 +1,149 @@
+"""Interpolation of tabulated curves as piecewise polynomials with exact derivatives.
+
+Every method returns a ``scipy.interpolate.PPoly``, so that values, rates and
+accelerations come from one object and users can go on with SciPy's tools.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
+
+from thesis_pin.errors import TrajectoryError
+from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.numeric.checks import choice
+
+
+def _nodes(t: ArrayLike, value: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and values of a curve, checked; each ``(n,)``."""
+    nodes, values = finite_array("t", t, None), finite_array("value", value, None)
+    if nodes.ndim != 1 or values.shape != nodes.shape or nodes.size < 2:
+        raise TrajectoryError(
+            f"{nodes.size} nodes and {values.size} values",
+            allowed="as many values as nodes, at least 2",
+        )
+    if (np.diff(nodes) <= 0).any():
+        k = int(np.argmax(np.diff(nodes) <= 0))
+        raise TrajectoryError(
+            f"time goes from {nodes[k]:g} to {nodes[k + 1]:g} at node {k + 1}",
+            allowed="strictly increasing t",
+        )
+    return nodes, values
+
+
+def quadratic(t: ArrayLike, value: ArrayLike) -> PPoly:
+    """Quadratic spline whose first piece is a straight line; C¹.
+
+    Args:
+        t: Nodes, strictly increasing, shape ``(n,)``, n ≥ 2.
+        value: Values at the nodes, shape ``(n,)``.
+
+    Returns:
+        Piecewise polynomial in t.
+
+    Source: Scout thesis, appendix C, equations C.2–C.5. The 3m equations are
+    solved piece by piece: each piece starts with the slope of the one before.
+    """
+    nodes, values = _nodes(t, value)
+    width, rise = np.diff(nodes), np.diff(values)
+    coefficients = np.zeros((3, len(width)))
+    slope = rise[0] / width[0]
+    for k in range(len(width)):
+        curvature = (rise[k] - slope * width[k]) / width[k] ** 2 if k else 0.0
+        coefficients[:, k] = curvature, slope, values[k]
+        slope += 2 * curvature * width[k]
+    return PPoly(coefficients, nodes)
+
+
+def linear(t: ArrayLike, value: ArrayLike) -> PPoly:
+    """Straight lines between the nodes; C⁰, so rates jump at every node."""
+    nodes, values = _nodes(t, value)
+    return PPoly(np.stack([np.diff(values) / np.diff(nodes), values[:-1]]), nodes)
+
+
+def cubic(t: ArrayLike, value: ArrayLike) -> PPoly:
+    """Cubic spline, C², at rest at both ends."""
+    return CubicSpline(*_nodes(t, value), bc_type="clamped")
+
+
+def free(t: ArrayLike, value: ArrayLike) -> PPoly:
+    """Cubic spline through samples of a motion that goes on at both ends (not-a-knot), C²."""
+    return CubicSpline(*_nodes(t, value), bc_type="not-a-knot")
+
+
+def quintic(t: ArrayLike, value: ArrayLike) -> PPoly:
+    """Quintic spline, C⁴, with zero rate and acceleration at both ends."""
+    ends = [(1, 0.0), (2, 0.0)]
+    return PPoly.from_spline(make_interp_spline(*_nodes(t, value), k=5, bc_type=(ends, ends)))
+
+
+METHODS: dict[str, Callable[[ArrayLike, ArrayLike], PPoly]] = {
+    "linear": linear,
+    "quadratic": quadratic,
+    "cubic": cubic,
+    "free": free,
+    "quintic": quintic,
+}
+"""Methods by the names used in files and on the command line."""
+
+
+def interpolate(t: ArrayLike, value: ArrayLike, method: str = "quadratic") -> PPoly:
+    """Curve through nodes by a named method.
+
+    Args:
+        t: Nodes, strictly increasing, shape ``(n,)``, n ≥ 2.
+        value: Values at the nodes, shape ``(n,)``.
+        method: One of :data:`METHODS`.
+
+    Returns:
+        Piecewise polynomial in t; at an inner node the piece on its right holds.
+
+    Raises:
+        UnknownName: No such method.
+        TrajectoryError: Too few nodes, unequal lengths or t not increasing.
+        NotFinite: A node or value is NaN or infinite.
+    """
+    choice("interpolation", method, list(METHODS))
+    return METHODS[method](t, value)
+
+
+def constant(start: float, end: float, value: float) -> PPoly:
+    """A curve that stays at one value."""
+    return PPoly(np.array([[value]]), np.array([start, end]))
+
+
+def polynomial(start: float, end: float, coefficients: Sequence[float]) -> PPoly:
+    """One piece given by its coefficients in t itself, highest power first.
+
+    The theses print their splines that way; PPoly counts from a piece's start.
+    """
+    shifted = np.poly1d(coefficients)(np.poly1d([1.0, start]))
+    return PPoly(np.atleast_1d(np.poly1d(shifted).coeffs)[:, None], np.array([start, end]))
+
+
+def jumps(curve: PPoly, order: int = 0) -> np.ndarray:
+    """Jumps of a curve, or of a derivative, at its inner knots, shape ``(knots − 2,)``."""
+    derivative = curve.derivative(order) if order else curve
+    width = np.diff(curve.x)[:-1]
+    before = np.zeros(len(width))
+    for coefficient in derivative.c[:, :-1]:
+        before = before * width + coefficient
+    return derivative(curve.x[1:-1]) - before
+
+
+def join(pieces: Sequence[PPoly]) -> PPoly:
+    """Curves that follow each other, as one piecewise polynomial.
+
+    Args:
+        pieces: Each begins where the one before ends.
+
+    Returns:
+        One curve; values may jump at a joint, where the later piece holds.
+    """
+    order = max(piece.c.shape[0] for piece in pieces)
+    padded = [np.pad(piece.c, ((order - piece.c.shape[0], 0), (0, 0))) for piece in pieces]
+    knots = np.concatenate([pieces[0].x, *(piece.x[1:] for piece in pieces[1:])])
+    return PPoly(np.concatenate(padded, axis=1), knots)

@@ -1,0 +1,330 @@
+"""What there is to see: a robot and its overlays over time, free of any robot's details.
+
+A scene is data. :mod:`thesis_pin.pages.drawing` makes items from Pinocchio models,
+:mod:`thesis_pin.pages.player` turns scenes into pages; nothing here knows of either.
+Every array's first axis is the scene's time; a NaN in an item's sample hides
+the item there. Lengths in metres, world frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
+
+GREY = "#9AA0A6"
+
+
+@dataclass(frozen=True)
+class Group:
+    """Items that are shown or hidden together, and their line in the legend.
+
+    Attributes:
+        name: What the items' ``group`` says.
+        label: Text of the legend.
+        colours: Colours of the legend with what each one means; a meaning may be empty.
+        visible: Whether it is shown at first.
+    """
+
+    name: str
+    label: str
+    colours: tuple[tuple[str, str], ...] = ()
+    visible: bool = True
+
+
+@dataclass(frozen=True)
+class Item:
+    """Common to everything that is drawn.
+
+    Attributes:
+        name: Unique name.
+        group: Name of its :class:`Group`.
+    """
+
+    name: str
+    group: str
+
+    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+        """Sampled arrays: name → values and shape, in which -1 stands for the scene's samples."""
+        raise NotImplementedError
+
+    def constants(self) -> dict[str, Any]:
+        """What doesn't change, JSON-ready or arrays."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Body(Item):
+    """A rigid shape.
+
+    Attributes:
+        geometry: ``{"type": "box", "size": …}``, ``cylinder`` and ``capsule`` and ``cone``
+            (``radius``, ``length``, along z), ``ellipsoid`` (``radii``) or ``mesh``
+            (``vertices`` ``(v, 3)``, ``faces`` ``(f, 3)``).
+        placement: Position and quaternion (x, y, z, w) over time, shape ``(n, 7)``.
+        local: The shape's placement in the moving frame, shape ``(4, 4)``.
+        colour: ``#rrggbb``.
+        opacity: 0 to 1.
+    """
+
+    geometry: dict[str, Any]
+    placement: np.ndarray
+    local: np.ndarray
+    colour: str = GREY
+    opacity: float = 1.0
+
+    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+        return {"placement": (self.placement, (-1, 7))}
+
+    def constants(self) -> dict[str, Any]:
+        return {
+            "geometry": self.geometry,
+            "local": self.local,
+            "colour": self.colour,
+            "opacity": self.opacity,
+        }
+
+
+@dataclass(frozen=True)
+class Ball(Item):
+    """A point, drawn as a ball.
+
+    Attributes:
+        position: Centre, shape ``(n, 3)``.
+        radius: Its radius [m].
+        colours: One colour, or several that ``level`` chooses from.
+        level: Index into ``colours`` over time, shape ``(n,)``; None for the first.
+    """
+
+    position: np.ndarray
+    radius: float
+    colours: tuple[str, ...]
+    level: np.ndarray | None = None
+
+    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+        return {"position": (self.position, (-1, 3)), **_level(self.level)}
+
+    def constants(self) -> dict[str, Any]:
+        return {"radius": self.radius, "colours": list(self.colours)}
+
+
+@dataclass(frozen=True)
+class Arrow(Item):
+    """A vector: its tip is at ``origin + scale · vector``.
+
+    Attributes:
+        origin: Where it starts, shape ``(n, 3)``.
+        vector: What it shows, in its own unit, shape ``(n, 3)``.
+        scale: Metres drawn for one unit.
+        radius: Radius of the shaft [m].
+        colour: ``#rrggbb``.
+        head: False draws a bar without a tip.
+    """
+
+    origin: np.ndarray
+    vector: np.ndarray
+    scale: float
+    radius: float
+    colour: str
+    head: bool = True
+
+    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+        return {"origin": (self.origin, (-1, 3)), "vector": (self.vector, (-1, 3))}
+
+    def constants(self) -> dict[str, Any]:
+        return {
+            "scale": self.scale,
+            "radius": self.radius,
+            "colour": self.colour,
+            "head": self.head,
+        }
+
+
+@dataclass(frozen=True)
+class Trace(Item):
+    """The way of a point: the whole of it faint, what has been covered bold.
+
+    Attributes:
+        points: Shape ``(n, 3)``.
+        radius: Radius of the line [m].
+        colour: ``#rrggbb``.
+    """
+
+    points: np.ndarray
+    radius: float
+    colour: str
+
+    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+        return {"points": (self.points, (-1, 3))}
+
+    def constants(self) -> dict[str, Any]:
+        return {"radius": self.radius, "colour": self.colour}
+
+
+@dataclass(frozen=True)
+class Polygon(Item):
+    """A flat, convex area that changes from sample to sample among a few outlines.
+
+    Attributes:
+        outlines: Corners in order, each ``(k, 3)``.
+        which: Index of the outline over time, -1 for none, shape ``(n,)``.
+        colour: ``#rrggbb``.
+        width: Width of its border [m].
+    """
+
+    outlines: tuple[np.ndarray, ...]
+    which: np.ndarray
+    colour: str
+    width: float
+
+    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+        return {"which": (self.which, (-1,))}
+
+    def constants(self) -> dict[str, Any]:
+        return {
+            "outlines": [np.asarray(outline, dtype=float) for outline in self.outlines],
+            "colour": self.colour,
+            "width": self.width,
+        }
+
+
+@dataclass(frozen=True)
+class Arc(Item):
+    """A turning arrow about the z axis of a moving frame, such as a torque.
+
+    Attributes:
+        placement: Position and quaternion (x, y, z, w) of the frame, shape ``(n, 7)``.
+        angle: Signed length of the arc [rad], at most 2π, shape ``(n,)``.
+        radius: Its radius [m].
+        colours: One colour, or several that ``level`` chooses from.
+        level: Index into ``colours`` over time, shape ``(n,)``; None for the first.
+    """
+
+    placement: np.ndarray
+    angle: np.ndarray
+    radius: float
+    colours: tuple[str, ...]
+    level: np.ndarray | None = None
+
+    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+        return {
+            "placement": (self.placement, (-1, 7)),
+            "angle": (self.angle, (-1,)),
+            **_level(self.level),
+        }
+
+    def constants(self) -> dict[str, Any]:
+        return {"radius": self.radius, "colours": list(self.colours)}
+
+
+@dataclass(frozen=True)
+class Readout:
+    """A value shown as text beside the picture.
+
+    Attributes:
+        label: What it is.
+        values: Numbers ``(n,)``, or one of ``texts`` by index ``(n,)``.
+        unit: Unit of the numbers.
+        digits: Digits after the point.
+        texts: What indices stand for; empty for numbers.
+    """
+
+    label: str
+    values: np.ndarray
+    unit: str = ""
+    digits: int = 1
+    texts: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Everything a page has to know.
+
+    Attributes:
+        title: Headline.
+        description: What a reader who can't see the picture should know of it.
+        time: Sample times [s], strictly increasing, shape ``(n,)``.
+        groups: Groups in the order of the legend.
+        items: What is drawn.
+        readouts: Values shown as text.
+        floor: Height of the floor [m], None for no floor.
+        forward: The way ahead on the floor, for the views from front and side.
+        camera: Camera position and the point it looks at, shape ``(2, 3)``; None
+            looks at the items from the right, ahead and above.
+    """
+
+    title: str
+    description: str
+    time: np.ndarray
+    groups: tuple[Group, ...]
+    items: tuple[Item, ...]
+    readouts: tuple[Readout, ...] = ()
+    floor: float | None = 0.0
+    forward: tuple[float, float] = (0.0, 1.0)
+    camera: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what no page could show.
+
+        Raises:
+            WrongShape, NotFinite, UnknownName, BadInput: Says which item and array.
+        """
+        time = np.asarray(self.time, dtype=float)
+        if time.ndim != 1 or len(time) < 2:
+            raise WrongShape("time", time.shape, "(n,) with n at least 2")
+        if not np.isfinite(time).all() or (np.diff(time) <= 0).any():
+            raise BadInput("time must be finite and increase strictly", where="scene")
+        known = [group.name for group in self.groups]
+        seen: set[str] = set()
+        for item in self.items:
+            if item.group not in known:
+                raise UnknownName("group", item.group, known, where=f"item {item.name!r}")
+            if item.name in seen:
+                raise BadInput(f"two items are called {item.name!r}", where="scene")
+            seen.add(item.name)
+            for name, (values, shape) in item.arrays().items():
+                wanted = tuple(len(time) if size == -1 else size for size in shape)
+                if np.shape(values) != wanted:
+                    raise WrongShape(f"{name} of item {item.name!r}", np.shape(values), str(wanted))
+                if np.isinf(values).any():
+                    where = np.argwhere(np.isinf(values))[0]
+                    raise NotFinite(f"{name} of item {item.name!r}", tuple(where.tolist()))
+        for readout in self.readouts:
+            if np.shape(readout.values) != time.shape:
+                raise WrongShape(
+                    f"values of readout {readout.label!r}",
+                    np.shape(readout.values),
+                    str(time.shape),
+                )
+
+
+def thinned(time: np.ndarray, most: int) -> np.ndarray:
+    """Indices of at most ``most`` evenly spread samples, both ends included.
+
+    Samples closer than a millionth of the whole, the two sides of one instant, count
+    as one: a page can't tell them apart.
+    """
+    moment = np.round((time - time[0]) / (time[-1] - time[0]) * 1e6)
+    apart = np.unique(moment, return_index=True)[1]
+    apart[-1] = len(time) - 1
+    return apart[
+        np.unique(np.linspace(0, len(apart) - 1, min(len(apart), most)).round().astype(int))
+    ]
+
+
+def frames(duration: float) -> int:
+    """Number of samples that shows a motion of some seconds smoothly: 60 a second, in bounds."""
+    return int(np.clip(round(60 * duration) + 1, 241, 1201))
+
+
+def levels(values: np.ndarray, bounds: Sequence[float]) -> np.ndarray:
+    """Index of the band each value lies in: 0 below the first bound, and so on up."""
+    return np.digitize(values, bounds).astype(float)
+
+
+def _level(level: np.ndarray | None) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+    return {} if level is None else {"level": (level, (-1,))}

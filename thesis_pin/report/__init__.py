@@ -1,0 +1,1 @@
+"""What torque reports share: summaries, branches, writers, figures."""
