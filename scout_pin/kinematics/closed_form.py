@@ -35,16 +35,25 @@ class ClosedForm:
         vx = m[3] - leg.y_6 * jx - leg.x_5 * ax - leg.x_0
         vy = m[7] - leg.y_6 * jy - leg.x_5 * ay
         vz = m[11] - leg.y_6 * jz - leg.x_5 * az + leg.z_1
-        ex, ey, ez = self._axis((vx, vy, vz), (ax, ay, az), free[1])
+        self.reach, self.a, self.j = (vx, vy, vz), (ax, ay, az), (jx, jy, jz)
+        ex, ey, ez = self._axis(free[1])
 
-        self.h = h = xp.sqrt(ex * ex + ey * ey)
-        if xp.some(yaw_free := h < TOLERANCES.singular):
+        h = xp.sqrt(ex * ex + ey * ey)
+        if xp.some(yaw_free := abs(az) < TOLERANCES.singular):
+            # e is ±z if v and a are level. By e alone one can't tell: near v along a
+            # rounding tilts it.
+            yaw_free = yaw_free & (abs(vz) <= TOLERANCES.singular * self.distance)
+            yaw_free = yaw_free & (
+                (self.sine_axis >= TOLERANCES.singular) | (h < TOLERANCES.singular)
+            )
+            ex, ey, h = (xp.where(yaw_free, 0.0, old) for old in (ex, ey, h))
+            ez = xp.where(yaw_free, xp.where(ez > 0.0, 1.0, -1.0), ez)
             safe, (c, s) = xp.where(yaw_free, 1.0, h), xp.cosine_sine(free[0])
             c, s = xp.where(yaw_free, c, ex / safe), xp.where(yaw_free, s, ey / safe)
             self.yaw = xp.where(yaw_free, free[0], xp.atan2(ey, ex))
         else:
             c, s, self.yaw = ex / h, ey / h, xp.atan2(ey, ex)
-        self.tilt = xp.atan2(h, ez)
+        self.h, self.tilt = h, xp.atan2(h, ez)
         # Components along i3 and j3 of the branch S_E = S_2 = +1.
         self.v = ez * (c * vx + s * vy) - h * vz, c * vy - s * vx
         self.foot = xp.atan2(c * ay - s * ax, ez * (c * ax + s * ay) - h * az)
@@ -53,18 +62,18 @@ class ClosedForm:
             jx * (ey * az - ez * ay) + jy * (ez * ax - ex * az) + jz * (ex * ay - ey * ax),
         )
 
-    def _axis(self, v: Any, a: Any, free: Any) -> tuple[Any, Any, Any]:
+    def _axis(self, free: Any) -> tuple[Any, Any, Any]:
         """e, perpendicular to v and a; where v is along a, the free axis, perpendicular to a."""
-        xp, (vx, vy, vz), (ax, ay, az) = self.xp, v, a
+        xp, (vx, vy, vz), (ax, ay, az) = self.xp, self.reach, self.a
         ex, ey, ez = vy * az - vz * ay, vz * ax - vx * az, vx * ay - vy * ax
         size = xp.sqrt(ex * ex + ey * ey + ez * ez)
-        length = xp.sqrt(vx * vx + vy * vy + vz * vz)
+        self.distance = length = xp.sqrt(vx * vx + vy * vy + vz * vz)
         self.sine_axis = size / xp.where(length > 0.0, length, 1.0)
         if xp.some(lost := self.sine_axis < TOLERANCES.singular):
             fx, fy, fz = free
-            # Where the free axis itself is along a, the torso's y.
+            # Where the free axis itself is along a, an axis of the foot.
             other = abs(fx * ax + fy * ay + fz * az) > 0.99
-            fx, fy, fz = (xp.where(other, y, f) for y, f in ((0.0, fx), (1.0, fy), (0.0, fz)))
+            fx, fy, fz = (xp.where(other, j, f) for j, f in zip(self.j, free, strict=True))
             ex, ey, ez = (xp.where(lost, f, e) for f, e in ((fx, ex), (fy, ey), (fz, ez)))
         along = ex * ax + ey * ay + ez * az  # rounding only, except for the free axis
         ex, ey, ez = ex - along * ax, ey - along * ay, ez - along * az

@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from scout_pin.kinematics.closed_form import ClosedForm, Free
+from scout_pin.kinematics.families import axis_bounds, yaw_bounds
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
 from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
@@ -27,6 +28,9 @@ from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
 from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
 from thesis_pin.tolerances import TOLERANCES
+
+_FREE_POSES = 64
+"""Singular poses worked on at a time: some hundred members of each family are tried."""
 
 _PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the knee each
 
@@ -36,12 +40,17 @@ def leg_inverse_kinematics(
 ) -> LegSolutions:
     """Every set of joint angles that brings a sole to a pose.
 
+    Where a singular pose leaves an angle free there are families of them, and each
+    branch stands for one family by one member: the reference's, if it keeps the joint
+    limits; otherwise the nearest to the reference that does, or, if none does, that
+    reaches. A branch is called unreachable only if no member of its family reaches.
+
     Args:
         leg: Geometry of the leg.
         torso_to_foot: Placement of the sole frame in the torso frame: a
             ``pin.SE3``, a sequence of them, or an array ``(..., 4, 4)``.
         reference: Angles θ [rad], ``(..., 6)`` or ``(6,)``, that fill in what a
-            singular pose leaves free.
+            singular pose leaves free; None for zero.
 
     Returns:
         The eight branches with validity, residuals and reasons.
@@ -64,8 +73,14 @@ def every_branch(
     if reference is not None:
         reference = spread("reference", finite_array("reference", reference, 6), stack)
         reference = reference.reshape(count, 6)
-    work = _few if count < FEW else _many
-    theta, excess, sine_axis, sine_hip = work(leg, target.reshape(count, 16), reference)
+    work, entries = _few if count < FEW else _many, target.reshape(count, 16)
+    theta, excess, sine_axis, sine_hip = work(leg, entries, reference)
+    if count and min(sine_axis.min(), sine_hip.min()) < TOLERANCES.singular:
+        free = np.flatnonzero(np.minimum(sine_axis, sine_hip) < TOLERANCES.singular)
+        for part in blocks(len(free), _FREE_POSES):
+            some = free[part]
+            given = np.zeros((len(some), 6)) if reference is None else reference[some]
+            theta[some], excess[some] = _members(leg, entries[some], given)
     if (beyond := excess > TOLERANCES.reach).any():
         theta[beyond] = np.nan
     return LegSolutions(
@@ -114,6 +129,50 @@ def _many(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) 
         theta[:, :, part] = wrap(theta[:, :, part] - leg.beta[:, None])
         sines[:, part] = chunk.sine_axis, chunk.h
     return theta.transpose(2, 0, 1), excess.T, sines[0], sines[1]
+
+
+def _members(
+    leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """θ ``(n, 8, 6)`` and excess ``(n, 8)`` of singular poses: one member of each family.
+
+    The reference's own value of what is free, if it keeps the joint limits; else the
+    nearest member that does; else, limits aside, likewise; else the nearest to reach.
+    """
+    count, columns = len(matrices), np.ascontiguousarray(matrices.T)
+    gamma_1, axis = _free(leg, ARRAYS, (reference + leg.beta).T)
+    given = ClosedForm(ARRAYS, leg, columns, (gamma_1, axis))
+    v, a, j = (np.stack(vector) for vector in (given.reach, given.a, given.j))
+    level = np.array([0.0, 0.0, 1.0])[:, None]
+    yaws = np.concatenate([gamma_1[None], yaw_bounds(leg, v, a)])
+    axes = np.stack([np.stack(axis), *np.broadcast_to(level, (len(yaws) - 1, 3, count))])
+    if (given.sine_axis < TOLERANCES.singular).any():
+        more = axis_bounds(leg, v, a, j)
+        axes = np.concatenate([axes, more])
+        yaws = np.concatenate([yaws, np.broadcast_to(gamma_1, (len(more), count))])
+    tried = len(yaws)
+    chunk = ClosedForm(
+        ARRAYS,
+        leg,
+        np.tile(columns, tried),
+        (yaws.ravel(), (axes[:, 0].ravel(), axes[:, 1].ravel(), axes[:, 2].ravel())),
+    )
+    gamma, gaps = np.empty((8, 6, tried * count)), np.empty((8, tried * count))
+    for k, pair in enumerate(_PAIRS):
+        gamma[2 * k], gamma[2 * k + 1], gaps[2 * k : 2 * k + 2] = chunk.solve(*pair)
+    theta = wrap(gamma - leg.beta[:, None]).reshape(8, 6, tried, count).transpose(2, 3, 0, 1)
+    excess = gaps.reshape(8, tried, count).transpose(1, 2, 0)
+    distance = np.abs(wrap(theta - reference[:, None, :])).sum(axis=-1)
+    distance[0] = -1.0  # the reference's own comes first
+    beyond = np.maximum(leg.lower - theta, theta - leg.upper).max(axis=-1)
+    reaches = excess <= TOLERANCES.reach
+    best = np.argmin(np.where(reaches, distance, 6 * np.pi + excess), axis=0)
+    kept = reaches & (beyond <= TOLERANCES.joint_limit)
+    best = np.where(kept.any(axis=0), np.argmin(np.where(kept, distance, np.inf), axis=0), best)
+    return (
+        np.take_along_axis(theta, best[None, ..., None], axis=0)[0],
+        np.take_along_axis(excess, best[None], axis=0)[0],
+    )
 
 
 def one_branch(
@@ -225,6 +284,6 @@ def follow_branch(
 def _free(leg: LegGeometry, xp: Elementwise, gamma: Any) -> Free:
     """What a reference, as γ with the joint first, says of γ1 and e; None is neutral."""
     if gamma is None:
-        return float(leg.beta[0]), (1.0, 0.0, 0.0)
+        gamma = leg.beta.tolist()
     (c1, s1), (c2, s2) = xp.cosine_sine(gamma[0]), xp.cosine_sine(gamma[1])
     return gamma[0], (c1 * s2, s1 * s2, c2)
