@@ -19,7 +19,7 @@ _HOMES = {
     "USEFUL_BRANCHES": "kinematics.geometry",
     "ALL_BRANCHES": "kinematics.geometry",
     "Path": "motion.path",
-    "load_path": "motion.path",
+    "load_path": "motion.files",
     "appendix_b": "motion.path",
     "torque_blocks": "dynamics.stream",
     "trajectory_report": "report.numbers",

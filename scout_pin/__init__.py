@@ -18,7 +18,7 @@ _HOMES = {
     "Gait": "motion.gait",
     "load_gait": "motion.files",
     "Contact": "model",
-    "joint_trajectory": "dynamics.inverse",
+    "joint_trajectory": "motion.trajectory",
     "inverse_dynamics": "dynamics.inverse",
     "torque_blocks": "dynamics.stream",
     "touchdown_impact": "dynamics.impact",

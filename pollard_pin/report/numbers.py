@@ -9,9 +9,10 @@ from typing import Any, Literal
 
 import numpy as np
 
+from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.dynamics.inverse import PollardDynamics, ThreeTorques, three_torques
 from pollard_pin.dynamics.reactions import joint_reactions
-from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, POSE_NAMES, Branch, one_branch
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
     Actuation,

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 
+from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.kinematics.forward import Assemblies
-from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, POSE_NAMES
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.report.numbers import TrajectoryReport

@@ -9,17 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import Impact, impacts
-from scout_pin.dynamics.inverse import (
-    ContactDynamics,
-    free_flyer_state,
-    inverse_dynamics,
-    joint_trajectory,
-    walking,
-)
+from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics, walking
 from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, Motion, RateJump
+from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin import __version__

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from scout_pin.kinematics.geometry import POSE_NAMES
+from scout_pin.coordinates import POSE_NAMES
 from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.command.parser import print_table, print_text
