@@ -22,7 +22,7 @@ _HOMES = {
     "load_path": "motion.files",
     "appendix_b": "motion.path",
     "torque_blocks": "dynamics.stream",
-    "trajectory_report": "report.numbers",
+    "trajectory_report": "report.document",
     "evaluate_workspace": "study.workspace",
 }
 

@@ -53,7 +53,7 @@ def _path(arguments: argparse.Namespace, specification: Any) -> Path:
 def trajectory(arguments: argparse.Namespace) -> int:
     """Work out a path and write or print its report."""
     from pollard_pin.model import load
-    from pollard_pin.report.numbers import trajectory_report
+    from pollard_pin.report.document import trajectory_report
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     path, branch = _path(arguments, robot.specification), _branch(arguments)
@@ -81,7 +81,7 @@ def trajectory(arguments: argparse.Namespace) -> int:
 def view(arguments: argparse.Namespace) -> int:
     """Show a path in the browser, or write it as a page."""
     from pollard_pin.model import load
-    from pollard_pin.report.numbers import trajectory_report
+    from pollard_pin.report.document import trajectory_report
     from pollard_pin.report.view import path_scene
     from thesis_pin.pages.scene import frames
 

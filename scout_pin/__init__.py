@@ -25,7 +25,7 @@ _HOMES = {
     "zero_moment_point": "dynamics.stability",
     "pressure_point": "dynamics.stability",
     "support_margin": "dynamics.stability",
-    "gait_report": "report.numbers",
+    "gait_report": "report.document",
 }
 
 __all__ = [*_HOMES, "__version__"]

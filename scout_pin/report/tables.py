@@ -14,7 +14,7 @@ from thesis_pin.report import branches
 
 if TYPE_CHECKING:  # inverse kinematics alone needs no report
     from scout_pin.model import Scout
-    from scout_pin.report.numbers import GaitReport
+    from scout_pin.report.document import GaitReport
 
 
 def print_report(report: GaitReport) -> None:
