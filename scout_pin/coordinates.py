@@ -35,21 +35,14 @@ def to_free_flyer(
         q ``(..., 19)``, v ``(..., 18)``, a ``(..., 18)``; the root's velocity is
         linear then angular, in the torso's axes, as Pinocchio has it.
     """
-    q, rates, second = _motion(finite_array("q", q, 18), v, a)
-    matrix, omega, alpha = euler_placement("xyz", q[..., 3:6], rates[..., 3:6], second[..., 3:6])
-    position = np.concatenate([q[..., :3], _quaternion(matrix), q[..., 6:]], axis=-1)
-    if v is None:
-        return position, None, None
-    v, a = rates, None if a is None else second
-    local = _in_axes(matrix, np.stack([v[..., :3], omega], axis=-2))
-    velocity = np.concatenate([local[..., 0, :], local[..., 1, :], v[..., 6:]], axis=-1)
-    if a is None:
-        return position, velocity, None
-    local_a = _in_axes(matrix, np.stack([a[..., :3], alpha], axis=-2))
-    # Pinocchio differentiates the components in the moving axes.
-    linear = local_a[..., 0, :] - np.cross(local[..., 1, :], local[..., 0, :])
-    acceleration = np.concatenate([linear, local_a[..., 1, :], a[..., 6:]], axis=-1)
-    return position, velocity, acceleration
+    position, rates, second = _motion(finite_array("q", q, 18), v, a)
+    s, ds, dds = (x.reshape(-1, 18) for x in (position, rates, second))
+    turn, omega, alpha = euler_placement("xyz", s[:, 3:6], ds[:, 3:6], dds[:, 3:6])
+    torso = BodyMotion(turn, s[:, :3], ds[:, :3], dds[:, :3], omega, alpha)
+    joints = JointTrajectory(np.zeros(len(s)), s[:, 6:], ds[:, 6:], dds[:, 6:])
+    state = free_flyer_state(torso, joints)
+    found = [x.reshape(*position.shape[:-1], x.shape[1]) for x in state]
+    return found[0], None if v is None else found[1], None if a is None else found[2]
 
 
 def to_thesis(
@@ -110,13 +103,17 @@ def to_thesis(
 def free_flyer_state(
     torso: BodyMotion, joints: JointTrajectory
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root."""
+    """Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root.
 
+    Args:
+        torso: Motion of the torso in the world.
+        joints: The twelve joints' trajectory.
+    """
     count, turn = len(joints.q), rows(torso.rotation)
     q, v, a = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
     linear, angular = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
     moving = into(turn, rows(torso.acceleration)) - cross(angular, linear)
-    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternions(turn).T, joints.q
+    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternions(torso.rotation), joints.q
     v[:, :3], v[:, 3:6], v[:, 6:] = linear.T, angular.T, joints.v
     a[:, :3], a[:, 3:6], a[:, 6:] = moving.T, into(turn, rows(torso.alpha)).T, joints.a
     return q, v, a
@@ -132,22 +129,9 @@ def _motion(q: np.ndarray, v: Any, a: Any) -> tuple[np.ndarray, ...]:
     return together(q=q, v=v, a=a)
 
 
-def _quaternion(matrix: np.ndarray) -> np.ndarray:
-    """Unit quaternions (x, y, z, w) of rotations: ``(..., 3, 3)`` → ``(..., 4)``."""
-    from scipy.spatial.transform import Rotation
-
-    flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
-    return flat.reshape(*matrix.shape[:-2], 4)
-
-
 def _rotation_matrix(quaternion: np.ndarray) -> np.ndarray:
-    """Inverse of :func:`_quaternion`; quaternions of any length but zero."""
+    """Rotations of quaternions (x, y, z, w), not zero: ``(..., 4)`` → ``(..., 3, 3)``."""
     from scipy.spatial.transform import Rotation
 
     flat = Rotation.from_quat(quaternion.reshape(-1, 4)).as_matrix()
     return flat.reshape(*quaternion.shape[:-1], 3, 3)
-
-
-def _in_axes(matrix: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Components of vectors ``(..., k, 3)`` in the axes of ``(..., 3, 3)``."""
-    return np.einsum("...ji,...kj->...ki", matrix, vectors)

@@ -22,9 +22,9 @@ from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.report import verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin import __version__
 from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.workers import silent
+from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/trajectory-report"
 VERSION = 1

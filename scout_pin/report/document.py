@@ -17,9 +17,9 @@ from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import verdict
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
-from thesis_pin import __version__
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.workers import silent
+from thesis_pin.version import __version__
 
 SCHEMA = "scout-pin/gait-report"
 VERSION = 1
