@@ -14,7 +14,7 @@ import processes
 import scout
 from timing import Comparison
 
-from thesis_pin.command.parser import print_table
+from thesis_pin.command.output import print_table
 
 SUITES: dict[str, Callable[[], list[Comparison]]] = {
     "scout": lambda: scout.kinematics() + scout.dynamics(),

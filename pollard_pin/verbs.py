@@ -7,13 +7,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from thesis_pin.command import verbs
-from thesis_pin.command.parser import (
-    LIMIT_VIOLATED,
-    OK,
-    print_table,
-    print_text,
-    run_view,
-)
+from thesis_pin.command.output import print_table, print_text
+from thesis_pin.command.parser import LIMIT_VIOLATED, OK, run_view
 from thesis_pin.command.progress import LONG, Bar
 from thesis_pin.command.verbs import show, write_report
 from thesis_pin.files import write_file, write_folder

@@ -20,7 +20,7 @@ from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
 from thesis_pin.numeric.checks import choice
-from thesis_pin.numeric.rotations import euler_placement, euler_rate_matrix, invert
+from thesis_pin.numeric.rotations import euler_placement, euler_rate_matrix, invert, quaternions
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
@@ -141,7 +141,7 @@ class Scout(LoadedRobot):
         matrix, omega, alpha = euler_placement(
             "xyz", q[..., 3:6], rates[..., 3:6], second[..., 3:6]
         )
-        position = np.concatenate([q[..., :3], _quaternion(matrix), q[..., 6:]], axis=-1)
+        position = np.concatenate([q[..., :3], quaternions(matrix), q[..., 6:]], axis=-1)
         if v is None:
             return position, None, None
         v, a = rates, None if a is None else second
@@ -353,16 +353,8 @@ def _motion(q: np.ndarray, v: Any, a: Any) -> tuple[np.ndarray, ...]:
     return together(q=q, v=v, a=a)
 
 
-def _quaternion(matrix: np.ndarray) -> np.ndarray:
-    """Unit quaternions (x, y, z, w) of rotations: ``(..., 3, 3)`` → ``(..., 4)``."""
-    from scipy.spatial.transform import Rotation
-
-    flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
-    return flat.reshape(*matrix.shape[:-2], 4)
-
-
 def _rotation_matrix(quaternion: np.ndarray) -> np.ndarray:
-    """Inverse of :func:`_quaternion`; quaternions of any length but zero."""
+    """Rotations of quaternions (x, y, z, w), not zero: ``(..., 4)`` → ``(..., 3, 3)``."""
     from scipy.spatial.transform import Rotation
 
     flat = Rotation.from_quat(quaternion.reshape(-1, 4)).as_matrix()

@@ -35,6 +35,14 @@ class BadInput(ThesisPinError, ValueError):
         super().__init__(text)
 
 
+class CannotWrite(BadInput):
+    """An output can't be written where it was asked for; the commands end with exit code 3."""
+
+
+class Busy(CannotWrite):
+    """Another run is writing to the same place."""
+
+
 @dataclass(frozen=True)
 class Problem:
     """One thing wrong in a file.

@@ -34,14 +34,11 @@ class PollardDynamics:
         loop_force: On the forearm at each ball joint, world axes [N], ``(..., 2, 3)``;
             the rod feels the opposite.
         joint_force: RNEA's torques of the open tree [N·m], shape ``(..., 12)``.
-        separation: Sine of the angle between the two rods' pulls on the elbow joints,
-            shape ``(...)``; where it vanishes the forces are undetermined.
     """
 
     torque: np.ndarray
     loop_force: np.ndarray
     joint_force: np.ndarray
-    separation: np.ndarray
 
 
 def tree_torques(pool: pin.ModelPool, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> np.ndarray:
@@ -51,7 +48,7 @@ def tree_torques(pool: pin.ModelPool, q: np.ndarray, v: np.ndarray, a: np.ndarra
     return np.asarray(pin.rneaInParallel(1, pool, *columns)).reshape(12, -1).T
 
 
-def loop_forces(posture: Posture, tau: np.ndarray) -> tuple[Vector, Vector, np.ndarray]:
+def loop_forces(posture: Posture, tau: np.ndarray) -> tuple[Vector, Vector]:
     """Forces on the forearm at the two ball joints that leave every passive joint free.
 
     Args:
@@ -59,7 +56,7 @@ def loop_forces(posture: Posture, tau: np.ndarray) -> tuple[Vector, Vector, np.n
         tau: RNEA's torques of the open tree [N·m], shape ``(12, n)``.
 
     Returns:
-        Two forces [N], each ``(3, n)``, and the sine of :class:`PollardDynamics`.
+        Two forces [N], each ``(3, n)``.
 
     Raises:
         SingularPose: The forces aren't determined at some sample.
@@ -98,7 +95,7 @@ def loop_forces(posture: Posture, tau: np.ndarray) -> tuple[Vector, Vector, np.n
         )
     one = (rest[0] * pull[1][1] - pull[0][1] * rest[1]) / det
     two = (pull[0][0] * rest[1] - pull[1][0] * rest[0]) / det
-    return across[0] + one * units[0], across[1] + two * units[1], sine
+    return across[0] + one * units[0], across[1] + two * units[1]
 
 
 def motor_torques(posture: Posture, tau: np.ndarray, forces: tuple[Vector, Vector]) -> np.ndarray:
@@ -151,14 +148,13 @@ def inverse_dynamics(
     flat = [np.broadcast_to(x, q.shape).reshape(-1, 12) for x in (q, v, a)]
     tau = tree_torques(pool, *flat)
     rows = np.ascontiguousarray(tau.T)
-    one, two, sine = loop_forces(posture, rows)
+    one, two = loop_forces(posture, rows)
     torque = motor_torques(posture, rows, (one, two))
     shape = q.shape[:-1]
     return PollardDynamics(
         np.ascontiguousarray(torque.T).reshape(*shape, 6),
         np.ascontiguousarray(np.stack([one, two]).transpose(2, 0, 1)).reshape(*shape, 2, 3),
         tau.reshape(*shape, 12),
-        sine.reshape(shape),
     )
 
 

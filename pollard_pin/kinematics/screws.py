@@ -37,7 +37,6 @@ class Posture:
         rods: The rod as a vector; two arrays.
         pitch_axes: Axes of θ65i; two arrays.
         yaw_axes: Axes of θ76i; two arrays.
-        rod_x: x axes of frames 6i (before θ76i); two arrays.
     """
 
     SERIAL_NAMES: ClassVar[tuple[str, ...]] = (
@@ -63,7 +62,6 @@ class Posture:
     rods: tuple[Vector, Vector]
     pitch_axes: tuple[Vector, Vector]
     yaw_axes: tuple[Vector, Vector]
-    rod_x: tuple[Vector, Vector]
 
     @classmethod
     def of(cls, geometry: Geometry, angles: np.ndarray) -> Posture:
@@ -171,8 +169,8 @@ class Posture:
 
 def _side(
     geometry: Geometry, i: int, c: np.ndarray, s: np.ndarray, zero: np.ndarray
-) -> tuple[Vector, Vector, Vector, Vector, Vector]:
-    """Arm, rod, axes of θ65i and θ76i and x of frame 6i, in the world."""
+) -> tuple[Vector, Vector, Vector, Vector]:
+    """Arm, rod, axes of θ65i and θ76i, in the world."""
     k = 6 + 3 * i
     cb, sb = np.cos(geometry.beta_54[i]), np.sin(geometry.beta_54[i])
     along = np.stack([c[k], s[k], zero])
@@ -181,4 +179,4 @@ def _side(
     x = c[k + 1] * along - s[k + 1] * up
     yaw = s[k + 1] * along + c[k + 1] * up
     rod = geometry.x_87[i] * (c[k + 2] * x + s[k + 2] * pitch)
-    return geometry.x_43[i] * along, rod, pitch, yaw, x
+    return geometry.x_43[i] * along, rod, pitch, yaw

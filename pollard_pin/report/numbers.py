@@ -31,12 +31,12 @@ from pollard_pin.specification import (
     JOINT_NAMES,
     JOINT_SYMBOLS,
 )
-from thesis_pin import __version__
 from thesis_pin.model.inertia import Reading
 from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report.summary import ActuatorSummary, summarise
+from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/trajectory-report"
 VERSION = 1

@@ -13,7 +13,7 @@ from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.report.numbers import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin.command.parser import print_table, print_text
+from thesis_pin.command.output import print_table, print_text
 from thesis_pin.errors import Unreachable
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.closures import ClosedRobot

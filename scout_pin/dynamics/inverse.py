@@ -151,7 +151,7 @@ def free_flyer_state(
     q, v, a = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
     linear, angular = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
     moving = into(turn, rows(torso.acceleration)) - cross(angular, linear)
-    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternions(turn).T, joints.q
+    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternions(torso.rotation), joints.q
     v[:, :3], v[:, 3:6], v[:, 6:] = linear.T, angular.T, joints.v
     a[:, :3], a[:, 3:6], a[:, 6:] = moving.T, into(turn, rows(torso.alpha)).T, joints.a
     return q, v, a

@@ -16,7 +16,7 @@ from scipy.interpolate import PPoly
 from scout_pin.kinematics.geometry import POSE_NAMES
 from scout_pin.motion.gait import BODIES, Gait, Phase
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
-from thesis_pin.model.samples import Row, check_increasing, check_width, numbers, read_rows
+from thesis_pin.model.samples import Line, check_increasing, check_width, numbers, read_rows
 from thesis_pin.model.specification import Key, Positive, Strict, read_toml
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
@@ -280,7 +280,7 @@ def _sampled(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:
     return constant(t[0], t[-1], float(values[0]))
 
 
-def _csv_phases(rows: Sequence[Row], column: int, t: np.ndarray) -> Iterator[Phase]:
+def _csv_phases(rows: Sequence[Line], column: int, t: np.ndarray) -> Iterator[Phase]:
     """Runs of equal support; a change happens at the first sample that shows it."""
     names = [row.cells[column] for row in rows]
     for row, name in zip(rows, names, strict=True):

@@ -9,7 +9,7 @@ import numpy as np
 from scout_pin.model import Scout
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, LINK_NAMES, SIDES
 from scout_pin.urdf import JOINT_AXES
-from thesis_pin.command.parser import print_table, print_text
+from thesis_pin.command.output import print_table, print_text
 
 
 def document(robot: Scout) -> dict[str, Any]:

@@ -22,11 +22,11 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, Motion, RateJump
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
-from thesis_pin import __version__
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report.summary import ActuatorSummary, summarise
+from thesis_pin.version import __version__
 
 SCHEMA = "scout-pin/gait-report"
 VERSION = 1

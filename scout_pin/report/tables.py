@@ -9,7 +9,7 @@ import numpy as np
 from scout_pin.kinematics.geometry import POSE_NAMES
 from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
 from scout_pin.specification import JOINT_SYMBOLS
-from thesis_pin.command.parser import print_table, print_text
+from thesis_pin.command.output import print_table, print_text
 from thesis_pin.report import branches
 
 if TYPE_CHECKING:  # inverse kinematics alone needs no report

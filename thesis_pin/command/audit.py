@@ -62,7 +62,8 @@ def run_verb(
     from thesis_pin.audit import text as faces
     from thesis_pin.audit.document import document
     from thesis_pin.audit.page import page
-    from thesis_pin.command.parser import OK, print_entries, print_table, print_text
+    from thesis_pin.command.output import print_entries, print_table, print_text
+    from thesis_pin.command.parser import OK
     from thesis_pin.command.progress import track
     from thesis_pin.files import write_file
     from thesis_pin.report.summary import json_bytes

@@ -10,7 +10,7 @@ import argparse
 import os
 import stat
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -150,13 +150,13 @@ def count(name: str, least: int, most: int = MOST) -> Callable[[str], int]:
 
 def run_view(scene: Scene, arguments: argparse.Namespace) -> None:
     """Write a scene to the file, or serve it, as the options of a ``view`` verb ask."""
-    from thesis_pin.pages import player as viewer
+    from thesis_pin.pages import player, serving
 
     if arguments.html:
-        viewer.write_html(scene, arguments.html, speed=arguments.speed)
+        player.write_html(scene, arguments.html, speed=arguments.speed)
         print(f"wrote {arguments.html}", file=sys.stderr)
         return
-    viewer.show(
+    serving.show(
         scene,
         speed=arguments.speed,
         port=arguments.port,
@@ -164,40 +164,3 @@ def run_view(scene: Scene, arguments: argparse.Namespace) -> None:
         hold=arguments.hold,
         say=lambda text: print(text, file=sys.stderr, flush=True),
     )
-
-
-def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: str = "") -> None:
-    """Print a table that fits 80 columns; the first column is text, the rest numbers."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(title=title or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for k, name in enumerate(columns):
-        table.add_column(name, justify="right" if k else "left", no_wrap=True)
-    for row in rows:
-        table.add_row(*row)
-    Console(highlight=False, markup=False).print(table)
-
-
-def print_text(*paragraphs: str) -> None:
-    """Print paragraphs wrapped to the terminal's width."""
-    from rich.console import Console
-
-    console = Console(highlight=False, markup=False)
-    for paragraph in paragraphs:
-        console.print(paragraph)
-
-
-def print_entries(entries: Iterable[tuple[str, str]]) -> None:
-    """Print labels with their texts beside them, wrapped to the terminal's width."""
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table.grid(padding=(0, 2))
-    table.add_column(no_wrap=True)
-    table.add_column(overflow="fold")
-    for label, text in entries:
-        table.add_row(label, Text(text))
-    Console(highlight=False, markup=False).print(table)

@@ -19,7 +19,7 @@ from thesis_pin.model.specification import read_text
 
 
 @dataclass(frozen=True)
-class Row:
+class Line:
     """A line of a CSV file.
 
     Attributes:
@@ -31,7 +31,7 @@ class Row:
     cells: tuple[str, ...]
 
 
-def read_rows(kind: str, file: str | Path) -> list[Row]:
+def read_rows(kind: str, file: str | Path) -> list[Line]:
     """Lines of a CSV file, at least one; their widths are for :func:`check_width`.
 
     Args:
@@ -47,7 +47,7 @@ def read_rows(kind: str, file: str | Path) -> list[Row]:
         for number, cells in enumerate(csv.reader(lines), start=1):
             stripped = tuple(cell.strip() for cell in cells)
             if any(stripped) and not stripped[0].startswith("#"):
-                rows.append(Row(f"{file}:{number}", stripped))
+                rows.append(Line(f"{file}:{number}", stripped))
     except csv.Error as error:
         raise BadInput(f"the {kind} isn't CSV: {error}", where=str(file)) from None
     if not rows:
@@ -55,7 +55,7 @@ def read_rows(kind: str, file: str | Path) -> list[Row]:
     return rows
 
 
-def check_width(rows: Sequence[Row]) -> None:
+def check_width(rows: Sequence[Line]) -> None:
     """Refuse lines that are longer or shorter than the first.
 
     Raises:
@@ -78,7 +78,7 @@ def finite(cell: str) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def numbers(rows: Sequence[Row], columns: Sequence[int], names: Sequence[str]) -> np.ndarray:
+def numbers(rows: Sequence[Line], columns: Sequence[int], names: Sequence[str]) -> np.ndarray:
     """Some columns as numbers, shape ``(rows, columns)``.
 
     Args:
@@ -103,7 +103,7 @@ def numbers(rows: Sequence[Row], columns: Sequence[int], names: Sequence[str]) -
     return table
 
 
-def check_increasing(rows: Sequence[Row], time: np.ndarray) -> None:
+def check_increasing(rows: Sequence[Line], time: np.ndarray) -> None:
     """Refuse samples whose time doesn't increase strictly.
 
     Raises:

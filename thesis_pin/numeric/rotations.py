@@ -138,14 +138,15 @@ def euler_rate_matrix(axes: str, angles: np.ndarray) -> np.ndarray:
 
 
 def quaternions(matrix: np.ndarray) -> np.ndarray:
-    """Unit quaternions (x, y, z, w) of rotations, sample last: ``(3, 3, n)`` → ``(4, n)``."""
-    r = matrix
+    """Unit quaternions (x, y, z, w) of rotations: ``(..., 3, 3)`` → ``(..., 4)``."""
+    r = np.moveaxis(matrix, (-2, -1), (0, 1))
     trace = r[0, 0] + r[1, 1] + r[2, 2]
     if not (trace > 0).all():
         from scipy.spatial.transform import Rotation
 
-        return Rotation.from_matrix(r.transpose(2, 0, 1)).as_quat().T
+        flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
+        return flat.reshape(*matrix.shape[:-2], 4)
     # No turn beyond 120°, the usual case: w is at least 1/2, and the rest follow from it.
     w = np.sqrt(1.0 + trace) / 2
-    vector = np.stack([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]]) / (4 * w)
-    return np.concatenate([vector, w[None]])
+    x, y, z = np.stack([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]]) / (4 * w)
+    return np.stack([x, y, z, w], axis=-1)

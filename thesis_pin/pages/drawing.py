@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thesis_pin.errors import BadInput, NotFinite, WrongShape
+from thesis_pin.numeric.rotations import quaternions
 from thesis_pin.pages.scene import Arrow, Ball, Body, Item
 
 if TYPE_CHECKING:
@@ -22,11 +23,8 @@ OPEN, CLOSED = "#D55E00", "#CC79A7"
 
 def placements(se3: Any) -> np.ndarray:
     """Positions and quaternions (x, y, z, w) of transforms: ``(..., 4, 4)`` → ``(..., 7)``."""
-    from scipy.spatial.transform import Rotation
-
     matrices = np.asarray(se3, dtype=float)
-    flat = Rotation.from_matrix(matrices[..., :3, :3].reshape(-1, 3, 3)).as_quat()
-    turned = flat.reshape(*matrices.shape[:-2], 4)
+    turned = quaternions(matrices[..., :3, :3])
     return np.concatenate([matrices[..., :3, 3], turned], axis=-1)
 
 

@@ -1,10 +1,11 @@
 """Scenes as pages: one file to mail, or served on this machine only.
 
-One player for both (:mod:`thesis_pin.pages.serving` is the second), drawn with the three.js and camera controls that meshcat
-brings. The whole motion is in the page and the browser plays it on its own
-clock, so no frame ever waits for a socket, and a page that loads late misses
-nothing. Libraries and samples are compressed inside the page; its content
-security policy forbids every request to anywhere else.
+One player for both, drawn with the three.js and camera controls that meshcat
+brings; :mod:`thesis_pin.pages.serving` shows it live. The whole motion is in the
+page and the browser plays it on its own clock, so no frame ever waits for a
+socket, and a page that loads late misses nothing. Libraries and samples are
+compressed inside the page; its content security policy forbids every request
+to anywhere else.
 
 Example, for any Pinocchio model::
 
@@ -33,8 +34,6 @@ from thesis_pin.errors import BadInput
 from thesis_pin.files import write_file
 from thesis_pin.numeric.checks import instance, real, shown
 from thesis_pin.pages.scene import Item, Scene
-
-_INSTALL = "pip install 'thesis-pin[viewer]'"
 
 
 def html(scene: Scene, *, speed: float = 1.0) -> bytes:
@@ -79,12 +78,7 @@ def player_parts(scene: Scene) -> dict[str, Any]:
 
 def render(template: str, **values: Any) -> bytes:
     """A page from a template of ``thesis_pin/pages/web``; every value is escaped by default."""
-    try:
-        import jinja2
-    except ImportError:
-        raise BadInput(
-            "pages need jinja2, which isn't installed", remedy=f"Install it: {_INSTALL}"
-        ) from None
+    import jinja2
 
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(web_file),
@@ -116,7 +110,7 @@ def package_file(package: str, path: str) -> bytes:
     for folder in (found.submodule_search_locations or ()) if found else ():
         if (file := Path(folder, path)).is_file():
             return file.read_bytes()
-    raise BadInput(f"{path} is missing", where=package, remedy=f"Install it: {_INSTALL}")
+    raise BadInput(f"{path} is missing", where=package, remedy=f"Install it: pip install {package}")
 
 
 def _meshcat_bundle() -> bytes:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import errno
 import json
-import math
 import sys
 import threading
 from collections.abc import Callable
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import ClassVar
 
 from thesis_pin.errors import BadInput
 from thesis_pin.pages.browser import directions, graphical
@@ -119,16 +117,19 @@ class _Server(ThreadingHTTPServer):
     daemon_threads = True
     request_queue_size = 512  # connections that may wait while a thread is made for each
 
+    def __init__(self, page: bytes, frames: Callable[[float], None], port: int) -> None:
+        self.page, self.frames = page, frames
+        super().__init__((HOST, port), _Handler)
+
     def handle_error(self, request: object, client_address: object) -> None:
         """What goes wrong in a request ends it; its text is a stranger's and isn't printed."""
 
 
 def _listen(page: bytes, frames: Callable[[float], None], port: int | None) -> _Server:
-    handler = type("Handler", (_Handler,), {"page": page, "frames": staticmethod(frames)})
     last = min(DEFAULT_PORT + TRIED, 65536)
     for candidate in (port,) if port is not None else range(DEFAULT_PORT, last):
         try:
-            return _Server((HOST, candidate), handler)
+            return _Server(page, frames, candidate)
         except (OSError, OverflowError) as error:
             busy = isinstance(error, OSError) and error.errno == errno.EADDRINUSE
             if port is None and busy:
@@ -145,13 +146,12 @@ def _listen(page: bytes, frames: Callable[[float], None], port: int | None) -> _
 
 
 class _Handler(BaseHTTPRequestHandler):
-    page: ClassVar[bytes]
-    frames: ClassVar[Callable[[float], None]]
+    server: _Server
     timeout = PATIENCE
 
     def do_GET(self) -> None:
         if self._is_ours() and self.path == "/":
-            self._answer(200, self.page)
+            self._answer(200, self.server.page)
         else:
             self._answer(404)
 
@@ -167,7 +167,7 @@ class _Handler(BaseHTTPRequestHandler):
         elif (rate := _rate(self.rfile.read(int(length)))) is None:
             self._answer(400)
         else:
-            self.frames(rate)
+            self.server.frames(rate)
             self._answer(204)
 
     def _is_ours(self) -> bool:
@@ -203,4 +203,4 @@ def _rate(body: bytes) -> float | None:
         return None
     if isinstance(rate, bool) or not isinstance(rate, int | float):
         return None
-    return float(rate) if math.isfinite(rate) and 0 <= rate <= 1000 else None
+    return float(rate) if 0 <= rate <= 1000 else None
