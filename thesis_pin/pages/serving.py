@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
-import sys
+import logging
 import threading
 from collections.abc import Callable
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -37,7 +37,7 @@ def show(
     port: int | None = None,
     browser: bool = True,
     hold: float | None = None,
-    say: Callable[[str], None] = lambda text: print(text, file=sys.stderr),
+    say: Callable[[str], None] = logging.getLogger(__name__).warning,
 ) -> None:
     """Serve a scene on 127.0.0.1 until interrupted (Ctrl-C) or ``hold`` has passed.
 
@@ -48,7 +48,8 @@ def show(
         browser: Whether to open the page in the user's browser. Over SSH and where
             only a text browser is at hand, ``say`` is told how to reach it instead.
         hold: Seconds to serve; None for ever.
-        say: Told the address, and when the browser can't draw every frame.
+        say: Told the address, and when the browser can't draw every frame; left out,
+            a log, which Python writes on standard error unless told otherwise.
 
     Raises:
         BadInput: The port is taken or not allowed.
