@@ -105,7 +105,8 @@ class Pollard(ClosedRobot):
         Args:
             pose: (x, y, z, ψ, θ, φ), shape ``(..., 6)``.
             branch: One :class:`Branch`, several, ``"useful"`` (16) or ``"all"`` (128).
-            reference: Angles that fill in what a straight wrist leaves free.
+            reference: Angles that fill in what a singular pose leaves free; see
+                :func:`pollard_pin.kinematics.inverse.inverse_kinematics`.
 
         Returns:
             Angles ``(..., 12)`` on one branch, ``(..., branches, 12)`` on several.

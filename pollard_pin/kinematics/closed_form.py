@@ -19,11 +19,13 @@ from thesis_pin.tolerances import TOLERANCES
 class ClosedForm:
     """Angles of one chunk of poses; what several branches share is computed once.
 
-    Works on floats and arrays alike.
+    Works on floats and arrays alike. ``free`` holds the twelve angles that stand in
+    for those a singular pose leaves free; after :meth:`solve`, ``loose`` says where
+    θ21 or θ43 was one of them, so that other values may close the side chains.
     """
 
-    def __init__(self, xp: Elementwise, geometry: Geometry, pose: Any, roll: Any) -> None:
-        self.xp, self.geometry, self.roll = xp, geometry, roll
+    def __init__(self, xp: Elementwise, geometry: Geometry, pose: Any, free: Any) -> None:
+        self.xp, self.geometry, self.free, self.loose = xp, geometry, free, False
         self.memo: dict[tuple[Any, ...], Any] = {}
         x, y, z, psi, theta, phi = pose
         (cp, sp), (ct, st), (cf, sf) = (xp.cosine_sine(a) for a in (psi, theta, phi))
@@ -72,18 +74,32 @@ class ClosedForm:
         g, xp = self.geometry, self.xp
         wx, wy, wz = self.W
         dz = wz - g.z_10
-        square = wx * wx + wy * wy + dz * dz
-        cosine = self._ratio(
-            square + g.x_32 * g.x_32 - g.forearm * g.forearm, 2 * g.x_32 * self._hypot(wx, dz)
-        )
-        theta = xp.atan2(-dz, wx) + e0 * self._acos(cosine)
+        radius, height = self._hypot(wx, dz), wx * wx + wy * wy + dz * dz
+        value = height + g.x_32 * g.x_32 - g.forearm * g.forearm
+        cosine = self._ratio(value, 2 * g.x_32 * radius)
+        line = xp.atan2(-dz, wx)
+        theta, reach = line + e0 * self._acos(cosine), TOLERANCES.reach
+        around, aside = radius <= reach, abs(radius - g.x_32) <= reach
+        if not xp.some(around | aside):
+            c, s = xp.cosine_sine(theta)
+            return theta, cosine, c, s, c * wx - s * dz - g.x_32, wy, s * wx + c * dz, aside
+        # W on the shoulder's axis leaves θ21 free; a forearm along y, θ43, with the elbow
+        # straight, whose angle the arccosine knows to half the digits only.
+        around = around & (abs(value) <= 2 * g.x_32 * reach)
+        aside = aside & (abs(abs(wy) - g.forearm) <= reach)
+        self.loose = loose = around | aside
+        theta = xp.where(around, self.free[0], xp.where(aside, line, theta))
+        cosine = xp.where(loose, 1.0, cosine)
         c, s = xp.cosine_sine(theta)
-        return theta, cosine, c, s, c * wx - s * dz - g.x_32, wy, s * wx + c * dz
+        x, z = c * wx - s * dz - g.x_32, s * wx + c * dz
+        return theta, cosine, c, s, xp.where(aside, 0.0, x), wy, xp.where(aside, 0.0, z), aside
 
     def _forearm(self, e0: int, f0: int) -> tuple[Any, ...]:
         g, xp = self.geometry, self.xp
-        _, _, c21, s21, X, Y, Z = self._memo(self._shoulder, e0)
+        _, _, c21, s21, X, Y, Z, aside = self._memo(self._shoulder, e0)
         theta_43 = xp.atan2(-f0 * Z, f0 * X)
+        if xp.some(aside):
+            theta_43 = xp.where(aside, self.free[1], theta_43)
         theta_54 = xp.atan2(Y, f0 * self._hypot(X, Z))
         (c43, s43), (c54, s54) = xp.cosine_sine(theta_43), xp.cosine_sine(theta_54)
         ca, sa = c21 * c43 - s21 * s43, s21 * c43 + c21 * s43
@@ -102,7 +118,7 @@ class ClosedForm:
         b00, b10, b20 = entry(0, 0), entry(1, 0), entry(2, 0)
         theta_1615 = xp.atan2(w * b20, w * b10)
         if xp.some(straight := self._hypot(b10, b20) < TOLERANCES.singular):
-            theta_1615 = xp.where(straight, self.roll, theta_1615)
+            theta_1615 = xp.where(straight, self.free[3], theta_1615)
         # With θ1615 known the others follow from Rx(−θ1615) B, also where it is free.
         c, s = xp.cosine_sine(theta_1615)
         theta_1716 = xp.atan2(c * b10 + s * b20, b00)
@@ -117,9 +133,14 @@ class ClosedForm:
             row[0] * ax + row[1] * ay + row[2] * az + p for row, p in zip(F, elbow, strict=True)
         )
         dx, dy, h = sx, sy - y_10, sz + z_32
-        square = dx * dx + dy * dy + h * h
-        cosine = self._ratio(square + arm * arm - rod * rod, 2 * arm * self._hypot(dx, dy))
-        theta = xp.atan2(dy, dx) + e * self._acos(cosine)
+        radius, square = self._hypot(dx, dy), dx * dx + dy * dy + h * h
+        value = square + arm * arm - rod * rod
+        cosine = self._ratio(value, 2 * arm * radius)
+        theta, reach = xp.atan2(dy, dx) + e * self._acos(cosine), TOLERANCES.reach
+        if xp.some(above := radius <= reach):  # its base: θ21i is free if the rod fits
+            above = above & (abs(value) <= 2 * arm * reach)
+            cosine = xp.where(above, 1.0, cosine)
+            theta = xp.where(above, self.free[6 + 3 * i], theta)
         return theta, cosine, dx, dy, h
 
     def _rod(self, e0: int, f0: int, i: int, e: int, f: int) -> tuple[Any, Any]:
@@ -129,4 +150,7 @@ class ClosedForm:
         *_, arm, _, cb, sb = self.geometry.sides[i]
         along, across = c * dx + s * dy - arm, c * dy - s * dx
         vy, vz = cb * across + sb * h, cb * h - sb * across
-        return xp.atan2(-f * vz, f * along), xp.atan2(vy, f * self._hypot(along, vz))
+        across, theta_65 = self._hypot(along, vz), xp.atan2(-f * vz, f * along)
+        if xp.some(lost := across < TOLERANCES.singular):  # the rod lies along the axis of θ65i
+            theta_65 = xp.where(lost, self.free[7 + 3 * i], theta_65)
+        return theta_65, xp.atan2(vy, f * across)
