@@ -22,7 +22,7 @@ from .kinematics.geometry import (
 )
 
 # Motion
-from .motion.path import Path as Path
+from .motion.path import ToolPath as ToolPath
 from .motion.files import load_path as load_path
 
 # Dynamics

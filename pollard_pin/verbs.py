@@ -15,7 +15,7 @@ from thesis_pin.files import write_file, write_folder
 
 if TYPE_CHECKING:
     from pollard_pin.kinematics.geometry import Branch
-    from pollard_pin.motion.path import Path
+    from pollard_pin.motion.path import ToolPath
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:
@@ -24,7 +24,7 @@ def _branch(arguments: argparse.Namespace) -> Branch:
     return DEFAULT_BRANCH if arguments.branch is None else Branch.parse(arguments.branch)
 
 
-def _path(arguments: argparse.Namespace, specification: Any) -> Path:
+def _path(arguments: argparse.Namespace, specification: Any) -> ToolPath:
     from pollard_pin.motion.files import load_path
     from pollard_pin.motion.path import appendix_b
     from thesis_pin.errors import BadInput
@@ -205,6 +205,7 @@ def check(arguments: argparse.Namespace) -> int:
 
 def audit(arguments: argparse.Namespace) -> int:
     """A verdict on each printed equation of the thesis."""
-    from pollard_pin.thesis.audit import run
+    from pollard_pin.thesis.audit import THESIS
+    from thesis_pin.command.audit import run_verb
 
-    return run(arguments)
+    return run_verb(arguments, THESIS)

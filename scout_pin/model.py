@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
 
 from scout_pin import coordinates
 from scout_pin.kinematics import forward
@@ -124,13 +125,13 @@ class Scout(LoadedRobot):
     # -- coordinates ---------------------------------------------------------
 
     def to_free_flyer(
-        self, q: Any, v: Any = None, a: Any = None
+        self, q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
     ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
         """Thesis coordinates → free-flyer q, v, a: :func:`scout_pin.coordinates.to_free_flyer`."""
         return coordinates.to_free_flyer(q, v, a)
 
     def to_thesis(
-        self, q: Any, v: Any = None, a: Any = None
+        self, q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
     ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
         """Free-flyer q, v, a → thesis coordinates: :func:`scout_pin.coordinates.to_thesis`."""
         return coordinates.to_thesis(q, v, a)
@@ -140,7 +141,7 @@ class Scout(LoadedRobot):
     def leg_inverse_kinematics(
         self, side: str, torso_to_foot: Any, reference: Any = None
     ) -> kinematics.LegSolutions:
-        """All branches of one leg.
+        """All branches of one leg; where an angle is free, one member of each family.
 
         See :func:`scout_pin.kinematics.inverse.leg_inverse_kinematics`.
         """

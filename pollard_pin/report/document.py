@@ -17,7 +17,7 @@ from pollard_pin.kinematics.singularity import (
     require_one_sign,
 )
 from pollard_pin.model import Pollard
-from pollard_pin.motion.path import Path
+from pollard_pin.motion.path import ToolPath
 from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.report import verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
@@ -167,7 +167,7 @@ class TrajectoryReport(TrajectoryNumbers):
 
 def trajectory_report(
     robot: Pollard,
-    path: Path,
+    path: ToolPath,
     *,
     samples: int = 2001,
     branch: Branch = DEFAULT_BRANCH,
@@ -188,7 +188,7 @@ def trajectory_report(
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
-    instance("path", path, Path, "load_path() or appendix_b()")
+    instance("path", path, ToolPath, "load_path() or appendix_b()")
     choice("number of actuators", motors, ("six", "three"))
     function("progress", progress, "progress(done, total)")
     branch = one_branch(branch)

@@ -16,7 +16,7 @@ from pollard_pin.kinematics.singularity import (
 )
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
-from pollard_pin.motion.path import Path, ToolMotion
+from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.report.limits import MotorUse, distance_class
 from pollard_pin.specification import (
     ACTUATOR_NAMES,
@@ -45,7 +45,7 @@ class TrajectoryNumbers:
     """
 
     robot: Pollard
-    path: Path
+    path: ToolPath
     branch: Branch
     motors: Literal["six", "three"]
     motion: ToolMotion

@@ -14,6 +14,8 @@ from thesis_pin.pages.browser import directions, graphical
 from thesis_pin.pages.player import html
 from thesis_pin.pages.scene import Scene
 
+_LOG = logging.getLogger(__name__)
+
 HOST = "127.0.0.1"
 DEFAULT_PORT = 7000
 """The port meshcat's users know; others follow if it is taken."""
@@ -37,7 +39,7 @@ def show(
     port: int | None = None,
     browser: bool = True,
     hold: float | None = None,
-    say: Callable[[str], None] = logging.getLogger(__name__).warning,
+    say: Callable[[str], None] = _LOG.warning,
 ) -> None:
     """Serve a scene on 127.0.0.1 until interrupted (Ctrl-C) or ``hold`` has passed.
 
