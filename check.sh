@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Set up everything from scratch and check it: lint, types, tests, wheel.
+# Set up everything from scratch and check it: lint, types, tests, bytes, wheel.
 # Needs Python 3.11 or newer and the package registry; writes only below
 # .venv-check and a temporary folder.
 set -euo pipefail
@@ -25,11 +25,14 @@ echo "== types"
 echo "== tests"
 "$bin/python" -m pytest -n auto -rs
 
+echo "== generated files, as other processors add up"
+"$bin/python" tests/processors.py -n auto
+
 echo "== wheel, used from a clean virtual environment outside the checkout"
 outside="$(mktemp -d)"
 trap 'rm -rf "$outside"' EXIT
 "$bin/python" -m pip wheel --quiet --no-deps --wheel-dir "$outside" .
 "$python" -m venv "$outside/venv"
-"$outside/venv/bin/python" -m pip install --quiet "$(echo "$outside"/*.whl)[viewer]"
+"$outside/venv/bin/python" -m pip install --quiet "$outside"/*.whl
 cp tests/wheel_smoke.py "$outside"
 (cd "$outside" && env -u PYTHONPATH "$outside/venv/bin/python" wheel_smoke.py "$outside/venv/bin")

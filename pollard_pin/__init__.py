@@ -1,30 +1,10 @@
-"""Pollard: a three-chain parallel spray robot with closed-form kinematics, on Pinocchio."""
+"""Pollard: a three-chain parallel spray robot with closed-form kinematics, on Pinocchio.
 
-from thesis_pin import __version__
-from thesis_pin.lazy import lazy_names
+Public names stand in ``__init__.pyi``, in the same order for both robots.
+"""
 
-# Public name → module that defines it.
-_HOMES = {
-    "Specification": "specification",
-    "JOINT_NAMES": "specification",
-    "JOINT_SYMBOLS": "specification",
-    "ACTUATOR_NAMES": "specification",
-    "load": "model",
-    "Pollard": "model",
-    "URDF_PATH": "model",
-    "PACKAGE_PATH": "model",
-    "CLOSURE_PATH": "model",
-    "Branch": "kinematics.geometry",
-    "DEFAULT_BRANCH": "kinematics.geometry",
-    "USEFUL_BRANCHES": "kinematics.geometry",
-    "ALL_BRANCHES": "kinematics.geometry",
-    "Path": "motion.path",
-    "load_path": "motion.path",
-    "appendix_b": "motion.path",
-    "torque_blocks": "dynamics.stream",
-    "trajectory_report": "report.numbers",
-    "evaluate_workspace": "study.workspace",
-}
+import lazy_loader
 
-__all__ = [*_HOMES, "__version__"]
-__getattr__, __dir__ = lazy_names(__name__, _HOMES)
+from thesis_pin.version import __version__ as __version__
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -15,7 +15,7 @@ from thesis_pin.files import write_file, write_folder
 
 if TYPE_CHECKING:
     from pollard_pin.kinematics.geometry import Branch
-    from pollard_pin.motion.path import Path
+    from pollard_pin.motion.path import ToolPath
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:
@@ -24,8 +24,9 @@ def _branch(arguments: argparse.Namespace) -> Branch:
     return DEFAULT_BRANCH if arguments.branch is None else Branch.parse(arguments.branch)
 
 
-def _path(arguments: argparse.Namespace, specification: Any) -> Path:
-    from pollard_pin.motion.path import appendix_b, load_path
+def _path(arguments: argparse.Namespace, specification: Any) -> ToolPath:
+    from pollard_pin.motion.files import load_path
+    from pollard_pin.motion.path import appendix_b
     from thesis_pin.errors import BadInput
 
     if arguments.path is None:
@@ -47,7 +48,7 @@ def _path(arguments: argparse.Namespace, specification: Any) -> Path:
 def trajectory(arguments: argparse.Namespace) -> int:
     """Work out a path and write or print its report."""
     from pollard_pin.model import load
-    from pollard_pin.report.numbers import trajectory_report
+    from pollard_pin.report.document import trajectory_report
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     path, branch = _path(arguments, robot.specification), _branch(arguments)
@@ -75,7 +76,7 @@ def trajectory(arguments: argparse.Namespace) -> int:
 def view(arguments: argparse.Namespace) -> int:
     """Show a path in the browser, or write it as a page."""
     from pollard_pin.model import load
-    from pollard_pin.report.numbers import trajectory_report
+    from pollard_pin.report.document import trajectory_report
     from pollard_pin.report.view import path_scene
     from thesis_pin.pages.scene import frames
 
@@ -204,6 +205,7 @@ def check(arguments: argparse.Namespace) -> int:
 
 def audit(arguments: argparse.Namespace) -> int:
     """A verdict on each printed equation of the thesis."""
-    from pollard_pin.thesis.audit import run
+    from pollard_pin.thesis.audit import THESIS
+    from thesis_pin.command.audit import run_verb
 
-    return run(arguments)
+    return run_verb(arguments, THESIS)

@@ -6,7 +6,6 @@ import argparse
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from thesis_pin import __version__
 from thesis_pin.command.audit import add_verb
 from thesis_pin.command.options import (
     add_json,
@@ -16,6 +15,7 @@ from thesis_pin.command.options import (
     later,
 )
 from thesis_pin.command.parser import Parser, count, number, run
+from thesis_pin.version import __version__
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

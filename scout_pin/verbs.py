@@ -15,7 +15,7 @@ def gait(arguments: argparse.Namespace) -> int:
     """Work out a gait and write or print its report."""
     from scout_pin.model import load
     from scout_pin.motion.files import load_gait
-    from scout_pin.report.numbers import gait_report
+    from scout_pin.report.document import gait_report
 
     robot = load(arguments.specification, inertia=arguments.inertia)
     planned = load_gait(arguments.gait, arguments.interpolation)
@@ -43,7 +43,7 @@ def view(arguments: argparse.Namespace) -> int:
     """Show a gait in the browser, or write it as a page."""
     from scout_pin.model import load
     from scout_pin.motion.files import load_gait
-    from scout_pin.report.numbers import gait_report
+    from scout_pin.report.document import gait_report
     from scout_pin.report.view import gait_scene
     from thesis_pin.pages.scene import frames
 
@@ -97,6 +97,7 @@ def urdf(arguments: argparse.Namespace) -> int:
 
 def audit(arguments: argparse.Namespace) -> int:
     """A verdict on each printed equation of the thesis."""
-    from scout_pin.thesis.audit import run
+    from scout_pin.thesis.audit import THESIS
+    from thesis_pin.command.audit import run_verb
 
-    return run(arguments)
+    return run_verb(arguments, THESIS)

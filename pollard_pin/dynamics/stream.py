@@ -10,7 +10,7 @@ import numpy as np
 from pollard_pin.dynamics.inverse import PollardDynamics
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import Pollard
-from pollard_pin.motion.path import Path, ToolMotion
+from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.motion.trajectory import joint_trajectory
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.elementwise import BLOCK, blocks
@@ -36,7 +36,7 @@ class TorqueBlock:
 
 def torque_blocks(
     robot: Pollard,
-    path: Path,
+    path: ToolPath,
     time: np.ndarray,
     branch: Branch = DEFAULT_BRANCH,
     size: int = BLOCK,

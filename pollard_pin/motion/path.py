@@ -18,7 +18,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from pollard_pin.specification import Specification
-from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
+from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import choice, instance, real, shown, whole
 
@@ -56,7 +56,7 @@ class ToolMotion:
 
 
 @dataclass(frozen=True)
-class Path:
+class ToolPath:
     """A pose over time.
 
     Attributes:
@@ -139,7 +139,7 @@ def appendix_b(
     orientation: Sequence[float] | None = None,
     duration: float | None = None,
     timing: str | None = None,
-) -> Path:
+) -> ToolPath:
     """The thesis's spray path, placed and timed.
 
     Printed in millimetres and without a time: x = −0.001 t², y = t,
@@ -178,7 +178,7 @@ def appendix_b(
         value = value * _MM + np.concatenate([place, tool])
         return value, first * (_MM * span), second * (_MM * span**2)
 
-    return Path(
+    return ToolPath(
         "appendix B",
         seconds,
         lambda time: along(curve, timing_law(law, seconds, time)),
@@ -192,7 +192,7 @@ def appendix_b(
     )
 
 
-def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") -> Path:
+def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") -> ToolPath:
     """A straight line between two poses (x, y, z, ψ, θ, φ)."""
     first, last = vector("start", start, 6), vector("end", end, 6)
 
@@ -209,7 +209,7 @@ def arc(
     end: Any,
     duration: float,
     timing: str = "rest-to-rest",
-) -> Path:
+) -> ToolPath:
     """A circular arc.
 
     Args:
@@ -253,10 +253,12 @@ def arc(
     return _single("arc", curve, duration, timing)
 
 
-def _single(name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str) -> Path:
+def _single(
+    name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str
+) -> ToolPath:
     timing_law(timing, duration, np.zeros(1))
     duration = float(duration)
-    return Path(
+    return ToolPath(
         name,
         duration,
         lambda time: along(curve, timing_law(timing, duration, time)),
@@ -264,7 +266,9 @@ def _single(name: str, curve: Callable[[np.ndarray], Triple], duration: float, t
     )
 
 
-def through(time: Any, poses: Any, method: str = "cubic", *, name: str = "poses over time") -> Path:
+def through(
+    time: Any, poses: Any, method: str = "cubic", *, name: str = "poses over time"
+) -> ToolPath:
     """A spline through poses at given times, with its exact derivatives.
 
     Args:
@@ -291,10 +295,10 @@ def through(time: Any, poses: Any, method: str = "cubic", *, name: str = "poses 
 
     parameters = {"path": name, "nodes": len(time), "interpolation": method}
     duration = float(time[-1] - begin)
-    return Path(name, duration, function, {**parameters, "duration": duration})
+    return ToolPath(name, duration, function, {**parameters, "duration": duration})
 
 
-def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
+def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
     """Paths that follow each other without a jump in pose or rate.
 
     Raises:
@@ -306,7 +310,7 @@ def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
             allowed="a list of at least one path",
         )
     for path in paths:
-        instance("a segment", path, Path, "line(), arc() or through()")
+        instance("a segment", path, ToolPath, "line(), arc() or through()")
     for number, (before, after) in enumerate(itertools.pairwise(paths), start=1):
         end, start = before.at(before.duration), after.at(0.0)
         for what, one, two in (
@@ -331,16 +335,4 @@ def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
         return rows[0], rows[1], rows[2]
 
     parameters = {"path": name, "segments": [path.parameters for path in paths]}
-    return Path(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})
-
-
-def load_path(file: Any) -> Path:
-    """A path from a CSV or TOML file; see :mod:`pollard_pin.motion.files`."""
-    from pollard_pin.motion.files import read_csv, read_toml_path
-
-    suffix = str(file).rpartition(".")[2].lower()
-    if suffix == "csv":
-        return read_csv(file)
-    if suffix == "toml":
-        return read_toml_path(file)
-    raise BadInput(f"a path can't be a .{suffix} file", where=str(file), allowed=".csv or .toml")
+    return ToolPath(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})

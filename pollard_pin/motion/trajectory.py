@@ -15,7 +15,7 @@ from pollard_pin.kinematics.rates import (
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
-from pollard_pin.motion.path import Path, ToolMotion
+from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.numeric.elementwise import blocks
@@ -31,7 +31,7 @@ def joint_trajectory(
     robot: Pollard,
     motion: ToolMotion,
     branch: Branch = DEFAULT_BRANCH,
-    path: Path | None = None,
+    path: ToolPath | None = None,
     start: np.ndarray | None = None,
 ) -> tuple[JointTrajectory, Solutions]:
     """Angles, rates and accelerations of the twelve joints along a path.
@@ -110,7 +110,7 @@ def _suspicious(
     return found
 
 
-def _breaks(robot: Pollard, path: Path, ends: np.ndarray, branch: Branch) -> bool:
+def _breaks(robot: Pollard, path: ToolPath, ends: np.ndarray, branch: Branch) -> bool:
     """Whether the branch breaks between two samples, looked at 300 times as closely."""
     motion = path.at(np.linspace(ends[0], ends[1], 301))
     solution, v, _ = _solve(robot, motion, branch)

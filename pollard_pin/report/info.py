@@ -10,8 +10,8 @@ from pollard_pin.closure import gruebler
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.model import Pollard
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, JOINT_SYMBOLS, LINK_NAMES
-from thesis_pin import __version__
 from thesis_pin.command.output import print_table, print_text
+from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/info"
 VERSION = 1

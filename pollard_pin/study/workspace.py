@@ -14,12 +14,12 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.singularity import LENGTH, actuation
 from pollard_pin.model import Pollard
-from thesis_pin import __version__
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import function, instance, whole
 from thesis_pin.numeric.workers import silent
 from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/workspace"
 VERSION = 1

@@ -10,10 +10,6 @@ import numpy as np
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from thesis_pin.numeric.rotations import rotation
 
-POSE_NAMES = ("x", "y", "z", "pitch", "roll", "yaw")
-"""x lateral, y forward, z up [m]; then the thesis's Euler angles θ, φ, ψ [rad]:
-rotation = Rx(pitch) Ry(roll) Rz(yaw)."""
-
 
 @dataclass(frozen=True)
 class LegGeometry:
@@ -66,4 +62,5 @@ class LegGeometry:
     @cached_property
     def foot_rows(self) -> list[list[float]]:
         """The first two rows of :attr:`foot`: axes of the foot link, seen from the sole."""
-        return self.foot[:2].tolist()
+        rows: list[list[float]] = self.foot[:2].tolist()
+        return rows

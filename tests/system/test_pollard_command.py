@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).parents[2]
-DATA = ROOT / "tests" / "thesis_pin" / "data"
+DATA = ROOT / "tests" / "thesis_pin" / "loops" / "data"
 
 
 def process(*arguments, code="import sys; from pollard_pin.cli import main; sys.exit(main())"):

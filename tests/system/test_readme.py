@@ -16,6 +16,7 @@ def blocks(language):
     return re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
 
 
+@pytest.mark.bytes
 def test_tables_are_what_the_package_works_out_now():
     renew = runpy.run_path(str(ROOT / "docs" / "readme_tables.py"))["renewed"]
     assert renew(README) == README, "run: python docs/readme_tables.py"

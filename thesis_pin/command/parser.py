@@ -150,13 +150,13 @@ def count(name: str, least: int, most: int = MOST) -> Callable[[str], int]:
 
 def run_view(scene: Scene, arguments: argparse.Namespace) -> None:
     """Write a scene to the file, or serve it, as the options of a ``view`` verb ask."""
-    from thesis_pin.pages import player as viewer
+    from thesis_pin.pages import player, serving
 
     if arguments.html:
-        viewer.write_html(scene, arguments.html, speed=arguments.speed)
+        player.write_html(scene, arguments.html, speed=arguments.speed)
         print(f"wrote {arguments.html}", file=sys.stderr)
         return
-    viewer.show(
+    serving.show(
         scene,
         speed=arguments.speed,
         port=arguments.port,

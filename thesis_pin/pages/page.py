@@ -135,7 +135,7 @@ def software() -> Table:
         try:
             rows.append((name, version(name)))
         except PackageNotFoundError:
-            from thesis_pin import __version__
+            from thesis_pin.version import __version__
 
             rows.append((name, __version__ if name == "thesis-pin" else "not installed"))
     return Table("Software", ("package", "version"), rows, prose=True)

@@ -1,0 +1,40 @@
+# Specification
+from .specification import (
+    JOINT_NAMES as JOINT_NAMES,
+    JOINT_SYMBOLS as JOINT_SYMBOLS,
+    Specification as Specification,
+)
+
+# Model
+from .model import (
+    PACKAGE_PATH as PACKAGE_PATH,
+    URDF_PATH as URDF_PATH,
+    Pollard as Pollard,
+    load as load,
+)
+
+# Kinematics
+from .kinematics.geometry import (
+    ALL_BRANCHES as ALL_BRANCHES,
+    DEFAULT_BRANCH as DEFAULT_BRANCH,
+    USEFUL_BRANCHES as USEFUL_BRANCHES,
+    Branch as Branch,
+)
+
+# Motion
+from .motion.path import ToolPath as ToolPath
+from .motion.files import load_path as load_path
+
+# Dynamics
+from .dynamics.stream import torque_blocks as torque_blocks
+
+# Report
+from .report.document import trajectory_report as trajectory_report
+
+# Only Pollard
+from .specification import ACTUATOR_NAMES as ACTUATOR_NAMES
+from .model import CLOSURE_PATH as CLOSURE_PATH
+from .motion.path import appendix_b as appendix_b
+from .study.workspace import evaluate_workspace as evaluate_workspace
+
+__version__: str

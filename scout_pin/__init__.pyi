@@ -1,0 +1,44 @@
+# Specification
+from .specification import (
+    JOINT_NAMES as JOINT_NAMES,
+    JOINT_SYMBOLS as JOINT_SYMBOLS,
+    Specification as Specification,
+)
+
+# Model
+from .model import (
+    PACKAGE_PATH as PACKAGE_PATH,
+    URDF_PATH as URDF_PATH,
+    Scout as Scout,
+    load as load,
+)
+
+# Kinematics
+from .kinematics.solutions import (
+    BRANCHES as BRANCHES,
+    LegSolutions as LegSolutions,
+)
+
+# Motion
+from .motion.gait import Gait as Gait
+from .motion.files import load_gait as load_gait
+from .motion.trajectory import joint_trajectory as joint_trajectory
+
+# Dynamics
+from .dynamics.inverse import inverse_dynamics as inverse_dynamics
+from .dynamics.stream import torque_blocks as torque_blocks
+
+# Report
+from .report.document import gait_report as gait_report
+
+# Only Scout
+from .kinematics.rates import leg_rates as leg_rates
+from .model import Contact as Contact
+from .dynamics.impact import touchdown_impact as touchdown_impact
+from .dynamics.stability import (
+    pressure_point as pressure_point,
+    support_margin as support_margin,
+    zero_moment_point as zero_moment_point,
+)
+
+__version__: str

@@ -1,0 +1,37 @@
+# Robots with closed loops
+from .loops.closures import (
+    ClosedRobot as ClosedRobot,
+    ClosureFile as ClosureFile,
+    Loop as Loop,
+)
+from .loops.dynamics import (
+    ForwardDynamics as ForwardDynamics,
+    LoopDynamics as LoopDynamics,
+    forward_dynamics as forward_dynamics,
+    inverse_dynamics as inverse_dynamics,
+    simulate as simulate,
+)
+
+# Viewer
+from .pages.player import write_html as write_html
+from .pages.scene import Scene as Scene
+from .pages.serving import show as show
+
+# Errors
+from .errors import (
+    BadInput as BadInput,
+    ModelError as ModelError,
+    NoSolution as NoSolution,
+    NoSupportForce as NoSupportForce,
+    NonPhysicalInertia as NonPhysicalInertia,
+    NotFinite as NotFinite,
+    SingularPose as SingularPose,
+    SpecificationError as SpecificationError,
+    ThesisPinError as ThesisPinError,
+    TrajectoryError as TrajectoryError,
+    UnknownName as UnknownName,
+    Unreachable as Unreachable,
+    WrongShape as WrongShape,
+)
+
+__version__: str
