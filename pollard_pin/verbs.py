@@ -205,6 +205,7 @@ def check(arguments: argparse.Namespace) -> int:
 
 def audit(arguments: argparse.Namespace) -> int:
     """A verdict on each printed equation of the thesis."""
-    from pollard_pin.thesis.audit import run
+    from pollard_pin.thesis.audit import THESIS
+    from thesis_pin.command.audit import run_verb
 
-    return run(arguments)
+    return run_verb(arguments, THESIS)

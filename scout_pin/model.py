@@ -141,7 +141,7 @@ class Scout(LoadedRobot):
     def leg_inverse_kinematics(
         self, side: str, torso_to_foot: Any, reference: Any = None
     ) -> kinematics.LegSolutions:
-        """All branches of one leg.
+        """All branches of one leg; where an angle is free, one member of each family.
 
         See :func:`scout_pin.kinematics.inverse.leg_inverse_kinematics`.
         """

@@ -97,6 +97,7 @@ def urdf(arguments: argparse.Namespace) -> int:
 
 def audit(arguments: argparse.Namespace) -> int:
     """A verdict on each printed equation of the thesis."""
-    from scout_pin.thesis.audit import run
+    from scout_pin.thesis.audit import THESIS
+    from thesis_pin.command.audit import run_verb
 
-    return run(arguments)
+    return run_verb(arguments, THESIS)

@@ -11,20 +11,18 @@ The equations are in the TOML files beside this module.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
 from scout_pin.specification import Specification
-from scout_pin.thesis.notation import NOTATION
+from scout_pin.thesis.catalogue import catalogue
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from scout_pin.thesis.symbols.forces import matrix_entry
-from thesis_pin.equations.catalogue import Catalogue, Edition
+from thesis_pin.equations.catalogue import Edition
 from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol
@@ -35,23 +33,8 @@ from thesis_pin.numeric.arrays import finite_array
 Interval = Literal[1, 2, 3]
 """T_1: left foot bears the robot; T_2: both; T_3: right foot (4.6)."""
 
-FILES = tuple(
-    Path(__file__).parent / "printed" / f"{name}.toml"
-    for name in (
-        *("chapter_3", "section_3_1", "section_3_2", "section_3_3"),
-        *("chapter_4", *(f"section_4_{k}" for k in range(1, 8))),
-        *("section_5", "section_6_2", "appendix_b", "appendix_c", "appendix_d"),
-    )
-)
-"""The equations, in the thesis's order: the first definition of a symbol counts."""
 _CHUNK = 64  # states whose ∂N/∂q_j stay below a few hundred MB
 _UNBALANCED = 1e-8  # N, N·m: above rounding, below anything physical
-
-
-@functools.cache
-def catalogue() -> Catalogue:
-    """All equations of the thesis that the audit knows."""
-    return Catalogue.read(FILES, NOTATION)
 
 
 @dataclass(frozen=True)
