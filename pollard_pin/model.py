@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -12,7 +13,6 @@ import pinocchio as pin
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import closures
 from pollard_pin.coordinates import pose_from_placement
-from pollard_pin.dynamics import inverse as dynamics
 from pollard_pin.kinematics import forward, rates, singularity
 from pollard_pin.kinematics import inverse as kinematics
 from pollard_pin.kinematics.geometry import (
@@ -26,14 +26,13 @@ from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
 from pollard_pin.urdf import urdf
-from thesis_pin.errors import WrongShape
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import model_folder
 from thesis_pin.numeric.arrays import finite_array, spread, together, vector
-from thesis_pin.numeric.checks import choice, instance
+from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 PACKAGE_PATH = str(model_folder("pollard"))
@@ -83,12 +82,16 @@ class Pollard(ClosedRobot):
         self.specification, self.inertia = specification, inertia
         self.geometry = Geometry.of(specification)
         self.lower, self.upper = self.geometry.lower, self.geometry.upper
-        self._pool = pin.ModelPool(self.model, 1)
         order = tuple(list(self.model.names)[1:])
         if order != JOINT_NAMES or tuple(self.passive) != PASSIVE:
             raise RuntimeError(f"Pinocchio reordered the joints: {order}")
         if tuple(self.actuated) != ACTUATORS:
             raise RuntimeError(f"the closure file reordered the motors: {self.actuated}")
+
+    @functools.cached_property
+    def pool(self) -> pin.ModelPool:
+        """What Pinocchio's batched algorithms work on."""
+        return pin.ModelPool(self.model, 1)
 
     @property
     def mass(self) -> float:
@@ -183,17 +186,18 @@ class Pollard(ClosedRobot):
     def _derivatives(
         self, posture: Posture, pose: Any, rate: Any, acceleration: Any
     ) -> tuple[np.ndarray, np.ndarray]:
-        rates.check_regular(posture)
         shape = posture.shape
-        acceleration = np.zeros(6) if acceleration is None else acceleration
-        pose, rate, acceleration = (
-            np.ascontiguousarray(spread(name, finite_array(name, value, 6), shape).reshape(-1, 6).T)
-            for name, value in (("pose", pose), ("rate", rate), ("acceleration", acceleration))
-        )
-        v = rates.joint_rates(posture, *rates.tool_twist(posture, pose[3:5], rate))
-        wrist, alpha = rates.tool_acceleration(posture, pose[3:5], rate, acceleration)
-        a = rates.joint_accelerations(posture, v, wrist, alpha)
-        return v.T.reshape(*shape, 12), a.T.reshape(*shape, 12)
+        given = {
+            "pose": pose,
+            "rate": rate,
+            "acceleration": np.zeros(6) if acceleration is None else acceleration,
+        }
+        flat = [
+            spread(name, finite_array(name, value, 6), shape).reshape(-1, 6)
+            for name, value in given.items()
+        ]
+        v, a = rates.motion_rates(posture, *flat)
+        return v.reshape(*shape, 12), a.reshape(*shape, 12)
 
     def rate_jacobian(self, q: Any) -> np.ndarray:
         """Joint rates over the pose's rates at closed configurations, ``(..., 12, 6)``."""
@@ -213,35 +217,6 @@ class Pollard(ClosedRobot):
 
     # -- dynamics ------------------------------------------------------------
 
-    def inverse_dynamics(
-        self, q: Any, v: Any, a: Any, posture: Posture | None = None
-    ) -> dynamics.PollardDynamics:
-        """Six torques and both ball-joint forces of closed motions ``(..., 12)``.
-
-        ``posture`` is that of q, for motions of :meth:`joint_motion`: with it, q, v and a
-        are taken to keep the loops closed.
-
-        Raises:
-            BadInput: q, v or a opens a ball joint.
-            SingularPose: The forces aren't determined.
-        """
-        q, v, a = (finite_array(name, x, 12) for name, x in (("q", q), ("v", v), ("a", a)))
-        q, v, a = map(np.ascontiguousarray, together(q=q, v=v, a=a))
-        if posture is not None:
-            instance("posture", posture, Posture, "Pollard.posture()")
-            if posture.shape != q.shape[:-1]:
-                raise WrongShape("q", q.shape, f"{(*posture.shape, 12)}, as posture")
-        else:
-            posture = Posture.of(self.geometry, q)
-            dynamics.refuse_open_loops(posture, q, v, a)
-        return dynamics.inverse_dynamics(self._pool, posture, q, v, a)
-
-    def tree_torques(self, q: Any, v: Any, a: Any) -> np.ndarray:
-        """RNEA of the open tree over a stack, ``(n, 12)`` each [N·m]."""
-        q, v, a = (finite_array(name, x, None, 12) for name, x in (("q", q), ("v", v), ("a", a)))
-        q, v, a = map(np.ascontiguousarray, together(q=q, v=v, a=a))
-        return dynamics.tree_torques(self._pool, q, v, a)
-
     def forward_dynamics(self, q: Any, v: Any, torque: Any) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` under six torques, the loops closed."""
         return loop_dynamics.forward_dynamics(self, q, v, torque)
@@ -256,15 +231,6 @@ class Pollard(ClosedRobot):
     ) -> JointTrajectory:
         """Motion under six torques; see :func:`thesis_pin.loops.dynamics.simulate`."""
         return loop_dynamics.simulate(self, q, v, torque, duration, step)
-
-    def three_torques(self, q: Any, joint_force: Any) -> dynamics.ThreeTorques:
-        """The thesis's three base torques.
-
-        See :func:`pollard_pin.dynamics.inverse.three_torques`.
-        """
-        return dynamics.three_torques(
-            self.rate_jacobian(q), finite_array("joint_force", joint_force, 12)
-        )
 
     def energy(self, q: Any, v: Any) -> np.ndarray:
         """Kinetic plus potential energy [J], shape ``(...)``."""

@@ -16,7 +16,7 @@ from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
-from thesis_pin.contacts.cones import Contact
+from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.errors import BadInput
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
@@ -141,7 +141,7 @@ class Scout(LoadedRobot):
     def leg_inverse_kinematics(
         self, side: str, torso_to_foot: Any, reference: Any = None
     ) -> kinematics.LegSolutions:
-        """All branches of one leg.
+        """All branches of one leg; where an angle is free, one member of each family.
 
         See :func:`scout_pin.kinematics.inverse.leg_inverse_kinematics`.
         """

@@ -41,17 +41,23 @@ class ToolMotion:
         pose: x, y, z [m], ψ, θ, φ [rad], shape ``(n, 6)``.
         rate: First time derivative, shape ``(n, 6)``.
         acceleration: Second time derivative, shape ``(n, 6)``.
+        path: Where the samples come from, to look closer where they are far apart.
     """
 
     time: np.ndarray
     pose: np.ndarray
     rate: np.ndarray
     acceleration: np.ndarray
+    path: ToolPath | None = None
 
     def part(self, samples: slice) -> ToolMotion:
         """Some consecutive samples, as views."""
         return ToolMotion(
-            self.time[samples], self.pose[samples], self.rate[samples], self.acceleration[samples]
+            self.time[samples],
+            self.pose[samples],
+            self.rate[samples],
+            self.acceleration[samples],
+            self.path,
         )
 
 
@@ -83,7 +89,7 @@ class ToolPath:
                 where=f"path {self.name!r}",
                 allowed=f"0 to {self.duration:g} s",
             )
-        return ToolMotion(time, *self.function(time))
+        return ToolMotion(time, *self.function(time), self)
 
     def sample(self, count: int) -> ToolMotion:
         """Evenly spaced samples from beginning to end.
