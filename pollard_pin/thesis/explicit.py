@@ -119,7 +119,7 @@ class ExplicitModel:
         """Joint accelerations ``(..., 12)`` [rad/s²], in the order of JOINT_NAMES.
 
         Source: (2.75) … (2.87), (2.159) … (2.171), each joint's first relation. The forms
-        that collect the G of appendix E, (2.77) … (2.172), are lines of the audit.
+        that collect the G of appendix E are lines of the audit.
         """
 
         def found(model: ExplicitModel, mechanics: References) -> np.ndarray:

@@ -76,7 +76,7 @@ def find(state: State, name: str, i: str) -> Value | None:
         return scalar(state.number(name))
     if name == "n":
         return vector(_LAST)
-    for pattern, answer in _KINDS:
+    for pattern, answer in ANSWERS:
         match = re.fullmatch(pattern, name)
         if match:
             return answer(state, i, *match.groups())
@@ -132,7 +132,7 @@ def _radius(state: State, i: str, name: str) -> Value | None:
 
 
 _Answer = Callable[..., Value | None]
-_KINDS: tuple[tuple[str, _Answer], ...] = (
+ANSWERS: tuple[tuple[str, _Answer], ...] = (
     (r"(T_\w+)", _transform),
     (r"([a-f])_([1-4])([1-4])", _element),
     (r"([ABC])_1([012])", _fourier),
@@ -141,3 +141,4 @@ _KINDS: tuple[tuple[str, _Answer], ...] = (
     (r"([VEG]_\d+)", _coefficient),
     (r"r_(\d+)(?:\^0)?", _radius),
 )
+"""Pattern of a symbol's name → what answers it: (state, chain, the pattern's groups)."""
