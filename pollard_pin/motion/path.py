@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.specification import Specification
 from thesis_pin.errors import TrajectoryError, WrongShape
@@ -41,17 +42,23 @@ class ToolMotion:
         pose: x, y, z [m], ψ, θ, φ [rad], shape ``(n, 6)``.
         rate: First time derivative, shape ``(n, 6)``.
         acceleration: Second time derivative, shape ``(n, 6)``.
+        path: Where the samples come from, to look closer where they are far apart.
     """
 
     time: np.ndarray
     pose: np.ndarray
     rate: np.ndarray
     acceleration: np.ndarray
+    path: ToolPath | None = None
 
     def part(self, samples: slice) -> ToolMotion:
         """Some consecutive samples, as views."""
         return ToolMotion(
-            self.time[samples], self.pose[samples], self.rate[samples], self.acceleration[samples]
+            self.time[samples],
+            self.pose[samples],
+            self.rate[samples],
+            self.acceleration[samples],
+            self.path,
         )
 
 
@@ -71,7 +78,7 @@ class ToolPath:
     function: Callable[[np.ndarray], Triple]
     parameters: dict[str, Any]
 
-    def at(self, time: Any) -> ToolMotion:
+    def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""
         time = np.atleast_1d(finite_array("time", time))
         if time.ndim != 1 or not time.size:
@@ -83,7 +90,7 @@ class ToolPath:
                 where=f"path {self.name!r}",
                 allowed=f"0 to {self.duration:g} s",
             )
-        return ToolMotion(time, *self.function(time))
+        return ToolMotion(time, *self.function(time), self)
 
     def sample(self, count: int) -> ToolMotion:
         """Evenly spaced samples from beginning to end.
@@ -192,7 +199,9 @@ def appendix_b(
     )
 
 
-def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") -> ToolPath:
+def line(
+    start: ArrayLike, end: ArrayLike, duration: float, timing: str = "rest-to-rest"
+) -> ToolPath:
     """A straight line between two poses (x, y, z, ψ, θ, φ)."""
     first, last = vector("start", start, 6), vector("end", end, 6)
 
@@ -204,9 +213,9 @@ def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") ->
 
 
 def arc(
-    start: Any,
-    via: Any,
-    end: Any,
+    start: ArrayLike,
+    via: ArrayLike,
+    end: ArrayLike,
     duration: float,
     timing: str = "rest-to-rest",
 ) -> ToolPath:
@@ -267,7 +276,7 @@ def _single(
 
 
 def through(
-    time: Any, poses: Any, method: str = "cubic", *, name: str = "poses over time"
+    time: ArrayLike, poses: ArrayLike, method: str = "cubic", *, name: str = "poses over time"
 ) -> ToolPath:
     """A spline through poses at given times, with its exact derivatives.
 

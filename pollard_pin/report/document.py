@@ -8,7 +8,8 @@ from typing import Any, Literal
 import numpy as np
 
 from pollard_pin.coordinates import POSE_NAMES
-from pollard_pin.dynamics.inverse import three_torques
+from pollard_pin.dynamics.inverse import inverse_dynamics
+from pollard_pin.dynamics.three_motors import three_torques
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
@@ -194,7 +195,8 @@ def trajectory_report(
     branch = one_branch(branch)
     motion = path.sample(samples)
     progress(1, 4)
-    joints, solutions = joint_trajectory(robot, motion, branch, path)
+    joints = joint_trajectory(robot, motion, branch=branch)
+    solutions = joints.solutions
     progress(2, 4)
     posture = solutions.posture
     holding = actuation(posture)
@@ -205,7 +207,7 @@ def trajectory_report(
 
     require_one_sign(determinant, motion.time, holding.base_determinant)
     progress(3, 4)
-    dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a, posture)
+    dynamics = inverse_dynamics(robot, motion, joints)
     progress(4, 4)
     three = None
     if motors == "three":

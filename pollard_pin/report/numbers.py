@@ -8,8 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from pollard_pin.dynamics.inverse import PollardDynamics, ThreeTorques
+from pollard_pin.dynamics.inverse import PollardDynamics, inverse_dynamics_at
 from pollard_pin.dynamics.reactions import joint_reactions
+from pollard_pin.dynamics.three_motors import ThreeTorques
 from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.kinematics.singularity import (
     Actuation,
@@ -148,5 +149,5 @@ class TrajectoryNumbers:
         """The other reading of the inertias and its peak torques of six motors [N·m]."""
         reading: Reading = "printed" if self.robot.inertia == "physical" else "physical"
         other = Pollard(self.robot.specification, reading)
-        found = other.inverse_dynamics(self.joints.q, self.joints.v, self.joints.a)
+        found = inverse_dynamics_at(other, self.joints.q, self.joints.v, self.joints.a)
         return reading, np.abs(found.torque).max(axis=0)
