@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
 from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
+from scout_pin.kinematics.solutions import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
@@ -82,6 +83,7 @@ class GaitReport(GaitNumbers):
                 "robot": self.robot.specification.name,
                 "gait": self.gait.name,
                 "time_unit": self.time_unit,
+                "branch": self.branch,
                 "samples": len(self.joints.time),
                 "inertia": self.robot.inertia,
                 "thesis_pin": __version__,
@@ -166,6 +168,7 @@ def gait_report(
     *,
     samples: int = 401,
     time_unit: float | None = None,
+    branch: str | Sequence[str] | None = None,
     progress: Callable[[int, int], None] = silent,
 ) -> GaitReport:
     """Work out a gait: angles, torques, stability, contact, impacts, servo limits.
@@ -175,6 +178,8 @@ def gait_report(
         gait: The gait.
         samples: Number of evenly spaced samples.
         time_unit: Seconds in the gait's unit of t; None for the gait's own.
+        branch: Signs of the branch to take, for both legs or one label a leg, as ``"+-+"``
+            or ``("+++", "-+-")``; None takes one that is valid throughout.
         progress: Called with the steps done and their total.
 
     Raises:
@@ -186,7 +191,7 @@ def gait_report(
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
-    joints = joint_trajectory(robot, motion)
+    joints = joint_trajectory(robot, motion, branch=branch)
     progress(2, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
     progress(3, 4)
@@ -196,13 +201,14 @@ def gait_report(
         robot=robot,
         gait=gait,
         time_unit=unit,
+        branch=branch_label(branch),
         motion=motion,
         joints=joints,
         dynamics=dynamics,
         com=com,
         zmp=zmp,
         margin=support_margin(robot, motion, zmp),
-        impacts=tuple(impacts(robot, gait, unit)),
+        impacts=tuple(impacts(robot, gait, joints, unit)),
     )
     progress(4, 4)
     return report
