@@ -18,7 +18,7 @@ from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.solutions import branch_numbers
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
-from thesis_pin.contacts.cones import Contact
+from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.errors import BadInput
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder

@@ -52,6 +52,7 @@ JUNK = {
 }
 
 DATA = Path(__file__).parents[1] / "thesis_pin" / "loops" / "data"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 SCOUT, POLLARD = scout_pin.load(), pollard_pin.load()
 FEET, GAIT = SCOUT.neutral_feet(), scout_pin.load_gait()
 TIMES = GAIT.sample_times(5)
@@ -226,7 +227,7 @@ CALLS = {
         {"time": [0, 1, 2], "poses": np.zeros((3, 6)), "method": "cubic"},
     ),
     "joined": (pollard_path.joined, {"paths": [PATH]}),
-    "load_path": (pollard_pin.load_path, {"file": "examples/spray_arch.toml"}),
+    "load_path": (pollard_pin.load_path, {"file": str(EXAMPLES / "spray_arch.toml")}),
     "trajectory_report": (
         pollard_pin.trajectory_report,
         {"robot": POLLARD, "path": PATH, "samples": 5, "branch": BRANCH, "motors": "six"},
@@ -280,6 +281,12 @@ CALLS = {
     "cubic": (cubic, {"t": [0, 1, 2], "value": [0, 1, 0]}),
     "interpolate": (interpolate, {"t": [0, 1, 2], "value": [0, 1, 0], "method": "cubic"}),
 }
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    """Junk may be a sound name of a file; what it names is written outside the checkout."""
+    monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.parametrize("name", CALLS)

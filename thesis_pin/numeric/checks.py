@@ -7,6 +7,7 @@ allowed and how to mend it, where Python or NumPy would fail somewhere inside.
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Callable, Sequence
 from numbers import Integral, Real
 from typing import Any, TypeVar
@@ -14,6 +15,18 @@ from typing import Any, TypeVar
 from thesis_pin.errors import BadInput, UnknownName
 
 Kind = TypeVar("Kind")
+
+
+class _Brief(reprlib.Repr):
+    """Prints no more of a value than a message could show, however large the value is."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlist = self.maxtuple = self.maxdict = 30
+        self.maxstring = self.maxlong = self.maxother = 200
+
+
+_BRIEF = _Brief()
 
 MOST = 100_000_000
 """Largest number of samples or steps that can be asked for; more is a slip of the pen."""
@@ -152,9 +165,17 @@ def shown(value: Any) -> str:
     if isinstance(shape, tuple) and shape:
         return f"an array of shape {shape}"
     if isinstance(value, str | Real | type(None)):
-        text = repr(value)
-        return text if len(text) <= 60 else text[:57] + "..."
+        return brief(value)
     return f"a {type(value).__name__}"
+
+
+def brief(value: object) -> str:
+    """What Python prints of a value, cut after 60 characters."""
+    try:
+        text = _BRIEF.repr(value)
+    except ValueError:  # a whole number of more than 4300 digits
+        return f"a {type(value).__name__} too long to print"
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _number(value: Any) -> float | None:
