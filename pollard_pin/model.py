@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
 
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import closures
@@ -101,14 +102,15 @@ class Pollard(ClosedRobot):
     # -- kinematics ----------------------------------------------------------
 
     def inverse_kinematics(
-        self, pose: Any, branch: Branches = DEFAULT_BRANCH, reference: Any = None
+        self, pose: ArrayLike, branch: Branches = DEFAULT_BRANCH, reference: ArrayLike | None = None
     ) -> Solutions:
         """Joint angles for poses; see :func:`pollard_pin.kinematics.inverse.inverse_kinematics`.
 
         Args:
             pose: (x, y, z, ψ, θ, φ), shape ``(..., 6)``.
             branch: One :class:`Branch`, several, ``"useful"`` (16) or ``"all"`` (128).
-            reference: Angles that fill in what a straight wrist leaves free.
+            reference: Angles that fill in what a singular pose leaves free; see
+                :func:`pollard_pin.kinematics.inverse.inverse_kinematics`.
 
         Returns:
             Angles ``(..., 12)`` on one branch, ``(..., branches, 12)`` on several.
@@ -121,7 +123,7 @@ class Pollard(ClosedRobot):
             self.geometry, pose, branch_labels(branch), reference, squeeze=False
         )
 
-    def forward_kinematics(self, motors: Any, reference: Any = None) -> Any:
+    def forward_kinematics(self, motors: ArrayLike, reference: ArrayLike | None = None) -> Any:
         """Assembly modes of motor angles ``(..., 6)`` [rad].
 
         Args:
@@ -135,24 +137,24 @@ class Pollard(ClosedRobot):
         modes = forward.forward_kinematics(self.geometry, motors)
         return modes if reference is None else modes.nearest(reference)
 
-    def posture(self, q: Any) -> Posture:
+    def posture(self, q: ArrayLike) -> Posture:
         """Points and axes of configurations ``(..., 12)``."""
         return Posture.of(self.geometry, finite_array("q", q, 12))
 
-    def pose(self, q: Any) -> np.ndarray:
+    def pose(self, q: ArrayLike) -> np.ndarray:
         """Pose of the spray tip, by chain 0: ``(..., 12)`` → ``(..., 6)``."""
         posture = self.posture(q)
         return pose_from_placement(posture.tip, posture.tool_rotation)
 
-    def branch_of(self, q: Any) -> Branch:
+    def branch_of(self, q: ArrayLike) -> Branch:
         """Label of a closed configuration ``(12,)``."""
         return forward.branch_of(self.geometry, vector("q", q, 12))
 
     def joint_motion(
         self,
-        pose: Any,
-        rate: Any,
-        acceleration: Any = None,
+        pose: ArrayLike,
+        rate: ArrayLike,
+        acceleration: ArrayLike | None = None,
         branch: Branch = DEFAULT_BRANCH,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Joint angles, rates and accelerations of a motion of the tool.
@@ -173,18 +175,24 @@ class Pollard(ClosedRobot):
         solution = self.inverse_kinematics(pose, one_branch(branch)).require()
         return solution.angles, *self._derivatives(solution.posture, pose, rate, acceleration)
 
-    def rates(self, pose: Any, rate: Any, branch: Branch = DEFAULT_BRANCH) -> np.ndarray:
+    def rates(
+        self, pose: ArrayLike, rate: ArrayLike, branch: Branch = DEFAULT_BRANCH
+    ) -> np.ndarray:
         """Joint rates ``(..., 12)``; see :meth:`joint_motion`."""
         return self.joint_motion(pose, rate, None, branch)[1]
 
     def accelerations(
-        self, pose: Any, rate: Any, acceleration: Any, branch: Branch = DEFAULT_BRANCH
+        self,
+        pose: ArrayLike,
+        rate: ArrayLike,
+        acceleration: ArrayLike,
+        branch: Branch = DEFAULT_BRANCH,
     ) -> np.ndarray:
         """Joint accelerations ``(..., 12)``; see :meth:`joint_motion`."""
         return self.joint_motion(pose, rate, acceleration, branch)[2]
 
     def _derivatives(
-        self, posture: Posture, pose: Any, rate: Any, acceleration: Any
+        self, posture: Posture, pose: ArrayLike, rate: ArrayLike, acceleration: ArrayLike | None
     ) -> tuple[np.ndarray, np.ndarray]:
         shape = posture.shape
         given = {
@@ -199,32 +207,32 @@ class Pollard(ClosedRobot):
         v, a = rates.motion_rates(posture, *flat)
         return v.reshape(*shape, 12), a.reshape(*shape, 12)
 
-    def rate_jacobian(self, q: Any) -> np.ndarray:
+    def rate_jacobian(self, q: ArrayLike) -> np.ndarray:
         """Joint rates over the pose's rates at closed configurations, ``(..., 12, 6)``."""
         posture = self.posture(q)
         rates.check_regular(posture)
         return singularity.rate_jacobian(posture, self.pose(q))
 
-    def actuation(self, q: Any) -> singularity.Actuation:
+    def actuation(self, q: ArrayLike) -> singularity.Actuation:
         """Condition and determinants of the six motors' Jacobian at ``(..., 12)``."""
         posture = self.posture(q)
         rates.check_regular(posture)
         return singularity.actuation(posture)
 
-    def mobility(self, q: Any) -> loops.Mobility:
+    def mobility(self, q: ArrayLike) -> loops.Mobility:
         """Degrees of freedom by rank at one configuration ``(12,)``."""
         return loops.mobility(self, q)
 
     # -- dynamics ------------------------------------------------------------
 
-    def forward_dynamics(self, q: Any, v: Any, torque: Any) -> np.ndarray:
+    def forward_dynamics(self, q: ArrayLike, v: ArrayLike, torque: ArrayLike) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` under six torques, the loops closed."""
         return loop_dynamics.forward_dynamics(self, q, v, torque)
 
     def simulate(
         self,
-        q: Any,
-        v: Any,
+        q: ArrayLike,
+        v: ArrayLike,
         torque: Callable[[float, np.ndarray, np.ndarray], np.ndarray],
         duration: float,
         step: float = 1e-3,
@@ -232,7 +240,7 @@ class Pollard(ClosedRobot):
         """Motion under six torques; see :func:`thesis_pin.loops.dynamics.simulate`."""
         return loop_dynamics.simulate(self, q, v, torque, duration, step)
 
-    def energy(self, q: Any, v: Any) -> np.ndarray:
+    def energy(self, q: ArrayLike, v: ArrayLike) -> np.ndarray:
         """Kinetic plus potential energy [J], shape ``(...)``."""
         q, v = together(q=finite_array("q", q, 12), v=finite_array("v", v, 12))
         data = self.model.createData()

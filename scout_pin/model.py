@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal
 
 import numpy as np
 import pinocchio as pin
@@ -31,8 +31,6 @@ PACKAGE_PATH = str(model_folder("scout"))
 URDF_PATH = str(Path(PACKAGE_PATH) / "scout.urdf")
 
 Root = Literal["free_flyer", "thesis"]
-Placements: TypeAlias = ArrayLike | pin.SE3 | Sequence[pin.SE3]
-"""One placement or a stack: ``pin.SE3``, a sequence of them, or ``(..., 4, 4)``."""
 
 
 def load(
@@ -140,7 +138,7 @@ class Scout(LoadedRobot):
         """Free-flyer q, v, a → thesis coordinates: :func:`scout_pin.coordinates.to_thesis`."""
         return coordinates.to_thesis(q, v, a)
 
-    def configuration(self, torso: Placements, angles: ArrayLike) -> np.ndarray:
+    def configuration(self, torso: ArrayLike, angles: ArrayLike) -> np.ndarray:
         """Pinocchio's q of a torso's place and joint angles, for this robot's root.
 
         Args:
@@ -162,7 +160,7 @@ class Scout(LoadedRobot):
     # -- kinematics ----------------------------------------------------------
 
     def leg_inverse_kinematics(
-        self, side: str, torso_to_foot: Placements, reference: ArrayLike | None = None
+        self, side: str, torso_to_foot: ArrayLike, reference: ArrayLike | None = None
     ) -> kinematics.LegSolutions:
         """All branches of one leg; where an angle is free, one member of each family.
 
@@ -172,9 +170,9 @@ class Scout(LoadedRobot):
 
     def inverse_kinematics(
         self,
-        torso: Placements,
-        left_foot: Placements,
-        right_foot: Placements,
+        torso: ArrayLike,
+        left_foot: ArrayLike,
+        right_foot: ArrayLike,
         reference: ArrayLike | None = None,
         *,
         branch: str | Sequence[str] | None = None,
@@ -273,7 +271,7 @@ class Scout(LoadedRobot):
         return forward.leg_forward_kinematics(self._leg(side), finite_array("theta", theta, 6))
 
     def forward_kinematics(
-        self, theta: ArrayLike, torso: Placements | None = None
+        self, theta: ArrayLike, torso: ArrayLike | None = None
     ) -> dict[str, np.ndarray]:
         """Soles in the world from twelve angles.
 
@@ -291,7 +289,7 @@ class Scout(LoadedRobot):
             for k, side in enumerate(SIDES)
         }
 
-    def sole_vertices(self, side: str, foot: Placements) -> np.ndarray:
+    def sole_vertices(self, side: str, foot: ArrayLike) -> np.ndarray:
         """Corners of a sole in the world [m]: ``(..., 4, 4)`` → ``(..., corners, 3)``.
 
         Source: Scout thesis, 3.1 (last equation) and B.4.

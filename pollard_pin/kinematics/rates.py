@@ -36,7 +36,7 @@ def _z_cross(v: Vector) -> Vector:
 
 
 def _scaled(k: np.ndarray, v: Vector) -> Vector:
-    return k * (v if v.ndim > k.ndim else v[:, None])
+    return np.asarray(k * (v if v.ndim > k.ndim else v[:, None]))
 
 
 def check_regular(posture: Posture, time: np.ndarray | None = None) -> None:
@@ -172,7 +172,9 @@ def joint_accelerations(
 
     def carried(lever: Vector) -> Vector:
         """What the rates alone accelerate at a point of the forearm."""
-        return bias_elbow + cross(bias_alpha, lever) + cross(omega_f, cross(omega_f, lever))
+        return np.asarray(
+            bias_elbow + cross(bias_alpha, lever) + cross(omega_f, cross(omega_f, lever))
+        )
 
     omega_1 = omega_f + k_12 * f
     omega_2 = omega_1 + k_18 * n

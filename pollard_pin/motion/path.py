@@ -13,9 +13,10 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.specification import Specification
 from thesis_pin.errors import TrajectoryError, WrongShape
@@ -75,9 +76,9 @@ class ToolPath:
     name: str
     duration: float
     function: Callable[[np.ndarray], Triple]
-    parameters: dict[str, Any]
+    parameters: dict[str, object]
 
-    def at(self, time: Any) -> ToolMotion:
+    def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""
         time = np.atleast_1d(finite_array("time", time))
         if time.ndim != 1 or not time.size:
@@ -198,7 +199,9 @@ def appendix_b(
     )
 
 
-def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") -> ToolPath:
+def line(
+    start: ArrayLike, end: ArrayLike, duration: float, timing: str = "rest-to-rest"
+) -> ToolPath:
     """A straight line between two poses (x, y, z, ψ, θ, φ)."""
     first, last = vector("start", start, 6), vector("end", end, 6)
 
@@ -210,9 +213,9 @@ def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") ->
 
 
 def arc(
-    start: Any,
-    via: Any,
-    end: Any,
+    start: ArrayLike,
+    via: ArrayLike,
+    end: ArrayLike,
     duration: float,
     timing: str = "rest-to-rest",
 ) -> ToolPath:
@@ -273,7 +276,7 @@ def _single(
 
 
 def through(
-    time: Any, poses: Any, method: str = "cubic", *, name: str = "poses over time"
+    time: ArrayLike, poses: ArrayLike, method: str = "cubic", *, name: str = "poses over time"
 ) -> ToolPath:
     """A spline through poses at given times, with its exact derivatives.
 

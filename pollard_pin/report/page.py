@@ -218,7 +218,6 @@ def _tables(report: TrajectoryReport) -> list[Table]:
             )
         ],
     )
-    parameters = report.document()["parameters"]
     return [
         motors,
         joints,
@@ -226,7 +225,7 @@ def _tables(report: TrajectoryReport) -> list[Table]:
         Table(
             "Parameters",
             ("parameter", "value"),
-            [(name.replace("_", " "), str(value)) for name, value in parameters.items()],
+            [(name.replace("_", " "), str(value)) for name, value in report.parameters.items()],
             prose=True,
         ),
         software(),

@@ -48,9 +48,9 @@ class GaitReport(GaitNumbers):
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
 
-    def assumptions(self) -> list[dict[str, Any]]:
+    def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open, with their reasons."""
-        result = []
+        result: list[dict[str, object]] = []
         for name in type(self.robot.specification.assumptions).model_fields:
             entry = getattr(self.robot.specification.assumptions, name).model_dump()
             result.append({"name": name, **entry})
@@ -59,7 +59,20 @@ class GaitReport(GaitNumbers):
         )
         return result
 
-    def document(self) -> dict[str, Any]:
+    @property
+    def parameters(self) -> dict[str, object]:
+        """What was asked for: robot, motion, samples, choices."""
+        return {
+            "robot": self.robot.specification.name,
+            "gait": self.gait.name,
+            "time_unit": self.time_unit,
+            "branch": self.branch,
+            "samples": len(self.joints.time),
+            "inertia": self.robot.inertia,
+            "thesis_pin": __version__,
+        }
+
+    def document(self) -> dict[str, object]:
         """The report as JSON-ready data; see docs/scout.md."""
         wrench = self.dynamics.wrench
         return {
@@ -79,22 +92,17 @@ class GaitReport(GaitNumbers):
             "zmp": self.zmp,
             "margin": self.margin,
             "admissible": self.dynamics.admissible,
-            "parameters": {
-                "robot": self.robot.specification.name,
-                "gait": self.gait.name,
-                "time_unit": self.time_unit,
-                "branch": self.branch,
-                "samples": len(self.joints.time),
-                "inertia": self.robot.inertia,
-                "thesis_pin": __version__,
-            },
+            "parameters": self.parameters,
             "assumptions": self.assumptions(),
             "summary": self.summary(),
         }
 
-    def columns(self) -> dict[str, Any]:
+    def columns(self) -> dict[str, np.ndarray | list[str]]:
         """The samples as columns of a table: name with unit → values."""
-        columns: dict[str, Any] = {"time_s": self.joints.time, "phase": self.motion.phase}
+        columns: dict[str, np.ndarray | list[str]] = {
+            "time_s": self.joints.time,
+            "phase": self.motion.phase,
+        }
         for prefix, values, unit in (
             ("theta", self.joints.q, "rad"),
             ("theta_rate", self.joints.v, "rad_s"),

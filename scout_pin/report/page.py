@@ -87,7 +87,6 @@ def _tables(report: GaitReport) -> list[Table]:
         ],
         note="'servo' is the worst |τ|/stall + |θ̇|/no-load, at most 100 %.",
     )
-    parameters = report.document()["parameters"]
     return [
         joints,
         *_impacts(report),
@@ -95,7 +94,7 @@ def _tables(report: GaitReport) -> list[Table]:
         Table(
             "Parameters",
             ("parameter", "value"),
-            [(name.replace("_", " "), str(value)) for name, value in parameters.items()],
+            [(name.replace("_", " "), str(value)) for name, value in report.parameters.items()],
             prose=True,
         ),
         software(),

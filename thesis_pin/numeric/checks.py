@@ -32,7 +32,7 @@ MOST = 100_000_000
 """Largest number of samples or steps that can be asked for; more is a slip of the pen."""
 
 
-def choice(kind: str, value: Any, known: Sequence[str]) -> str:
+def choice(kind: str, value: object, known: Sequence[str]) -> str:
     """One of some names.
 
     Args:
@@ -48,7 +48,7 @@ def choice(kind: str, value: Any, known: Sequence[str]) -> str:
     return value
 
 
-def instance(name: str, value: Any, kind: type[Kind], made_by: str) -> Kind:
+def instance(name: str, value: object, kind: type[Kind], made_by: str) -> Kind:
     """An object of one of our classes.
 
     Args:
@@ -69,7 +69,7 @@ def instance(name: str, value: Any, kind: type[Kind], made_by: str) -> Kind:
 
 def real(
     name: str,
-    value: Any,
+    value: object,
     *,
     low: float = -math.inf,
     high: float = math.inf,
@@ -98,7 +98,7 @@ def real(
     return number
 
 
-def whole(name: str, value: Any, least: int, *, error: type[BadInput] = BadInput) -> int:
+def whole(name: str, value: object, least: int, *, error: type[BadInput] = BadInput) -> int:
     """A whole number of at least ``least`` and at most :data:`MOST`.
 
     Raises:
@@ -116,7 +116,7 @@ def whole(name: str, value: Any, least: int, *, error: type[BadInput] = BadInput
     return int(value)
 
 
-def function(name: str, value: Any, form: str) -> Callable[..., Any]:
+def function(name: str, value: object, form: str) -> Callable[..., Any]:
     """Something that can be called.
 
     Args:
@@ -132,7 +132,7 @@ def function(name: str, value: Any, form: str) -> Callable[..., Any]:
     return value
 
 
-def element(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
+def element(index: object, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
     """Which element of a stack, as a tuple of indices that exist.
 
     Args:
@@ -159,7 +159,7 @@ def element(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
     )
 
 
-def shown(value: Any) -> str:
+def shown(value: object) -> str:
     """A value in a few characters, for messages."""
     shape = getattr(value, "shape", None)
     if isinstance(shape, tuple) and shape:
