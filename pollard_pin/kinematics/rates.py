@@ -172,7 +172,9 @@ def joint_accelerations(
 
     def carried(lever: Vector) -> Vector:
         """What the rates alone accelerate at a point of the forearm."""
-        return np.asarray(bias_elbow + cross(bias_alpha, lever) + cross(omega_f, cross(omega_f, lever)))
+        return np.asarray(
+            bias_elbow + cross(bias_alpha, lever) + cross(omega_f, cross(omega_f, lever))
+        )
 
     omega_1 = omega_f + k_12 * f
     omega_2 = omega_1 + k_18 * n

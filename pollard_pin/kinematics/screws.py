@@ -105,7 +105,9 @@ class Posture:
 
     def side_reach(self, i: int) -> Vector:
         """From the base of side chain ``i``, at its axis, to the tip of its rod, ``(3, n)``."""
-        return np.asarray(self.arms[i] + self.rods[i] - np.array([[0.0], [0.0], [self.geometry.z_32[i]]]))
+        return np.asarray(
+            self.arms[i] + self.rods[i] - np.array([[0.0], [0.0], [self.geometry.z_32[i]]])
+        )
 
     @property
     def tip(self) -> np.ndarray:

@@ -44,7 +44,9 @@ class Solutions:
     @cached_property
     def margin(self) -> np.ndarray:
         """Reach margin, shape ``(...)``: 1 − the largest |cosine|, negative if unreachable."""
-        return np.asarray(1.0 - np.abs(np.where(np.isnan(self.cosines), np.inf, self.cosines)).max(axis=-1))
+        return np.asarray(
+            1.0 - np.abs(np.where(np.isnan(self.cosines), np.inf, self.cosines)).max(axis=-1)
+        )
 
     @cached_property
     def reachable(self) -> np.ndarray:
@@ -54,7 +56,9 @@ class Solutions:
     @cached_property
     def beyond_limits(self) -> np.ndarray:
         """By how much each angle leaves its limits [rad], ≤ 0 inside, ``(..., 12)``."""
-        return np.asarray(np.maximum(self.geometry.lower - self.angles, self.angles - self.geometry.upper))
+        return np.asarray(
+            np.maximum(self.geometry.lower - self.angles, self.angles - self.geometry.upper)
+        )
 
     @cached_property
     def valid(self) -> np.ndarray:
