@@ -16,9 +16,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.kinematics.closed_form import ClosedForm
 from pollard_pin.kinematics.geometry import Branch, Geometry
@@ -33,9 +33,9 @@ _TRIED = 720
 
 def inverse_kinematics(
     geometry: Geometry,
-    pose: Any,
+    pose: ArrayLike,
     branches: Sequence[Branch],
-    reference: Any = None,
+    reference: ArrayLike | None = None,
     *,
     squeeze: bool = True,
 ) -> Solutions:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.screws import Posture
@@ -108,9 +109,9 @@ class Workspace:
 
 def evaluate_workspace(
     robot: Pollard,
-    x: Any,
-    y: Any,
-    z: Any,
+    x: ArrayLike,
+    y: ArrayLike,
+    z: ArrayLike,
     orientation: Sequence[float] = (0.0, 0.0, 0.0),
     branch: Branch = DEFAULT_BRANCH,
     *,

@@ -24,10 +24,10 @@ from pollard_pin.model import load
 from pollard_pin.specification import Specification
 from pollard_pin.thesis import margins
 from pollard_pin.thesis.catalogue import catalogue
+from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, ball_angles
 from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.bodies import constants_of
-from pollard_pin.thesis.symbols.mechanics import Mechanics
 from pollard_pin.thesis.symbols.motion import Drive
 from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.equations.catalogue import Edition
@@ -119,12 +119,12 @@ class ExplicitModel:
         """Joint accelerations ``(..., 12)`` [rad/s²], in the order of JOINT_NAMES.
 
         Source: (2.75) … (2.87), (2.159) … (2.171), each joint's first relation. The forms
-        that collect the G of appendix E, (2.77) … (2.172), are lines of the audit.
+        that collect the G of appendix E are lines of the audit.
         """
 
-        def found(model: ExplicitModel, mechanics: Mechanics) -> np.ndarray:
+        def found(model: ExplicitModel, mechanics: References) -> np.ndarray:
             # What stands in for a line, and its shape, come from the exact accelerations.
-            mechanics = Mechanics(accelerating(mechanics.state), mechanics.drive)
+            mechanics = References(accelerating(mechanics.state), mechanics.drive)
             values = [
                 model._number(mechanics, Symbol("theta", name, dots=2), i)
                 for name, i in _angle_names()
@@ -186,7 +186,7 @@ class ExplicitModel:
     def terms(self, pose: Any, v: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """D, V and C at once: what they share is worked out once."""
 
-        def stacked(model: ExplicitModel, mechanics: Mechanics) -> np.ndarray:
+        def stacked(model: ExplicitModel, mechanics: References) -> np.ndarray:
             mass, velocity, gravity = model._terms(mechanics, "DVC")
             return np.concatenate([mass, velocity, gravity[..., None]], axis=-1)
 
@@ -201,7 +201,7 @@ class ExplicitModel:
 
     # -- machinery -------------------------------------------------------------------
 
-    def mechanics(self, pose: np.ndarray, v: np.ndarray, a: np.ndarray) -> Mechanics:
+    def mechanics(self, pose: np.ndarray, v: np.ndarray, a: np.ndarray) -> References:
         """What each symbol must equal at poses ``(n, 6)`` on this model's branch.
 
         Raises:
@@ -220,25 +220,25 @@ class ExplicitModel:
         for i in "12":
             state = state.with_(**ball_angles(state, i))
         still = np.zeros((len(pose), 6))
-        return Mechanics(moving(state), Drive(a, still[:, :3], still))
+        return References(moving(state), Drive(a, still[:, :3], still))
 
     def _angles(self, pose: np.ndarray) -> np.ndarray:
         angles = self.robot.inverse_kinematics(pose, self.branch).require().angles
         margins.require(pose, angles)
         return angles
 
-    def environment(self, mechanics: Mechanics) -> EditionEnvironment:
+    def environment(self, mechanics: References) -> EditionEnvironment:
         """The thesis's symbols at some states, in this edition."""
         return EditionEnvironment(
             catalogue(), mechanics, self.edition, substituted=self.substituted
         )
 
-    def _number(self, mechanics: Mechanics, symbol: Symbol, i: str = "") -> np.ndarray:
+    def _number(self, mechanics: References, symbol: Symbol, i: str = "") -> np.ndarray:
         indices = {"i": i} if i else {}
         value = self.environment(mechanics).lookup(symbol.bound(indices), indices)
         return np.broadcast_to(value.array, (*mechanics.state.shape, *value.tail))
 
-    def _rows(self, mechanics: Mechanics) -> np.ndarray:
+    def _rows(self, mechanics: References) -> np.ndarray:
         environment, found = self.environment(mechanics), []
         names = [(name, "") for name in ROW_NAMES]
         names += [(name, i) for i in "12" for name in SIDE_ROW_NAMES]
@@ -247,7 +247,7 @@ class ExplicitModel:
             found.append(environment.lookup(symbol, {"i": i} if i else {}).array)
         return np.stack(np.broadcast_arrays(*found), axis=-2)
 
-    def _terms(self, mechanics: Mechanics, wanted: str) -> list[np.ndarray]:
+    def _terms(self, mechanics: References, wanted: str) -> list[np.ndarray]:
         environment, found = self.environment(mechanics), []
         for letter in wanted:
             value = environment.lookup(Symbol(letter, "j"), {}).array  # j stands first
@@ -269,7 +269,7 @@ class ExplicitModel:
 
     def _batch(
         self,
-        of: Callable[[ExplicitModel, Mechanics], np.ndarray],
+        of: Callable[[ExplicitModel, References], np.ndarray],
         pose: Any,
         v: Any = None,
         a: Any = None,

@@ -18,6 +18,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from scout_pin.kinematics.closed_form import ClosedForm, Free
 from scout_pin.kinematics.families import axis_bounds, yaw_bounds
@@ -36,7 +37,7 @@ _PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the
 
 
 def leg_inverse_kinematics(
-    leg: LegGeometry, torso_to_foot: Any, reference: Any = None
+    leg: LegGeometry, torso_to_foot: ArrayLike, reference: ArrayLike | None = None
 ) -> LegSolutions:
     """Every set of joint angles that brings a sole to a pose.
 
@@ -191,7 +192,9 @@ def one_branch(
     return choose_branch(every_branch(leg, target, reference), side, reference)
 
 
-def choose_branch(solutions: LegSolutions, side: str, reference: Any = None) -> np.ndarray:
+def choose_branch(
+    solutions: LegSolutions, side: str, reference: ArrayLike | None = None
+) -> np.ndarray:
     """One valid branch a pose, by the rule of ``Scout.inverse_kinematics``.
 
     Args:

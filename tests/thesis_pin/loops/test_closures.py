@@ -180,7 +180,7 @@ def test_a_link_with_two_parents_is_refused_with_both_joints(tmp_path):
         '  <link name="right_tip"/>\n', ""
     )
     (tmp_path / "looped.urdf").write_text(looped)
-    says = r"looped\.urdf: link 'left_tip' has two parents"
+    says = r"looped\.urdf:67: link 'left_tip' has two parents"
     with pytest.raises(ModelError, match=says) as caught:
         load(tmp_path / "looped.urdf", DATA / "five_bar.yaml")
     assert "'left_tip_joint' and 'right_tip_joint'" in str(caught.value)
