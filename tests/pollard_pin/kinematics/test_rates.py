@@ -9,7 +9,7 @@ from pollard_pin.coordinates import angular_rate_matrix
 from pollard_pin.motion.path import ToolMotion
 from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.specification import ACTUATORS
-from thesis_pin.errors import Unreachable
+from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.rotations import euler_placement
