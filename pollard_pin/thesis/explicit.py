@@ -15,9 +15,9 @@ Source: Pollard thesis, 2.5, 2.6, 2.8, 2.9, chapter 3, appendices D and E.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import load
@@ -87,7 +87,7 @@ class ExplicitModel:
 
     # -- kinematics --------------------------------------------------------------
 
-    def rows(self, pose: Any) -> np.ndarray:
+    def rows(self, pose: ArrayLike) -> np.ndarray:
         """Joint rates over the pose's, ``(..., 12, 6)``, in the order of JOINT_NAMES.
 
         k_2, k_6, k_7, k_12, k_18, k_25, then k_2i, k_6i, k_7i of either side chain.
@@ -95,7 +95,7 @@ class ExplicitModel:
         """
         return self._batch(lambda model, mechanics: model._rows(mechanics), pose)
 
-    def k(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+    def k(self, number: int, pose: ArrayLike, chain: int | None = None) -> np.ndarray:
         """k_n as the thesis numbers them.
 
         A row of joint rates over the pose's, ``(..., 6)``, for k_2, k_6, k_7, k_12, k_18, k_25
@@ -111,11 +111,11 @@ class ExplicitModel:
         """
         return self._matrix("k", number, 25, 7, pose, chain)
 
-    def J_tau(self, pose: Any) -> np.ndarray:
+    def J_tau(self, pose: ArrayLike) -> np.ndarray:
         """Rows of the three base motors, ``(..., 3, 6)``. Source: (3.151)."""
         return self.rows(pose)[..., [0, 6, 9], :]
 
-    def accelerations(self, pose: Any, v: Any, a: Any) -> np.ndarray:
+    def accelerations(self, pose: ArrayLike, v: ArrayLike, a: ArrayLike) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` [rad/s²], in the order of JOINT_NAMES.
 
         Source: (2.75) … (2.87), (2.159) … (2.171), each joint's first relation. The forms
@@ -133,7 +133,7 @@ class ExplicitModel:
 
         return self._batch(found, pose, v, a)
 
-    def M(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+    def M(self, number: int, pose: ArrayLike, chain: int | None = None) -> np.ndarray:
         """M_k, ``(..., 3, 6)``: odd, velocity of a centre of gravity; even, angular velocity.
 
         Args:
@@ -145,7 +145,7 @@ class ExplicitModel:
         """
         return self._matrix("M", number, 10, 4, pose, chain)
 
-    def N(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+    def N(self, number: int, pose: ArrayLike, chain: int | None = None) -> np.ndarray:
         """N_k, ``(..., 6, 6)``: a body's share of D.
 
         Args:
@@ -157,7 +157,7 @@ class ExplicitModel:
         """
         return self._matrix("N", number, 5, 2, pose, chain)
 
-    def margin(self, pose: Any) -> np.ndarray:
+    def margin(self, pose: ArrayLike) -> np.ndarray:
         """Smallest sine or cosine that the thesis's formulas divide by, ``(...)``.
 
         Below about 0.05 the explicit model loses digits that nothing else does; what has
@@ -168,22 +168,22 @@ class ExplicitModel:
 
     # -- dynamics ------------------------------------------------------------------
 
-    def D(self, pose: Any) -> np.ndarray:
+    def D(self, pose: ArrayLike) -> np.ndarray:
         """Mass matrix, ``(..., 6, 6)``. Source: (3.153), (3.68) … (3.134)."""
         return self._batch(lambda model, mechanics: model._terms(mechanics, "D")[0], pose)
 
-    def V(self, pose: Any, v: Any) -> np.ndarray:
+    def V(self, pose: ArrayLike, v: ArrayLike) -> np.ndarray:
         """V(q, q̇) = Ṅ − ½ [q̇ᵀ ∂N/∂q_j]_j, ``(..., 6, 6)``; only V q̇ compares.
 
         Source: (3.153), (3.68) … (3.140).
         """
         return self._batch(lambda model, mechanics: model._terms(mechanics, "V")[0], pose, v)
 
-    def C(self, pose: Any) -> np.ndarray:
+    def C(self, pose: ArrayLike) -> np.ndarray:
         """Gravity term [N], [N·m], ``(..., 6)``. Source: (3.153), (3.78) … (3.140)."""
         return self._batch(lambda model, mechanics: model._terms(mechanics, "C")[0], pose)
 
-    def terms(self, pose: Any, v: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def terms(self, pose: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """D, V and C at once: what they share is worked out once."""
 
         def stacked(model: ExplicitModel, mechanics: References) -> np.ndarray:
@@ -193,7 +193,7 @@ class ExplicitModel:
         found = self._batch(stacked, pose, v)
         return found[..., :6], found[..., 6:12], found[..., 12]
 
-    def generalized_force(self, pose: Any, v: Any, a: Any) -> np.ndarray:
+    def generalized_force(self, pose: ArrayLike, v: ArrayLike, a: ArrayLike) -> np.ndarray:
         """Q = D q̈ + V q̇ + C [N], [N·m], ``(..., 6)``. Source: (3.153)."""
         v, a = (finite_array(name, x, 6) for name, x in (("v", v), ("a", a)))
         mass, velocity, gravity = self.terms(pose, v)
@@ -256,7 +256,13 @@ class ExplicitModel:
         return found
 
     def _matrix(
-        self, letter: str, number: int, count: int, side_count: int, pose: Any, chain: int | None
+        self,
+        letter: str,
+        number: int,
+        count: int,
+        side_count: int,
+        pose: ArrayLike,
+        chain: int | None,
     ) -> np.ndarray:
         if chain not in (None, 1, 2):
             raise UnknownName("chain", chain, ("None", "1", "2"))
@@ -270,9 +276,9 @@ class ExplicitModel:
     def _batch(
         self,
         of: Callable[[ExplicitModel, References], np.ndarray],
-        pose: Any,
-        v: Any = None,
-        a: Any = None,
+        pose: ArrayLike,
+        v: ArrayLike | None = None,
+        a: ArrayLike | None = None,
     ) -> np.ndarray:
         pose = finite_array("pose", pose, 6)
         given = {"v": v, "a": a}

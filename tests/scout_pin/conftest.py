@@ -37,6 +37,12 @@ def rng():
     return np.random.default_rng(20101)
 
 
+def states(rng, count=40):
+    """Random q, v, a in the thesis's coordinates, each ``(count, 18)``."""
+    q = rng.uniform(-1.2, 1.2, (count, 18))
+    return q, *rng.normal(size=(2, count, 18))
+
+
 def random_specification(rng: np.random.Generator) -> Specification:
     """The thesis's robot with random lengths and constant angles, legs unequal."""
     data = Specification.read().model_dump()
