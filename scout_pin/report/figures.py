@@ -136,9 +136,8 @@ def stability(report: GaitReport) -> Any:
     """Zero-moment point and soles from above, and its margin over time."""
     figure, axes = new_figure(9, 4.5, columns=2)
     plan, time = axes[0]
-    feet = {"left": report.motion.left_foot.placement, "right": report.motion.right_foot.placement}
     labelled: set[str] = set()
-    for samples, polygon in polygons(report.robot, report.motion, feet):
+    for samples, polygon in polygons(report.robot, report.motion):
         phase = report.motion.phase[samples[0]]
         label = None if phase in labelled else f"{phase} support"
         labelled.add(phase)

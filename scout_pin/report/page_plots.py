@@ -34,9 +34,8 @@ def report_plots(report: GaitReport) -> list[Plot]:
 
 def _plan(report: GaitReport, keep: np.ndarray) -> Plot:
     data: list[dict[str, Any]] = []
-    feet = {"left": report.motion.left_foot.placement, "right": report.motion.right_foot.placement}
     seen: set[str] = set()
-    for samples, corners in polygons(report.robot, report.motion, feet):
+    for samples, corners in polygons(report.robot, report.motion):
         phase = report.motion.phase[samples[0]]
         closed = np.vstack([corners, corners[:1]]) * 1e3
         data.append(
