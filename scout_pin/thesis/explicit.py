@@ -146,7 +146,7 @@ class ExplicitModel:
                 target = np.eye(4) if placements is None else np.asarray(placements)[k]
                 if placements is None:
                     target[0, 3] = (-1) ** i * 44.54e-3
-                rows.append(_pose_error(references.state.frame(f"7{i}").placement[:, 0], target))
+                rows.append(_pose_error(references.state.frame(f"7{i}").value[:, 0], target))
             return np.concatenate(rows, axis=-1)
 
         def printed(references: References) -> np.ndarray:

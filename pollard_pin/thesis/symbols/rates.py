@@ -19,8 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, inverse, own_name
+from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, own_name
 from pollard_pin.thesis.symbols.loops import element, opening, side
+from thesis_pin.equations.dual import dual, inverse, vee
 
 Along = Mapping[str, float | np.ndarray]
 _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarray]]]
@@ -28,7 +29,7 @@ _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarra
 
 def derivative(of: Callable[[State], Any], state: State, along: Along) -> np.ndarray:
     """Exact derivative of a product of transforms along a direction, at complex states too."""
-    return of(replace(state, along=along)).slope
+    return dual(of(replace(state, along={None: along}))).along(None)
 
 
 def _first(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
@@ -258,12 +259,14 @@ def _solve(
 ) -> list[np.ndarray]:
     """Rates of unknown variables that keep a gap as it is while the given ones move."""
 
-    def twist(along: Along) -> np.ndarray:
-        rate = inverse(gap(state)) @ derivative(gap, state, along)
-        parts = [rate[..., 0, 3], rate[..., 1, 3], rate[..., 2, 3]]
-        return np.stack([*parts, rate[..., 2, 1], rate[..., 0, 2], rate[..., 1, 0]], axis=-1)
+    moved = gap(replace(state, along={**{n: {n: 1.0} for n in unknown}, **dict(enumerate(given))}))
+    back = inverse(moved.value)
 
-    matrix = np.stack([twist({name: 1.0}) for name in unknown], axis=-1)
-    right = np.stack([twist(along) for along in given], axis=-1)
+    def twist(direction: object) -> np.ndarray:
+        rate = back @ moved.along(direction)
+        return np.concatenate([rate[..., :3, 3], vee(rate)], axis=-1)
+
+    matrix = np.stack([twist(name) for name in unknown], axis=-1)
+    right = np.stack([twist(k) for k in range(len(given))], axis=-1)
     solved = np.linalg.solve(matrix, -right)
     return [solved[..., k, :] for k in range(len(unknown))]
