@@ -15,7 +15,7 @@ from pollard_pin.thesis.symbols.bodies import BODIES, centre, origin, own_frame,
 from pollard_pin.thesis.symbols.loops import PATHS, between, placement
 from pollard_pin.thesis.symbols.positions import Positions
 from pollard_pin.thesis.symbols.rates import derivative, explicit_rates, joint_rates, moving
-from thesis_pin.equations.dual import Dual, dual
+from thesis_pin.equations.dual import dual
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
 
@@ -110,7 +110,7 @@ class MotionSymbols(Positions):
         """Joint rates over the pose's, ``(..., n, 6)`` each."""
         return explicit_rates(self.state) if self.explicit else joint_rates(self.state)
 
-    def _along_rates(self, of: Callable[[State], Dual | np.ndarray]) -> np.ndarray:
+    def _along_rates(self, of: Callable[[State], object]) -> np.ndarray:
         """Derivative along the rates of all joints."""
         return derivative(of, self.state, {name: self.state.rates[name] for name in JOINTS})
 

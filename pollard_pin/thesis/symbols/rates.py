@@ -21,15 +21,16 @@ import numpy as np
 
 from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, own_name
 from pollard_pin.thesis.symbols.loops import element, opening, side
-from thesis_pin.equations.dual import Dual, dual, inverse, vee
+from thesis_pin.equations.dual import dual, inverse, vee
 
 Along = Mapping[str, float | np.ndarray]
 _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarray]]]
 
 
-def derivative(of: Callable[[State], Dual | np.ndarray], state: State, along: Along) -> np.ndarray:
+def derivative(of: Callable[[State], object], state: State, along: Along) -> np.ndarray:
     """Exact derivative of a product of transforms along a direction, at complex states too."""
-    return dual(of(replace(state, along={None: along}))).along(None)
+    found: Any = of(replace(state, along={None: along}))
+    return dual(found).along(None)
 
 
 def _first(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
