@@ -64,7 +64,7 @@ def trajectory(arguments: argparse.Namespace) -> int:
     if write_report(
         arguments,
         report,
-        figures=lambda: import_module("pollard_pin.report.figures").report_files(report),
+        figures=lambda: import_module("pollard_pin.report.figures").figures(report),
         page=lambda: import_module("pollard_pin.report.page").trajectory_page(report),
     ):
         from pollard_pin.report.tables import print_report
@@ -152,11 +152,11 @@ def workspace(arguments: argparse.Namespace) -> int:
             jobs=arguments.jobs,
             progress=bar,
         )
-    from thesis_pin.report.summary import csv_bytes, json_bytes
+    from thesis_pin.report.writers import csv_bytes, json_bytes
 
     content = json_bytes(space.document()) if arguments.json or arguments.out else b""
     if arguments.out:
-        from pollard_pin.report.figures import workspace_files
+        from pollard_pin.study.figures import workspace_files
 
         files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
         write_folder(arguments.out, files | workspace_files(space))

@@ -39,12 +39,13 @@ def _scaled(k: np.ndarray, v: Vector) -> Vector:
     return np.asarray(k * (v if v.ndim > k.ndim else v[:, None]))
 
 
-def check_regular(posture: Posture, time: np.ndarray | None = None) -> None:
+def check_regular(posture: Posture, time: np.ndarray | None = None, first: int = 0) -> None:
     """Refuse postures in which rates don't exist.
 
     Args:
         posture: The postures.
         time: Their times [s], for the message.
+        first: Number of the first of them, for the message.
 
     Raises:
         SingularPose: Names the first one and the direction that is lost.
@@ -55,7 +56,7 @@ def check_regular(posture: Posture, time: np.ndarray | None = None) -> None:
         sample, which = (int(k) for k in np.argwhere(lost)[0])
         raise SingularPose(
             f"rates don't exist: {Posture.SERIAL_NAMES[which]} (sine {sines[sample, which]:.1e})",
-            where=(f"pose {sample}" if len(sines) > 1 else "pose")
+            where=(f"pose {first + sample}" if first or len(sines) > 1 else "pose")
             + ("" if time is None else f" at t = {time[sample]:.6g} s"),
             allowed=f"sines above {TOLERANCES.near_singular:.0e}",
             remedy="Move the path away from this posture, or choose another branch",
@@ -68,6 +69,8 @@ def motion_rates(
     rate: np.ndarray,
     acceleration: np.ndarray,
     time: np.ndarray | None = None,
+    *,
+    first: int = 0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rates and accelerations of the twelve joints of a motion of the tool.
 
@@ -77,6 +80,7 @@ def motion_rates(
         rate: Time derivative of the poses, shape ``(n, 6)``.
         acceleration: Their second time derivative, shape ``(n, 6)``.
         time: Their times [s], for the message.
+        first: Number of the first of them, for the message.
 
     Returns:
         [rad/s] and [rad/s²], each ``(n, 12)``.
@@ -84,7 +88,7 @@ def motion_rates(
     Raises:
         SingularPose: Rates don't exist at some sample.
     """
-    check_regular(posture, time)
+    check_regular(posture, time, first)
     p, dp, ddp = (rows(x) for x in (pose, rate, acceleration))
     v = joint_rates(posture, *tool_twist(posture, p[3:5], dp))
     a = joint_accelerations(posture, v, *tool_acceleration(posture, p[3:5], dp, ddp))

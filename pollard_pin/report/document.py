@@ -25,6 +25,7 @@ from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.workers import silent
+from thesis_pin.report.info import assumptions
 from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/trajectory-report"
@@ -43,23 +44,36 @@ class TrajectoryReport(TrajectoryNumbers):
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
 
-    def assumptions(self) -> list[dict[str, Any]]:
+    def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open and this report rests on, with their reasons."""
-        result: list[dict[str, Any]] = []
-        entries = self.robot.specification.assumptions.model_dump(mode="json")
-        for name, entry in entries.items():
-            if name in ("motion", "placement") and self.path.name != "appendix B":
+        result = []
+        for one in assumptions(self.robot.specification.assumptions):
+            if one["name"] in ("motion", "placement") and self.path.name != "appendix B":
                 continue  # a path of one's own has its own time and place
-            if name == "replaced_inertias":
-                if self.robot.inertia == "physical":
-                    result += [{"name": f"inertia of {e['link']}", **e} for e in entry]
-            else:
-                result.append({"name": name, **entry})
+            if one["name"] == "replaced_inertias":
+                if self.robot.inertia != "physical":
+                    continue
+                one["name"] = f"inertia of {one['link']}"
+            result.append(one)
         return result
 
-    def document(self) -> dict[str, Any]:
+    @property
+    def parameters(self) -> dict[str, object]:
+        """What was asked for: robot, motion, samples, choices."""
+        return {
+            "robot": self.robot.specification.name,
+            **self.path.parameters,
+            "branch": str(self.branch),
+            "samples": len(self.joints.time),
+            "inertia": self.robot.inertia,
+            "actuators": self.motors,
+            "condition_length": LENGTH,
+            "thesis_pin": __version__,
+        }
+
+    def document(self) -> dict[str, object]:
         """The report as JSON-ready data; the format is in docs/pollard.md."""
-        document = {
+        document: dict[str, object] = {
             "schema": SCHEMA,
             "version": VERSION,
             "actuators": list(ACTUATOR_NAMES),
@@ -78,16 +92,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "condition": self.holding.condition,
             "determinant": self.holding.base_determinant,
             "margin": self.solutions.margin,
-            "parameters": {
-                "robot": self.robot.specification.name,
-                **self.path.parameters,
-                "branch": str(self.branch),
-                "samples": len(self.joints.time),
-                "inertia": self.robot.inertia,
-                "actuators": self.motors,
-                "condition_length": LENGTH,
-                "thesis_pin": __version__,
-            },
+            "parameters": self.parameters,
             "assumptions": self.assumptions(),
             "summary": self.summary(),
         }

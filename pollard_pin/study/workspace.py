@@ -6,7 +6,6 @@ import itertools
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -70,7 +69,7 @@ class Workspace:
             "determinant": self.determinant.ravel(),
         }
 
-    def summary(self) -> dict[str, Any]:
+    def summary(self) -> dict[str, float | None]:
         """Shares of the grid, and the best and worst conditions."""
         regular = np.isfinite(self.condition)
         inside = self.condition[regular]
@@ -85,7 +84,7 @@ class Workspace:
             "largest_condition": float(inside.max()) if inside.size else None,
         }
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The reachable, regular positions as JSON-ready data; see docs/pollard.md."""
         some = self.reachable & np.isfinite(self.condition)
         return {

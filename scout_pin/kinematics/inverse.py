@@ -27,7 +27,7 @@ from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
 from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
 from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
+from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, Number, blocks
 from thesis_pin.tolerances import TOLERANCES
 
 _FREE_POSES = 64
@@ -100,11 +100,11 @@ _Solved = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 def _few(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -> _Solved:
     """All branches of a few poses, by floats."""
-    numbers: list[float] = []  # one list for all: an array costs more to begin than to fill
+    numbers: list[Number] = []  # one list for all: an array costs more to begin than to fill
     for k, matrix in enumerate(matrices.tolist()):
         free = _free(leg, FLOATS, None if reference is None else (reference[k] + leg.beta).tolist())
         chunk = ClosedForm(FLOATS, leg, matrix, free)
-        excesses: list[float] = []
+        excesses: list[Number] = []
         for axis, two in _PAIRS:
             one, other, excess = chunk.solve(axis, two)
             numbers += one
@@ -145,9 +145,9 @@ def _members(
     given = ClosedForm(ARRAYS, leg, columns, (gamma_1, axis))
     v, a, j = (np.stack(vector) for vector in (given.reach, given.a, given.j))
     level = np.array([0.0, 0.0, 1.0])[:, None]
-    yaws = np.concatenate([gamma_1[None], yaw_bounds(leg, v, a)])
+    yaws = np.concatenate([np.array(gamma_1)[None], yaw_bounds(leg, v, a)])
     axes = np.stack([np.stack(axis), *np.broadcast_to(level, (len(yaws) - 1, 3, count))])
-    if (given.sine_axis < TOLERANCES.singular).any():
+    if np.any(given.sine_axis < TOLERANCES.singular):
         more = axis_bounds(leg, v, a, j)
         axes = np.concatenate([axes, more])
         yaws = np.concatenate([yaws, np.broadcast_to(gamma_1, (len(more), count))])
@@ -177,23 +177,34 @@ def _members(
 
 
 def one_branch(
-    leg: LegGeometry, side: str, target: np.ndarray, reference: np.ndarray | None
+    leg: LegGeometry,
+    side: str,
+    target: np.ndarray,
+    reference: np.ndarray | None,
+    only: int | None = None,
 ) -> np.ndarray:
     """Angles ``(..., 6)`` on one branch a pose, by the rule of ``Scout.inverse_kinematics``.
+
+    ``only`` is the number of the one branch to take; None leaves the choice.
 
     Raises:
         Unreachable: Some pose has no valid branch.
     """
     if target.ndim == 3 and len(target) and (reference is None or reference.ndim == 1):
         entries = target.reshape(-1, 16).T
-        found = follow_branch(leg, len(target), lambda part: entries[:, part].copy(), reference)
+        found = follow_branch(
+            leg, len(target), lambda part: entries[:, part].copy(), reference, only
+        )
         if found is not None:
             return found
-    return choose_branch(every_branch(leg, target, reference), side, reference)
+    return choose_branch(every_branch(leg, target, reference), side, reference, only)
 
 
 def choose_branch(
-    solutions: LegSolutions, side: str, reference: ArrayLike | None = None
+    solutions: LegSolutions,
+    side: str,
+    reference: ArrayLike | None = None,
+    only: int | None = None,
 ) -> np.ndarray:
     """One valid branch a pose, by the rule of ``Scout.inverse_kinematics``.
 
@@ -201,6 +212,7 @@ def choose_branch(
         solutions: All branches, of a single pose or a stack.
         side: Name of the leg, for messages.
         reference: Angles [rad], ``(6,)`` or ``(..., 6)``.
+        only: Number of the one branch to take; None leaves the choice.
 
     Returns:
         Angles [rad], shape ``(..., 6)``.
@@ -209,12 +221,14 @@ def choose_branch(
         Unreachable: Some pose has no valid branch.
     """
     valid, angles = solutions.valid, solutions.angles
+    if only is not None:
+        valid = valid & (np.arange(8) == only)
     possible = valid.any(axis=-1)
     if not possible.all():
         index = tuple(int(k) for k in np.argwhere(~np.atleast_1d(possible))[0])[: possible.ndim]
         where = f"{side} foot" + (f", sample {index[0]}" if index else "")
         raise Unreachable(
-            solutions.explain(index), where=where, remedy="Move the torso or the foot closer"
+            solutions.explain(index, only), where=where, remedy="Move the torso or the foot closer"
         )
     start = np.zeros(6) if reference is None else np.asarray(reference)
     each = np.ndim(start) > 1
@@ -242,6 +256,7 @@ def follow_branch(
     count: int,
     matrices: Callable[[slice], np.ndarray],
     reference: np.ndarray | None = None,
+    only: int | None = None,
 ) -> np.ndarray | None:
     """One branch along a whole motion, if one is valid throughout: no other is worked out.
 
@@ -254,6 +269,7 @@ def follow_branch(
         matrices: Gives the rows of the rigid placements torso to sole of some
             samples, entries first, shape ``(12 or 16, n)``.
         reference: Angles [rad], ``(6,)``; None for zero.
+        only: Number of the one branch to try; None tries all.
 
     Returns:
         Angles [rad], shape ``(count, 6)``; None if no branch is valid throughout.
@@ -268,12 +284,12 @@ def follow_branch(
         for limit, sign in ((leg.lower, -1), (leg.upper, 1))
     )
     theta = np.empty((count, 6))
-    for k in np.argsort(step, kind="stable"):
+    for k in np.argsort(step, kind="stable") if only is None else (only,):
         for part in blocks(count):
             *gammas, excess = ClosedForm(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
             angles = wrap(np.array(gammas[k % 2]) - leg.beta[:, None])
             if not (
-                (excess <= TOLERANCES.reach).all()
+                np.all(excess <= TOLERANCES.reach)
                 and (angles >= lower).all()
                 and (angles <= upper).all()
             ):

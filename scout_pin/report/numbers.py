@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.dynamics.impact import Impact
-from scout_pin.dynamics.inverse import ContactDynamics
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion, RateJump
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, SIDES
+from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
 
@@ -24,6 +24,7 @@ class GaitNumbers:
     Attributes:
         robot, gait: What was asked about.
         time_unit: Seconds in the gait's unit of t.
+        branch: Labels of the branches asked for, left then right; None left it open.
         motion: Sampled task-space motion.
         joints: Joint trajectory.
         dynamics: Torques and floor wrenches.
@@ -36,6 +37,7 @@ class GaitNumbers:
     robot: Scout
     gait: Gait
     time_unit: float
+    branch: str | None
     motion: GaitMotion
     joints: JointTrajectory
     dynamics: ContactDynamics

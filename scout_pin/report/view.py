@@ -25,9 +25,8 @@ from thesis_pin.pages.scene import (
     levels,
     thinned,
 )
-from thesis_pin.report.summary import PALETTE
+from thesis_pin.report.curves import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
 
-BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = PALETTE
 YELLOW, BLACK, TORSO = "#F0E442", "#1A1A1A", "#5F6B76"
 
 MARGIN_BOUNDS = (0.0, 5e-3)
@@ -124,9 +123,8 @@ def _body(report: GaitReport, q: np.ndarray) -> list[Item]:
 def _balance(report: GaitReport, keep: np.ndarray, zone: np.ndarray, size: float) -> list[Item]:
     com, floor = report.com[keep], report.com[keep] * (1.0, 1.0, 0.0)
     zmp = np.column_stack([report.zmp[keep], np.zeros(len(keep))])
-    feet = {"left": report.motion.left_foot.placement, "right": report.motion.right_foot.placement}
     which, outlines = np.full(len(report.margin), -1.0), []
-    for k, (samples, corners) in enumerate(polygons(report.robot, report.motion, feet)):
+    for k, (samples, corners) in enumerate(polygons(report.robot, report.motion)):
         which[samples] = k
         outlines.append(np.column_stack([corners, np.zeros(len(corners))]))
     return [

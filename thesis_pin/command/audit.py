@@ -47,7 +47,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> int:
     from thesis_pin.command.parser import OK
     from thesis_pin.command.progress import track
     from thesis_pin.files import write_file
-    from thesis_pin.report.summary import json_bytes
+    from thesis_pin.report.writers import json_bytes
 
     only = (
         known(arguments.equation, thesis.catalogue(), thesis.robot)

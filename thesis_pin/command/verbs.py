@@ -35,7 +35,7 @@ def show(
         tell: Prints the same for people.
     """
     if arguments.json:
-        from thesis_pin.report.summary import json_bytes
+        from thesis_pin.report.writers import json_bytes
 
         write_file(arguments.json, json_bytes(document()))
     if arguments.json != "-":
@@ -65,7 +65,7 @@ def write_report(
     """
     document, files, html = b"", {}, b""
     if arguments.json or arguments.out:
-        from thesis_pin.report.summary import csv_bytes, json_bytes
+        from thesis_pin.report.writers import csv_bytes, json_bytes
 
         document = json_bytes(report.document())
         if arguments.out:

@@ -300,7 +300,7 @@ def test_references_on_the_closed_mechanism_give_the_models_rates(robot, rng):
     found = robot.inverse_kinematics(poses)
     poses, q = poses[found.valid], found.angles[found.valid]
     still = np.zeros(poses.shape)
-    mechanics = ExplicitModel(robot.specification).mechanics(poses, still, still)
+    mechanics = ExplicitModel(robot.specification).references(poses, still, still)
     rates = joint_rates(mechanics.state)
     expected = robot.rate_jacobian(q)
     scale = np.abs(expected).max(axis=(1, 2), keepdims=True)
@@ -316,6 +316,7 @@ def test_residuals_leave_no_doubt_between_right_and_wrong(report):
     assert any(math.isinf(x) for x in printed)
 
 
+@pytest.mark.bytes
 def test_the_document_is_current(report):
     assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(
         report, THESIS.document_command
