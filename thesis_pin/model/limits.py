@@ -23,6 +23,7 @@ class Limits:
         rows: Lines of a file of samples.
         columns: Cells of a line.
         cells: Cells of all lines together.
+        phases: Phases of support of a gait.
         values: Numbers, texts and tables of a TOML file.
         nesting: Levels of tables, lists or elements inside each other.
         key: Length of a key or name [characters].
@@ -46,6 +47,7 @@ class Limits:
     rows: int = 500_000
     columns: int = 200
     cells: int = 5_000_000
+    phases: int = 10_000
     values: int = 100_000
     nesting: int = 32
     key: int = 200
