@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from thesis_pin.tolerances import TOLERANCES
 
@@ -71,7 +70,7 @@ class Limits:
 LIMITS = Limits()
 
 
-def bounded(data: object) -> tuple[Any, list[tuple[Key, str, object]]]:
+def bounded(data: object) -> tuple[object, list[tuple[Key, str, object]]]:
     """Data with tuples for lists, and what passes :data:`LIMITS`.
 
     Args:

@@ -108,7 +108,7 @@ def _check_dots(kind: str, text: str, where: str) -> None:
 def validate(
     kind: str,
     schema: type[File],
-    data: Any,
+    data: object,
     *,
     where: str = "<data>",
     lines: dict[Key, int] | None = None,
