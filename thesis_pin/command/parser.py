@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from thesis_pin.command.termination import tidy_end
 from thesis_pin.errors import BadInput, ThesisPinError
 from thesis_pin.numeric.checks import MOST, shown
 
@@ -39,6 +40,7 @@ class Parser(argparse.ArgumentParser):
         return super().parse_args(args, namespace)
 
 
+@tidy_end()
 def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None) -> int:
     """Parse a command line and run its verb.
 
