@@ -16,6 +16,7 @@ from scipy.interpolate import PPoly
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.gait import BODIES, Gait, Phase
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
+from thesis_pin.files import name_as_text
 from thesis_pin.model.samples import Line, check_increasing, check_width, numbers, read_rows
 from thesis_pin.model.specification import Key, Positive, Strict, read_toml
 from thesis_pin.numeric.checks import choice
@@ -256,7 +257,7 @@ def _from_csv(path: Path, method: str) -> Gait:
         body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in POSE_NAMES)
         for body in BODIES
     }
-    return Gait(path.stem, str(path), 1.0, curves, phases)
+    return Gait(name_as_text(path.stem), name_as_text(path), 1.0, curves, phases)
 
 
 def _columns(path: Path, header: Sequence[str], known: Sequence[str]) -> list[str]:

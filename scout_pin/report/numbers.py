@@ -80,6 +80,12 @@ class GaitNumbers:
         return self.gait.rate_jumps(self.time_unit)
 
     @cached_property
+    def peak_friction_used(self) -> float | None:
+        """Largest share of the admissible friction in use; None if no foot bears load."""
+        used = self.dynamics.friction_used
+        return float(np.nanmax(used)) if np.isfinite(used).any() else None
+
+    @cached_property
     def worst_contact(self) -> tuple[int, float]:
         """Sample whose wrench is farthest outside the cone, and the least missing wrench [N·m]."""
         d = self.dynamics

@@ -47,7 +47,7 @@ def gait_page(report: GaitReport) -> bytes:
 
 def _tiles(report: GaitReport) -> list[Tile]:
     use, fastest = report.servo_use.max(), report.fastest.line
-    used = report.summary()["peak_friction_used"]
+    used = report.peak_friction_used
     return [
         Tile(
             "worst ZMP margin", f"{report.margin.min() * 1e3:.1f} mm", bool(report.margin.min() > 0)

@@ -38,7 +38,7 @@ from thesis_pin.numeric.checks import shown
 FILE_KIND = "closure file"
 
 _Entry = TypeVar("_Entry")
-Bounded = Annotated[tuple[_Entry, ...], Field(max_length=LIMITS.joints)]
+Bounded = Annotated[tuple[_Entry, ...], Field(max_length=LIMITS.entries)]
 
 
 class Extra(Strict):

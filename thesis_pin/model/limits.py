@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from thesis_pin.tolerances import TOLERANCES
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -27,7 +29,9 @@ class Limits:
         text: Length of any other text [characters].
         elements: Elements of a URDF.
         links: Links of a robot.
-        joints: Its joints that move, and entries of each list of a closure file.
+        joints: Its joints that move; Pinocchio's data grow with their cube, and take
+            0.5 GB at 200.
+        entries: Entries of each list of a closure file.
         magnitude: Largest absolute value of a number, in whatever unit.
         smallest: Least value of what has to be positive.
         time_step: Least step between samples and between nodes [s], [-].
@@ -39,19 +43,20 @@ class Limits:
     csv_bytes: int = 128 * 2**20
     yaml_bytes: int = 256 * 2**10
     urdf_bytes: int = 16 * 2**20
-    rows: int = 1_000_000
+    rows: int = 500_000
     columns: int = 200
-    cells: int = 10_000_000
+    cells: int = 5_000_000
     values: int = 100_000
     nesting: int = 32
     key: int = 200
     text: int = 20_000
     elements: int = 200_000
     links: int = 10_000
-    joints: int = 1_000
+    joints: int = 200
+    entries: int = 1_000
     magnitude: float = 1e12
     smallest: float = 1e-9
-    time_step: float = 1e-9
+    time_step: float = TOLERANCES.step
     axis: float = 1e-6
     patience: float = 5.0
 

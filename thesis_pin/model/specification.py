@@ -110,7 +110,7 @@ def _check_dots(kind: str, text: str, where: str) -> None:
 def validate(
     kind: str,
     schema: type[File],
-    data: Any,
+    data: object,
     *,
     where: str = "<data>",
     lines: dict[Key, int] | None = None,
@@ -162,7 +162,7 @@ def validate(
     return result
 
 
-def bounded(data: object) -> tuple[Any, list[tuple[Key, str, object]]]:
+def bounded(data: object) -> tuple[object, list[tuple[Key, str, object]]]:
     """Data with tuples for lists, and what passes :data:`~thesis_pin.model.limits.LIMITS`.
 
     Args:
