@@ -1,5 +1,8 @@
 """Figures and plots of a gait report show what the report says."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -33,3 +36,13 @@ def test_stick_figures_have_two_views_of_every_frame(report):
 
 def test_a_page_is_the_same_bytes_for_the_same_report(report):
     assert gait_page(report) == gait_page(report)
+
+
+def test_tables_say_neither_minus_nothing_nor_none(report):
+    walk = Path(__file__).parents[3] / "examples" / "walk.toml"
+    soft = scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait(walk), samples=41)
+    assert soft.impacts  # so soft that their speeds and impulses round to nothing
+    for one in (report, soft):
+        cells = re.findall(r"<td>(.*?)</td>", gait_page(one).decode())
+        assert "None" not in cells
+        assert [cell for cell in cells if re.fullmatch(r"-0(\.0*)?", cell)] == []
