@@ -6,7 +6,15 @@ from pollard_pin.report.curves import plots
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.report.view import path_scene
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin.pages.page import Page, Table, Tile, assumptions_table, html, software
+from thesis_pin.pages.page import (
+    Page,
+    Table,
+    Tile,
+    assumptions_table,
+    html,
+    parameters_table,
+    software,
+)
 from thesis_pin.pages.scene import thinned
 
 MOST_SAMPLES = 1201
@@ -73,8 +81,8 @@ def _tables(report: TrajectoryReport) -> list[Table]:
                 f"{a.peak_speed[k]:.3f}",
                 f"{a.peak_power[k]:.4f}",
                 f"{a.positive_work[k]:.4f}",
-                f"{a.negative_work[k]:.4f}",
-                f"{a.net_work[k]:.5f}",
+                f"{a.negative_work[k]:z.4f}",
+                f"{a.net_work[k]:z.5f}",
                 f"{other[k]:.4f}",
             )
             for k, name in enumerate(a.names)
@@ -95,11 +103,6 @@ def _tables(report: TrajectoryReport) -> list[Table]:
         motors,
         joints,
         assumptions_table(report.assumptions()),
-        Table(
-            "Parameters",
-            ("parameter", "value"),
-            [(name.replace("_", " "), str(value)) for name, value in report.parameters.items()],
-            prose=True,
-        ),
+        parameters_table(report.parameters),
         software(),
     ]
