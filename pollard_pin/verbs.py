@@ -25,8 +25,8 @@ def _branch(arguments: argparse.Namespace) -> Branch:
 
 
 def _path(arguments: argparse.Namespace, specification: Any) -> ToolPath:
+    from pollard_pin.motion.curves import appendix_b
     from pollard_pin.motion.files import load_path
-    from pollard_pin.motion.path import appendix_b
     from thesis_pin.errors import BadInput
 
     if arguments.path is None:

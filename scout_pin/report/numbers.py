@@ -58,7 +58,7 @@ class GaitNumbers:
             np.abs(self.dynamics.torque) / self.robot.stall_torque
             + np.abs(self.joints.v) / self.robot.no_load_speed
         )
-        return share.max(axis=0)
+        return np.asarray(share.max(axis=0))
 
     @cached_property
     def fastest(self) -> FastestTimeUnit:

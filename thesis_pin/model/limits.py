@@ -6,9 +6,13 @@ is refused within seconds and in little memory. docs/conventions.md lists them.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from thesis_pin.tolerances import TOLERANCES
+
+Key = tuple[str | int, ...]
+"""Place of a value in nested tables and lists."""
 
 
 @dataclass(frozen=True)
@@ -23,6 +27,7 @@ class Limits:
         rows: Lines of a file of samples.
         columns: Cells of a line.
         cells: Cells of all lines together.
+        phases: Phases of support of a gait.
         values: Numbers, texts and tables of a TOML file.
         nesting: Levels of tables, lists or elements inside each other.
         key: Length of a key or name [characters].
@@ -46,6 +51,7 @@ class Limits:
     rows: int = 500_000
     columns: int = 200
     cells: int = 5_000_000
+    phases: int = 10_000
     values: int = 100_000
     nesting: int = 32
     key: int = 200
@@ -62,3 +68,42 @@ class Limits:
 
 
 LIMITS = Limits()
+
+
+def bounded(data: object) -> tuple[object, list[tuple[Key, str, object]]]:
+    """Data with tuples for lists, and what passes :data:`LIMITS`.
+
+    Args:
+        data: Nested dicts and lists.
+
+    Returns:
+        The same data with tuples for its lists, and key, complaint and value of
+        everything that is too large, too long, too deep or too much.
+    """
+    problems: list[tuple[Key, str, object]] = []
+    count = 0
+
+    def copy(value: object, key: Key) -> object:
+        nonlocal count
+        count += 1
+        if count > LIMITS.values:
+            if count == LIMITS.values + 1:
+                problems.append((key[:1], f"holds more than {LIMITS.values:,} values", None))
+            return None
+        if len(key) > LIMITS.nesting:
+            problems.append((key[:3], f"is nested deeper than {LIMITS.nesting} levels", None))
+            return None
+        if isinstance(value, dict):
+            for name in value:
+                if len(str(name)) > LIMITS.key:
+                    problems.append((key, f"a key is longer than {LIMITS.key} characters", name))
+            return {name: copy(one, (*key, name)) for name, one in value.items()}
+        if isinstance(value, list | tuple):
+            return tuple(copy(one, (*key, k)) for k, one in enumerate(value))
+        if isinstance(value, str) and len(value) > LIMITS.text:
+            problems.append((key, f"is longer than {LIMITS.text:,} characters", value))
+        if isinstance(value, int | float) and LIMITS.magnitude < abs(value) < math.inf:
+            problems.append((key, f"its magnitude must be at most {LIMITS.magnitude:g}", value))
+        return value
+
+    return copy(data, ()), problems

@@ -147,7 +147,7 @@ def jumps(curve: PPoly, order: int = 0) -> np.ndarray:
     before = np.zeros(len(width))
     for coefficient in derivative.c[:, :-1]:
         before = before * width + coefficient
-    return derivative(curve.x[1:-1]) - before
+    return np.asarray(derivative(curve.x[1:-1]) - before)
 
 
 def join(pieces: Sequence[PPoly]) -> PPoly:
