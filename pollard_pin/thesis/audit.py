@@ -1,11 +1,10 @@
-"""The audit of the Pollard thesis: states, causes, coverage, the verb.
+"""The audit of the Pollard thesis: states, causes, coverage.
 
 ``pollard-pin audit`` prints the counts, the failures and what isn't covered.
 """
 
 from __future__ import annotations
 
-import argparse
 import functools
 import math
 from collections.abc import Callable, Iterable
@@ -26,7 +25,6 @@ from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.audit.rows import Report
 from thesis_pin.audit.text import ranges
 from thesis_pin.audit.verdicts import Claims, judge
-from thesis_pin.command.audit import run_verb
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
 THESIS = "Pollard thesis"
@@ -144,8 +142,3 @@ def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:
         *found,
         ("figures", "drawings"),
     )
-
-
-def run(arguments: argparse.Namespace) -> int:
-    """Run the verb; returns the exit code."""
-    return run_verb(arguments, audit, catalogue(), "pollard", COMMAND)

@@ -1,11 +1,10 @@
-"""The audit of the Scout thesis: states, effects, causes, coverage, the verb.
+"""The audit of the Scout thesis: states, effects, causes, coverage.
 
 ``scout-pin audit`` prints the counts and the failures, worst effect first.
 """
 
 from __future__ import annotations
 
-import argparse
 import functools
 import math
 from collections.abc import Callable, Iterable
@@ -26,7 +25,6 @@ from scout_pin.thesis.state import Parameters, State
 from scout_pin.thesis.symbols.forces import matrix_entry
 from thesis_pin.audit.rows import Report
 from thesis_pin.audit.verdicts import Claims, judge
-from thesis_pin.command.audit import run_verb
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.evaluation import evaluate
@@ -234,11 +232,3 @@ def audit(
 def _once(claims: Claims) -> Claims:
     """Claims that remember their result: several equations share one."""
     return {name: functools.cache(claim) for name, claim in claims.items()}
-
-
-# -- the verb -------------------------------------------------------------------------
-
-
-def run(arguments: argparse.Namespace) -> int:
-    """Run the verb; returns the exit code."""
-    return run_verb(arguments, audit, catalogue(), "scout", COMMAND)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 import difflib
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
+from thesis_pin.command.exits import ExitCode
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
@@ -29,31 +30,13 @@ class Audit(Protocol):
         """The report on the equations of these ids; None for all."""
 
 
-def add_verb(verbs: Any, example: str, run: Callable[[argparse.Namespace], int]) -> None:
-    """Add the verb to a command's parser; ``example`` is an invocation for its help."""
-    verb = verbs.add_parser(
-        "audit",
-        help="is this printed equation of the thesis right?",
-        description="A computed verdict on every printed equation of the thesis.",
-        epilog=f"Example: {example}",
-    )
-    verb.add_argument(
-        "--equation", metavar="ID", help="explain one equation; also by its number or symbol"
-    )
-    verb.add_argument("--every", action="store_true", help="list every failing line")
-    verb.add_argument("--json", metavar="FILE|-", help="write all rows as JSON")
-    verb.add_argument("--html", metavar="FILE", help="write a page with rendered formulas")
-    verb.add_argument("--markdown", metavar="FILE", help="write the audit as a document")
-    verb.set_defaults(run=run)
-
-
 def run_verb(
     arguments: argparse.Namespace, audit: Audit, catalogue: Catalogue, robot: str, command: str
-) -> int:
+) -> ExitCode:
     """Run the verb; returns the exit code.
 
     Args:
-        arguments: As :func:`add_verb` reads them.
+        arguments: As :func:`thesis_pin.command.options.add_audit` has them read.
         audit: The robot's audit.
         catalogue: Its equations.
         robot: First part of their ids, "scout" or "pollard".
@@ -63,7 +46,6 @@ def run_verb(
     from thesis_pin.audit.document import document
     from thesis_pin.audit.page import page
     from thesis_pin.command.output import print_entries, print_table, print_text
-    from thesis_pin.command.parser import OK
     from thesis_pin.command.progress import track
     from thesis_pin.files import write_file
     from thesis_pin.report.summary import json_bytes
@@ -76,13 +58,13 @@ def run_verb(
         write_file(arguments.markdown, faces.markdown(report, command).encode())
     if arguments.json:
         write_file(arguments.json, json_bytes(document(report)))
-    if arguments.json == "-":
-        return OK
+    if "-" in (arguments.html, arguments.markdown, arguments.json):
+        return ExitCode.DONE
     if only:
         for k, row in enumerate(report.rows):
             print_text(*[""] * (k > 0))
             print_entries(faces.explain(row, report.causes.get(row.cause)))
-        return OK
+        return ExitCode.DONE
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])
     headings, chapters = faces.chapter_table(report)
@@ -99,7 +81,7 @@ def run_verb(
     )
     print_entries(_without_verdict(report))
     print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
-    return OK
+    return ExitCode.DONE
 
 
 def _without_verdict(report: Report) -> Iterator[tuple[str, str]]:

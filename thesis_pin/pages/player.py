@@ -79,6 +79,7 @@ def show(
     browser: bool = True,
     hold: float | None = None,
     say: Callable[[str], None] = lambda text: print(text, file=sys.stderr),
+    serving: Callable[[str], None] = lambda address: None,
 ) -> None:
     """Serve a scene on 127.0.0.1 until interrupted (Ctrl-C) or ``hold`` has passed.
 
@@ -89,6 +90,7 @@ def show(
         browser: Whether to open the page in the user's browser.
         hold: Seconds to serve; None for ever.
         say: Told the address, and when the browser can't draw every frame.
+        serving: Given the address, before a browser opens it.
 
     Raises:
         BadInput: The port is taken or not allowed.
@@ -97,6 +99,7 @@ def show(
 
     with PageServer(html(scene, speed=speed), port, say) as server:
         say(f"showing {scene.title} at {server.address} (Ctrl-C ends)")
+        serving(server.address)
         if browser:
             import webbrowser
 
