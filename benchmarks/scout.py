@@ -9,11 +9,13 @@ import pinocchio as pin
 from timing import Comparison, Work, again
 
 import scout_pin
-from scout_pin.dynamics.inverse import free_flyer_state, inverse_dynamics, joint_trajectory
+from scout_pin.coordinates import free_flyer_state
+from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.inverse import leg_inverse_kinematics
 from scout_pin.kinematics.rates import leg_rates
+from scout_pin.motion.trajectory import joint_trajectory
 
 RNEA = "RNEA, one thread"
 

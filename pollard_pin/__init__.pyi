@@ -22,16 +22,14 @@ from .kinematics.geometry import (
 )
 
 # Motion
-from .motion.path import (
-    Path as Path,
-    load_path as load_path,
-)
+from .motion.path import Path as Path
+from .motion.files import load_path as load_path
 
 # Dynamics
 from .dynamics.stream import torque_blocks as torque_blocks
 
 # Report
-from .report.numbers import trajectory_report as trajectory_report
+from .report.document import trajectory_report as trajectory_report
 
 # Only Pollard
 from .specification import ACTUATOR_NAMES as ACTUATOR_NAMES

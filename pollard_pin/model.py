@@ -11,6 +11,7 @@ import pinocchio as pin
 
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import closures
+from pollard_pin.coordinates import pose_from_placement
 from pollard_pin.dynamics import inverse as dynamics
 from pollard_pin.kinematics import forward, rates, singularity
 from pollard_pin.kinematics import inverse as kinematics
@@ -20,7 +21,6 @@ from pollard_pin.kinematics.geometry import (
     Geometry,
     branch_labels,
     one_branch,
-    pose_from_placement,
 )
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions

@@ -25,7 +25,8 @@ def _branch(arguments: argparse.Namespace) -> Branch:
 
 
 def _path(arguments: argparse.Namespace, specification: Specification) -> Path:
-    from pollard_pin.motion.path import appendix_b, load_path
+    from pollard_pin.motion.files import load_path
+    from pollard_pin.motion.path import appendix_b
 
     if arguments.path is None:
         return appendix_b(
@@ -50,7 +51,7 @@ def report(
     progress: Callable[[int, int], None],
 ) -> object:
     """The report on the path that the arguments ask for."""
-    from pollard_pin.report.numbers import trajectory_report
+    from pollard_pin.report.document import trajectory_report
 
     path = _path(arguments, robot.specification)
     return trajectory_report(

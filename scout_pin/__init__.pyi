@@ -22,16 +22,14 @@ from .kinematics.solutions import (
 # Motion
 from .motion.gait import Gait as Gait
 from .motion.files import load_gait as load_gait
+from .motion.trajectory import joint_trajectory as joint_trajectory
 
 # Dynamics
-from .dynamics.inverse import (
-    inverse_dynamics as inverse_dynamics,
-    joint_trajectory as joint_trajectory,
-)
+from .dynamics.inverse import inverse_dynamics as inverse_dynamics
 from .dynamics.stream import torque_blocks as torque_blocks
 
 # Report
-from .report.numbers import gait_report as gait_report
+from .report.document import gait_report as gait_report
 
 # Only Scout
 from .kinematics.rates import leg_rates as leg_rates

@@ -9,20 +9,20 @@ from typing import Any, Literal
 import numpy as np
 import pinocchio as pin
 
+from scout_pin import coordinates
 from scout_pin.kinematics import forward
 from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact
-from thesis_pin.errors import BadInput, SingularPose
+from thesis_pin.errors import BadInput
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
-from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
+from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array
 from thesis_pin.numeric.checks import choice
-from thesis_pin.numeric.rotations import euler_placement, euler_rate_matrix, invert, quaternions
+from thesis_pin.numeric.rotations import invert
 from thesis_pin.numeric.trajectory import BodyMotion
-from thesis_pin.tolerances import TOLERANCES
 
 PACKAGE_PATH = str(model_folder("scout"))
 URDF_PATH = str(Path(PACKAGE_PATH) / "scout.urdf")
@@ -126,88 +126,14 @@ class Scout(LoadedRobot):
     def to_free_flyer(
         self, q: Any, v: Any = None, a: Any = None
     ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
-        """Thesis coordinates (4.2) and their derivatives → free-flyer q, v, a.
-
-        Args:
-            q: Thesis vector, shape ``(..., 18)``.
-            v: q̇, shape ``(..., 18)``.
-            a: q̈, shape ``(..., 18)``; needs v.
-
-        Returns:
-            q ``(..., 19)``, v ``(..., 18)``, a ``(..., 18)``; the root's velocity is
-            linear then angular, in the torso's axes, as Pinocchio has it.
-        """
-        q, rates, second = _motion(finite_array("q", q, 18), v, a)
-        matrix, omega, alpha = euler_placement(
-            "xyz", q[..., 3:6], rates[..., 3:6], second[..., 3:6]
-        )
-        position = np.concatenate([q[..., :3], quaternions(matrix), q[..., 6:]], axis=-1)
-        if v is None:
-            return position, None, None
-        v, a = rates, None if a is None else second
-        local = _in_axes(matrix, np.stack([v[..., :3], omega], axis=-2))
-        velocity = np.concatenate([local[..., 0, :], local[..., 1, :], v[..., 6:]], axis=-1)
-        if a is None:
-            return position, velocity, None
-        local_a = _in_axes(matrix, np.stack([a[..., :3], alpha], axis=-2))
-        # Pinocchio differentiates the components in the moving axes.
-        linear = local_a[..., 0, :] - np.cross(local[..., 1, :], local[..., 0, :])
-        acceleration = np.concatenate([linear, local_a[..., 1, :], a[..., 6:]], axis=-1)
-        return position, velocity, acceleration
+        """Thesis coordinates → free-flyer q, v, a: :func:`scout_pin.coordinates.to_free_flyer`."""
+        return coordinates.to_free_flyer(q, v, a)
 
     def to_thesis(
         self, q: Any, v: Any = None, a: Any = None
     ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
-        """Free-flyer q, v, a → thesis coordinates (4.2) and their derivatives.
-
-        Args:
-            q: Shape ``(..., 19)``.
-            v: Shape ``(..., 18)``.
-            a: Shape ``(..., 18)``; needs v.
-
-        Returns:
-            q, q̇, q̈, each ``(..., 18)``.
-
-        Raises:
-            SingularPose: φ_B = ±90°, where θ_B and ψ_B can't be told apart.
-        """
-        q, given, second = _motion(finite_array("q", q, 19), v, a)
-        if not np.linalg.norm(q[..., 3:7], axis=-1).all():
-            raise BadInput("a quaternion in q[3:7] is zero", allowed="unit quaternions")
-        matrix = _rotation_matrix(q[..., 3:7])
-        cosine = np.hypot(matrix[..., 0, 0], matrix[..., 0, 1])
-        if (cosine < TOLERANCES.near_singular).any():
-            k = int(np.argmax(np.atleast_1d(cosine) < TOLERANCES.near_singular))
-            raise SingularPose(
-                "φ_B is ±90°, where θ_B and ψ_B turn about the same axis",
-                where=f"sample {k}",
-                remedy='Use root="free_flyer"',
-            )
-        angles = np.stack(
-            [
-                np.arctan2(-matrix[..., 1, 2], matrix[..., 2, 2]),
-                np.arctan2(matrix[..., 0, 2], cosine),
-                np.arctan2(-matrix[..., 0, 1], matrix[..., 0, 0]),
-            ],
-            axis=-1,
-        )
-        position = np.concatenate([q[..., :3], angles, q[..., 7:]], axis=-1)
-        if v is None:
-            return position, None, None
-        v, a = given, None if a is None else second
-        linear = np.einsum("...ij,...j->...i", matrix, v[..., :3])
-        omega = np.einsum("...ij,...j->...i", matrix, v[..., 3:6])
-        inverse = np.linalg.inv(euler_rate_matrix("xyz", angles))
-        rates = np.einsum("...ij,...j->...i", inverse, omega)
-        velocity = np.concatenate([linear, rates, v[..., 6:]], axis=-1)
-        if a is None:
-            return position, velocity, None
-        moving = a[..., :3] + np.cross(v[..., 3:6], v[..., :3])
-        bias = euler_placement("xyz", angles, rates, np.zeros(rates.shape))[2]
-        alpha = np.einsum("...ij,...j->...i", matrix, a[..., 3:6])
-        second = np.einsum("...ij,...j->...i", inverse, alpha - bias)
-        linear = np.einsum("...ij,...j->...i", matrix, moving)
-        return position, velocity, np.concatenate([linear, second, a[..., 6:]], axis=-1)
+        """Free-flyer q, v, a → thesis coordinates: :func:`scout_pin.coordinates.to_thesis`."""
+        return coordinates.to_thesis(q, v, a)
 
     # -- kinematics ----------------------------------------------------------
 
@@ -341,26 +267,3 @@ class Scout(LoadedRobot):
 
     def _leg(self, side: str) -> LegGeometry:
         return self.legs[choice("side", side, SIDES)]
-
-
-def _motion(q: np.ndarray, v: Any, a: Any) -> tuple[np.ndarray, ...]:
-    """q, v and a checked and in one stack; what isn't given is zero."""
-    if v is None and a is not None:
-        raise BadInput("a is given without v", allowed="v alone, or both")
-    v, a = (
-        np.zeros(18) if x is None else finite_array(name, x, 18) for name, x in (("v", v), ("a", a))
-    )
-    return together(q=q, v=v, a=a)
-
-
-def _rotation_matrix(quaternion: np.ndarray) -> np.ndarray:
-    """Rotations of quaternions (x, y, z, w), not zero: ``(..., 4)`` → ``(..., 3, 3)``."""
-    from scipy.spatial.transform import Rotation
-
-    flat = Rotation.from_quat(quaternion.reshape(-1, 4)).as_matrix()
-    return flat.reshape(*quaternion.shape[:-1], 3, 3)
-
-
-def _in_axes(matrix: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """Components of vectors ``(..., k, 3)`` in the axes of ``(..., 3, 3)``."""
-    return np.einsum("...ji,...kj->...ki", matrix, vectors)

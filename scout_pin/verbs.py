@@ -19,7 +19,7 @@ def report(
 ) -> object:
     """The report on the gait that the arguments ask for."""
     from scout_pin.motion.files import load_gait
-    from scout_pin.report.numbers import gait_report
+    from scout_pin.report.document import gait_report
 
     gait = load_gait(arguments.gait, arguments.interpolation)
     unit = arguments.time_unit or gait.time_unit

@@ -13,11 +13,9 @@ from .loops.dynamics import (
 )
 
 # Viewer
-from .pages.player import (
-    show as show,
-    write_html as write_html,
-)
+from .pages.player import write_html as write_html
 from .pages.scene import Scene as Scene
+from .pages.serving import show as show
 
 # Errors
 from .errors import (

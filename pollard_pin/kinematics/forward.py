@@ -22,7 +22,8 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.kinematics.geometry import Branch, Geometry, pose_from_placement
+from pollard_pin.coordinates import pose_from_placement
+from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import ACTUATORS
 from thesis_pin.errors import Unreachable

@@ -8,7 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from pollard_pin.kinematics.geometry import Branch, Geometry, pose_rotation
+from pollard_pin.coordinates import pose_rotation
+from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable, WrongShape

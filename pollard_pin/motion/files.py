@@ -29,7 +29,7 @@ import itertools
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path as File
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
@@ -102,6 +102,16 @@ class PathFile(Strict):
                     f"time goes from {before.time:g} to {after.time:g}; it must increase",
                     after.time,
                 )
+
+
+def load_path(file: Any) -> Path:
+    """A path from a CSV or TOML file; see the head of this module."""
+    suffix = str(file).rpartition(".")[2].lower()
+    if suffix == "csv":
+        return read_csv(file)
+    if suffix == "toml":
+        return read_toml_path(file)
+    raise BadInput(f"a path can't be a .{suffix} file", where=str(file), allowed=".csv or .toml")
 
 
 def read_toml_path(file: str | File) -> Path:

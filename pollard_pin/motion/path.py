@@ -18,7 +18,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from pollard_pin.specification import Specification
-from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
+from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import choice, instance, real, shown, whole
 
@@ -332,15 +332,3 @@ def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
 
     parameters = {"path": name, "segments": [path.parameters for path in paths]}
     return Path(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})
-
-
-def load_path(file: Any) -> Path:
-    """A path from a CSV or TOML file; see :mod:`pollard_pin.motion.files`."""
-    from pollard_pin.motion.files import read_csv, read_toml_path
-
-    suffix = str(file).rpartition(".")[2].lower()
-    if suffix == "csv":
-        return read_csv(file)
-    if suffix == "toml":
-        return read_toml_path(file)
-    raise BadInput(f"a path can't be a .{suffix} file", where=str(file), allowed=".csv or .toml")

@@ -12,7 +12,7 @@ from thesis_pin.report.summary import PALETTE, figure_files, new_figure
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from pollard_pin.report.numbers import TrajectoryReport
+    from pollard_pin.report.document import TrajectoryReport
     from pollard_pin.study.workspace import Workspace
 
 _CHAINS = (

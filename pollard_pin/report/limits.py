@@ -1,14 +1,33 @@
-"""How far a motion uses the motors' limits of torque and speed."""
+"""How far a motion uses the motors' limits, and how near it comes to singularities."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JointLimits
+from pollard_pin.specification import ACTUATOR_NAMES, JointLimits
+
+MARGIN_BOUNDS = (0.05, 0.2)
+"""Reach margins between nearly stretched, near and far."""
+CONDITION_BOUNDS = (100.0, 30.0)
+"""Condition numbers of the six motors' Jacobian between the same."""
+
+
+def distance_class(margin: np.ndarray, condition: np.ndarray) -> np.ndarray:
+    """0 nearly singular, 1 near, 2 far.
+
+    Args:
+        margin: Reach margins, shape ``(n,)``.
+        condition: Condition numbers of the six motors' Jacobian, shape ``(n,)``.
+
+    Returns:
+        Classes as floats, shape ``(n,)``.
+    """
+    reach = np.digitize(margin, MARGIN_BOUNDS)
+    hold = np.digitize(-condition, [-bound for bound in CONDITION_BOUNDS])
+    return np.minimum(reach, hold).astype(float)
 
 
 @dataclass(frozen=True)
@@ -50,28 +69,6 @@ class MotorUse:
     def within(self) -> bool:
         """Whether no motor exceeds a limit."""
         return bool(self.torque.max() <= 1.0 and self.speed.max() <= 1.0)
-
-    def sentences(self) -> Iterator[str]:
-        """The answer in words: the most loaded motors, or everything that is exceeded."""
-        broken = []
-        for shares, times, limit in (
-            (self.torque, self.torque_time, f"{self.effort:g} N·m"),
-            (self.speed, self.speed_time, f"{self.velocity:g} rad/s"),
-        ):
-            for k in np.flatnonzero(shares > 1.0):
-                broken.append(
-                    f"{ACTUATOR_SYMBOLS[k]} needs {shares[k]:.0%} of its {limit} "
-                    f"(t = {times[k]:.3f} s)"
-                )
-        if broken:
-            yield f"The motors can't do this: {'; '.join(broken)}."
-            return
-        torque, speed = int(self.torque.argmax()), int(self.speed.argmax())
-        yield (
-            f"Motors within their limits: the most loaded is {ACTUATOR_SYMBOLS[torque]} with "
-            f"{self.torque[torque]:.0%} of {self.effort:g} N·m, the fastest "
-            f"{ACTUATOR_SYMBOLS[speed]} with {self.speed[speed]:.0%} of {self.velocity:g} rad/s."
-        )
 
     def document(self) -> dict[str, Any]:
         """JSON-ready."""

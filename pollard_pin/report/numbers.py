@@ -1,51 +1,36 @@
-"""The trajectory report: what the motors, joints and ball joints have to do."""
+"""The numbers of a path on a robot, worked out where they are first asked for."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
-from pollard_pin.dynamics.inverse import PollardDynamics, ThreeTorques, three_torques
+from pollard_pin.dynamics.inverse import PollardDynamics, ThreeTorques
 from pollard_pin.dynamics.reactions import joint_reactions
-from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, POSE_NAMES, Branch, one_branch
+from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.kinematics.singularity import (
-    LENGTH,
     Actuation,
-    actuation,
-    rate_jacobian,
-    require_one_sign,
 )
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import Path, ToolMotion
-from pollard_pin.motion.trajectory import joint_trajectory
-from pollard_pin.report.limits import MotorUse
+from pollard_pin.report.limits import MotorUse, distance_class
 from pollard_pin.specification import (
     ACTUATOR_NAMES,
-    ACTUATOR_SYMBOLS,
     ACTUATORS,
-    JOINT_NAMES,
-    JOINT_SYMBOLS,
 )
 from thesis_pin.model.inertia import Reading
-from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.trajectory import JointTrajectory
-from thesis_pin.numeric.workers import silent
 from thesis_pin.report.summary import ActuatorSummary, summarise
-from thesis_pin.version import __version__
-
-SCHEMA = "pollard-pin/trajectory-report"
-VERSION = 1
 
 _REACTION_SAMPLES = 2000  # joint reactions are a loop over samples; peaks need no more
 
 
 @dataclass(frozen=True)
-class TrajectoryReport:
+class TrajectoryNumbers:
     """Everything known of a path on a robot.
 
     Attributes:
@@ -117,6 +102,22 @@ class TrajectoryReport:
         a = self.actuators
         return float(a.positive_work.sum() - a.negative_work.sum())
 
+    @property
+    def energy_error(self) -> float:
+        """Net work of all motors minus the change of energy [J]; rounding with six motors."""
+        return float(self.work_done[-1].sum()) - self.energy_change
+
+    @property
+    def relative_energy_error(self) -> float:
+        """Size of :attr:`energy_error` over the work exchanged; zero if none was."""
+        exchanged = self.work_exchanged
+        return abs(self.energy_error) / exchanged if exchanged else 0.0
+
+    @cached_property
+    def distance_class(self) -> np.ndarray:
+        """0 nearly singular, 1 near, 2 far, shape ``(n,)``."""
+        return distance_class(self.solutions.margin, self.holding.condition)
+
     @cached_property
     def loop_force_size(self) -> np.ndarray:
         """Size of the two ball-joint forces [N], shape ``(n, 2)``."""
@@ -149,176 +150,3 @@ class TrajectoryReport:
         other = Pollard(self.robot.specification, reading)
         found = other.inverse_dynamics(self.joints.q, self.joints.v, self.joints.a)
         return reading, np.abs(found.torque).max(axis=0)
-
-    def assumptions(self) -> list[dict[str, Any]]:
-        """Numbers the thesis leaves open and this report rests on, with their reasons."""
-        result: list[dict[str, Any]] = []
-        entries = self.robot.specification.assumptions.model_dump(mode="json")
-        for name, entry in entries.items():
-            if name in ("motion", "placement") and self.path.name != "appendix B":
-                continue  # a path of one's own has its own time and place
-            if name == "replaced_inertias":
-                if self.robot.inertia == "physical":
-                    result += [{"name": f"inertia of {e['link']}", **e} for e in entry]
-            else:
-                result.append({"name": name, **entry})
-        return result
-
-    def document(self) -> dict[str, Any]:
-        """The report as JSON-ready data; the format is in docs/pollard.md."""
-        document = {
-            "schema": SCHEMA,
-            "version": VERSION,
-            "actuators": list(ACTUATOR_NAMES),
-            "actuator_symbols": list(ACTUATOR_SYMBOLS),
-            "joints": list(JOINT_NAMES),
-            "symbols": list(JOINT_SYMBOLS),
-            "time": self.joints.time,
-            "pose": self.motion.pose,
-            "theta": self.joints.q,
-            "theta_rate": self.joints.v,
-            "theta_acceleration": self.joints.a,
-            "torque": self.torque,
-            "power": self.power,
-            "work": self.work_done[-1],
-            "loop_force": self.dynamics.loop_force,
-            "condition": self.holding.condition,
-            "determinant": self.holding.base_determinant,
-            "margin": self.solutions.margin,
-            "parameters": {
-                "robot": self.robot.specification.name,
-                **self.path.parameters,
-                "branch": str(self.branch),
-                "samples": len(self.joints.time),
-                "inertia": self.robot.inertia,
-                "actuators": self.motors,
-                "condition_length": LENGTH,
-                "thesis_pin": __version__,
-            },
-            "assumptions": self.assumptions(),
-            "summary": self.summary(),
-        }
-        if self.three is not None:
-            document["missing_force"] = self.three.missing
-        return document
-
-    def columns(self) -> dict[str, np.ndarray]:
-        """The samples as columns of a table: name with unit → values."""
-        columns: dict[str, np.ndarray] = {"time_s": self.joints.time}
-        units = ("m", "m", "m", "rad", "rad", "rad")
-        for k, (name, unit) in enumerate(zip(POSE_NAMES, units, strict=True)):
-            columns[f"{name}_{unit}"] = self.motion.pose[:, k]
-        for prefix, names, values, unit in (
-            ("theta", JOINT_NAMES, self.joints.q, "rad"),
-            ("theta_rate", JOINT_NAMES, self.joints.v, "rad_s"),
-            ("theta_acceleration", JOINT_NAMES, self.joints.a, "rad_s2"),
-            ("torque", ACTUATOR_NAMES, self.torque, "Nm"),
-            ("power", ACTUATOR_NAMES, self.power, "W"),
-            ("work", ACTUATOR_NAMES, self.work_done, "J"),
-        ):
-            for k, name in enumerate(names):
-                columns[f"{prefix}_{name}_{unit}"] = values[:, k]
-        for i in (0, 1):
-            for j, axis in enumerate("xyz"):
-                columns[f"loop_force_{i + 1}_{axis}_N"] = self.dynamics.loop_force[:, i, j]
-        columns["condition"], columns["margin"] = self.holding.condition, self.solutions.margin
-        return columns
-
-    def summary(self) -> dict[str, Any]:
-        """Peaks, work, balance, margins; without the samples."""
-        a, time = self.actuators, self.joints.time
-        force, moment = self.peak_reactions
-        reading, other = self.other_reading
-        net = float(self.work_done[-1].sum())
-        exchanged = self.work_exchanged
-        error = net - self.energy_change
-        worst, least = int(np.argmax(self.holding.condition)), int(np.argmin(self.solutions.margin))
-        summary = {
-            "peak_torque": a.peak_torque,
-            "rms_torque": a.rms_torque,
-            "peak_speed": a.peak_speed,
-            "peak_power": a.peak_power,
-            "positive_work": a.positive_work,
-            "negative_work": a.negative_work,
-            "net_work": a.net_work,
-            "energy": {
-                "net_work": net,
-                "change": self.energy_change,
-                "exchanged": exchanged,
-                "error": error,
-                "relative_error": abs(error) / exchanged if exchanged else 0.0,
-            },
-            "peak_loop_force": self.loop_force_size.max(axis=0),
-            "peak_loop_force_time": time[self.loop_force_size.argmax(axis=0)],
-            "peak_joint_force": force,
-            "peak_joint_moment": moment,
-            "condition": {
-                "least": float(self.holding.condition.min()),
-                "largest": float(self.holding.condition[worst]),
-                "time": float(time[worst]),
-            },
-            "determinant": {
-                "sign": int(np.sign(self.holding.base_determinant[0])),
-                "smallest": float(np.abs(self.holding.base_determinant).min()),
-            },
-            "motor_limits": self.motor_use.document(),
-            "margin": {"least": float(self.solutions.margin[least]), "time": float(time[least])},
-            "residual": {
-                "tool": float(self.solutions.position_residual.max()),
-                "loops": float(self.solutions.loop_residual.max()),
-            },
-            "other_inertia": {"reading": reading, "peak_torque": other},
-        }
-        if self.three is not None:
-            summary["missing_share"] = float(self.three.share.max())
-        return summary
-
-
-def trajectory_report(
-    robot: Pollard,
-    path: Path,
-    *,
-    samples: int = 2001,
-    branch: Branch = DEFAULT_BRANCH,
-    motors: Literal["six", "three"] = "six",
-    progress: Callable[[int, int], None] = silent,
-) -> TrajectoryReport:
-    """Work out a path: joint motion, torques, forces, margins.
-
-    Args:
-        robot: The robot.
-        path: The path of the spray tip.
-        samples: Number of evenly spaced samples.
-        branch: Which inverse-kinematics solution.
-        motors: ``"six"``, or ``"three"`` for the thesis's (3.154).
-        progress: Called with the steps done and their total.
-
-    Raises:
-        Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
-    """
-    instance("robot", robot, Pollard, "pollard_pin.load()")
-    instance("path", path, Path, "load_path() or appendix_b()")
-    choice("number of actuators", motors, ("six", "three"))
-    function("progress", progress, "progress(done, total)")
-    branch = one_branch(branch)
-    motion = path.sample(samples)
-    progress(1, 4)
-    joints, solutions = joint_trajectory(robot, motion, branch, path)
-    progress(2, 4)
-    posture = solutions.posture
-    holding = actuation(posture)
-
-    def determinant(time: float) -> float:
-        there = robot.inverse_kinematics(path.at(time).pose, branch)
-        return float(actuation(there.posture).base_determinant[0])
-
-    require_one_sign(determinant, motion.time, holding.base_determinant)
-    progress(3, 4)
-    dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a, posture)
-    progress(4, 4)
-    three = None
-    if motors == "three":
-        three = three_torques(rate_jacobian(posture, motion.pose), dynamics.joint_force)
-    return TrajectoryReport(
-        robot, path, branch, motors, motion, joints, solutions, dynamics, holding, three
-    )

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.report.numbers import TrajectoryReport
-from pollard_pin.report.view import margin_zone, path_scene
+from pollard_pin.report.document import TrajectoryReport
+from pollard_pin.report.view import path_scene
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.pages.page import (
     Page,
@@ -38,44 +38,14 @@ def trajectory_page(report: TrajectoryReport) -> bytes:
             title=f"{report.robot.specification.name.capitalize()}: path {report.path.name}",
             subtitle=f"{report.path.duration:.4g} s, branch {report.branch}, "
             f"{report.robot.inertia} inertias, {len(report.joints.time)} samples",
-            good=report.motor_use.within,  # what can't be followed raises before
-            verdict=_verdict(report),
+            good=report.within_limits,
+            verdict=report.verdict(),
             tiles=_tiles(report),
             plots=_plots(report),
             tables=_tables(report),
             scene=path_scene(report),
         )
     )
-
-
-def _verdict(report: TrajectoryReport) -> list[str]:
-    name, summary = report.robot.specification.name.capitalize(), report.summary()
-    condition, energy = summary["condition"], summary["energy"]
-    near = (
-        "nearly touches a singularity",
-        "comes near a singularity",
-        "stays far from singularities",
-    )
-    sentences = [
-        f"{name} can follow this path on branch {report.branch}: every pose is reached inside the "
-        "joint limits, and no singularity is crossed.",
-        f"The path {near[int(margin_zone(report).min())]}: reach margin at least "
-        f"{summary['margin']['least']:.3f} (t = {summary['margin']['time']:.3g} s), condition "
-        f"number {condition['least']:.1f} to {condition['largest']:.1f}.",
-    ]
-    sentences += report.motor_use.sentences()
-    if report.three is not None:
-        return [
-            *sentences,
-            f"Three motors leave up to {summary['missing_share']:.2%} of the generalized force "
-            "unexplained: (3.154) inverts a 3×6 matrix, and these torques are its least-squares "
-            "solution.",
-        ]
-    return [
-        *sentences,
-        f"The motors' work balances the change of energy to {energy['relative_error']:.1e} of the "
-        f"{energy['exchanged']:.3f} J exchanged.",
-    ]
 
 
 def _tiles(report: TrajectoryReport) -> list[Tile]:

@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.kinematics.forward import Assemblies
-from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, POSE_NAMES
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
-from pollard_pin.report.numbers import TrajectoryReport
+from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.command.output import print_table, print_text
 from thesis_pin.report import branches
@@ -45,15 +46,12 @@ def print_report(report: TrajectoryReport) -> None:
     margin, reading = summary["margin"], summary["other_inertia"]
     force = summary["peak_loop_force"]
     joint = int(np.argmax(summary["peak_joint_force"]))
+    if not three:
+        print_text(
+            f"Energy: the motors' net work is {energy['net_work'] * 1e3:.4f} mJ, the robot's "
+            f"energy changes by {energy['change'] * 1e3:.4f} mJ."
+        )
     print_text(
-        f"Energy: the motors' net work is {energy['net_work'] * 1e3:.4f} mJ, the robot's energy "
-        f"changes by {energy['change'] * 1e3:.4f} mJ ({energy['relative_error']:.1e} of the "
-        f"{energy['exchanged']:.3f} J exchanged)."
-        if not three
-        else f"Three motors leave up to {summary['missing_share']:.2%} of the generalized force "
-        "unexplained: (3.154) inverts a 3×6 matrix, and these torques are its least-squares "
-        "solution. Their work can't balance the energy.",
-        *report.motor_use.sentences(),
         f"Loop reactions: up to {force[0]:.3f} N and {force[1]:.3f} N in the ball joints; the "
         f"most loaded other joint is {JOINT_NAMES[joint]} with "
         f"{summary['peak_joint_force'][joint]:.2f} N.",
@@ -62,6 +60,8 @@ def print_report(report: TrajectoryReport) -> None:
         f"Reach margin at least {margin['least']:.3f} (t = {margin['time']:.3f} s).",
         f"With {reading['reading']} inertias the base motors of six would peak at "
         f"{', '.join(f'{value:.3f}' for value in reading['peak_torque'][:3])} N·m.",
+        "",
+        *report.verdict(),
         "",
         "These numbers rest on assumptions:",
         *(

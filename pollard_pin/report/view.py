@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pollard_pin.report.numbers import TrajectoryReport
+from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
 from pollard_pin.urdf import TOOL_FRAME
 from thesis_pin.numeric.checks import instance
@@ -35,10 +35,6 @@ BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = PALETTE
 YELLOW, BLACK, BASE = "#F0E442", "#1A1A1A", "#5F6B76"
 _CHAIN = {"chain1": ORANGE, "chain2": GREEN, "base": BASE, "tool": BLACK}
 
-MARGIN_BOUNDS = (0.05, 0.2)
-"""Reach margins at which the tip's colour changes: nearly stretched, near, far."""
-CONDITION_BOUNDS = (100.0, 30.0)
-"""Condition numbers of the six motors' Jacobian at which it changes."""
 _MARGIN_COLOURS = (VERMILLION, YELLOW, BLUE)
 _MARGIN_TEXTS = ("nearly singular", "near a singularity", "far from singularities")
 
@@ -56,7 +52,7 @@ def path_scene(report: TrajectoryReport) -> Scene:
     instance("report", report, TrajectoryReport, "trajectory_report()")
     robot, keep = report.robot, thinned(report.joints.time, MOST_SAMPLES)
     q = report.joints.q[keep]
-    zone = margin_zone(report)[keep]
+    zone = report.distance_class[keep]
     largest = (float(np.abs(report.torque[:, :3]).max()), float(np.abs(report.torque[:, 3:]).max()))
     force_scale = 0.12 / max(float(report.loop_force_size.max()), 1e-12)
     moves = joint_placements(robot.model, q)
@@ -86,13 +82,6 @@ def path_scene(report: TrajectoryReport) -> Scene:
         floor=low - 0.05,
         forward=(1.0, 0.0),
     )
-
-
-def margin_zone(report: TrajectoryReport) -> np.ndarray:
-    """0 nearly singular, 1 near, 2 far, by reach margin and condition, shape ``(n,)``."""
-    reach = levels(report.solutions.margin, MARGIN_BOUNDS)
-    hold = levels(-report.holding.condition, [-bound for bound in CONDITION_BOUNDS])
-    return np.minimum(reach, hold)
 
 
 def _colour(name: str) -> str:

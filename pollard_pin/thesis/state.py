@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.kinematics.geometry import pose_from_placement
+from pollard_pin.coordinates import pose_from_placement
 from thesis_pin.equations.dual import Dual
 from thesis_pin.equations.values import STEP
 from thesis_pin.numeric.rotations import rotation, rotation_derivative, transform

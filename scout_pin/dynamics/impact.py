@@ -10,9 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio as pin
 
-from scout_pin.dynamics.inverse import free_flyer_state, joint_trajectory, walking
+from scout_pin.coordinates import free_flyer_state
+from scout_pin.dynamics.inverse import walking
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
+from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.cones import in_sole_axes
 from thesis_pin.numeric.arrays import vector

@@ -17,18 +17,18 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
+from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.load_sharing import share_load
-from scout_pin.kinematics.rates import leg_rates
 from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Motion
+from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import element, instance
 from thesis_pin.numeric.elementwise import blocks
-from thesis_pin.numeric.rotations import quaternions
-from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
+from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
 
@@ -102,30 +102,6 @@ class ContactDynamics:
         return self.contacts[k].violation(self.sole_wrench[sample, k])
 
 
-def joint_trajectory(
-    robot: Scout, motion: Motion, reference: np.ndarray | None = None
-) -> JointTrajectory:
-    """Inverse kinematics of a whole motion, rates and accelerations included.
-
-    Args:
-        robot: The biped.
-        motion: The sampled gait.
-        reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
-
-    Raises:
-        Unreachable: Some pose has no valid branch.
-        SingularPose: A leg's Jacobian loses rank on the way.
-    """
-    instance("robot", robot, Scout, "scout_pin.load()")
-    instance("motion", motion, Motion, "Gait.sample()")
-    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, reference)
-    feet = (motion.left_foot, motion.right_foot)
-    v, a = np.empty(q.shape), np.empty(q.shape)
-    for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):
-        v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
-    return JointTrajectory(motion.time, q, v, a)
-
-
 def walking(robot: Scout) -> Scout:
     """The biped, if its root is a free flyer.
 
@@ -140,21 +116,6 @@ def walking(robot: Scout) -> Scout:
             remedy="Load it with scout_pin.load(), and convert with to_free_flyer()",
         )
     return robot
-
-
-def free_flyer_state(
-    torso: BodyMotion, joints: JointTrajectory
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root."""
-
-    count, turn = len(joints.q), rows(torso.rotation)
-    q, v, a = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
-    linear, angular = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
-    moving = into(turn, rows(torso.acceleration)) - cross(angular, linear)
-    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternions(torso.rotation), joints.q
-    v[:, :3], v[:, 3:6], v[:, 6:] = linear.T, angular.T, joints.v
-    a[:, :3], a[:, 3:6], a[:, 6:] = moving.T, into(turn, rows(torso.alpha)).T, joints.a
-    return q, v, a
 
 
 def free_flying_forces(robot: Scout, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> np.ndarray:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics, joint_trajectory
+from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, Motion
+from scout_pin.motion.trajectory import joint_trajectory
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.elementwise import BLOCK, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory

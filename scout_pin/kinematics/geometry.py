@@ -10,10 +10,6 @@ import numpy as np
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from thesis_pin.numeric.rotations import rotation
 
-POSE_NAMES = ("x", "y", "z", "pitch", "roll", "yaw")
-"""x lateral, y forward, z up [m]; then the thesis's Euler angles θ, φ, ψ [rad]:
-rotation = Rx(pitch) Ry(roll) Rz(yaw)."""
-
 
 @dataclass(frozen=True)
 class LegGeometry:

@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import Field
 from scipy.interpolate import PPoly
 
-from scout_pin.kinematics.geometry import POSE_NAMES
+from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.gait import BODIES, Gait, Phase
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.model.samples import Line, check_increasing, check_width, numbers, read_rows

@@ -18,7 +18,7 @@ from typing import Any, Literal
 import numpy as np
 from scipy.interpolate import PPoly
 
-from scout_pin.kinematics.geometry import POSE_NAMES
+from scout_pin.coordinates import POSE_NAMES
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.model.specification import Strict
 from thesis_pin.numeric.arrays import finite_array

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from scout_pin.dynamics.inverse import free_flyer_state
+from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.stability import polygons
-from scout_pin.report.numbers import GaitReport
+from scout_pin.report.document import GaitReport
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.model.loading import joint_id
 from thesis_pin.pages.drawing import joint_placements

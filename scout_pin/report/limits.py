@@ -7,14 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from scout_pin.dynamics.inverse import (
-    ContactDynamics,
-    inverse_dynamics,
-    joint_friction,
-    joint_trajectory,
-)
+from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics, joint_friction
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, Motion
+from scout_pin.motion.trajectory import joint_trajectory
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 _TRIED = 32  # samples of double support added at a time to those it is bisected on

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scout_pin.report.numbers import GaitReport
+from scout_pin.report.document import GaitReport
 from scout_pin.report.page_plots import report_plots
 from scout_pin.report.view import gait_scene
 from scout_pin.specification import JOINT_SYMBOLS

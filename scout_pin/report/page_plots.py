@@ -8,7 +8,7 @@ import numpy as np
 
 from scout_pin.dynamics.stability import polygons
 from scout_pin.kinematics.singularity import leg_conditioning
-from scout_pin.report.numbers import GaitReport
+from scout_pin.report.document import GaitReport
 from thesis_pin.pages.page import Plot, Series, base_layout, time_plot
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.summary import PALETTE

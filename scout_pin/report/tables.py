@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from scout_pin.kinematics.geometry import POSE_NAMES
+from scout_pin.coordinates import POSE_NAMES
 from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.command.output import print_table, print_text
@@ -14,7 +14,7 @@ from thesis_pin.report import branches
 
 if TYPE_CHECKING:  # inverse kinematics alone needs no report
     from scout_pin.model import Scout
-    from scout_pin.report.numbers import GaitReport
+    from scout_pin.report.document import GaitReport
 
 
 def print_report(report: GaitReport) -> None:

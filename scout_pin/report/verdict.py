@@ -1,33 +1,50 @@
-"""A gait report's answer in plain sentences."""
+"""A gait's answer: yes or no, and in plain sentences."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from scout_pin.report.numbers import GaitReport
+from scout_pin.report.numbers import GaitNumbers
 
 
-def sentences(report: GaitReport) -> list[str]:
+def servos_carry(numbers: GaitNumbers) -> bool:
+    """Whether every joint stays under its servo's torque-speed line."""
+    return bool((numbers.servo_use <= 1.0).all())
+
+
+def can_walk(numbers: GaitNumbers) -> bool:
+    """Whether the floor can supply every wrench, feet swing clear and no rate jumps."""
+    return bool(
+        (numbers.margin > 0).all()
+        and numbers.dynamics.admissible.all()
+        and numbers.clearance >= -1e-9
+        and not numbers.rate_jumps
+    )
+
+
+def within_limits(numbers: GaitNumbers) -> bool:
+    """Walkable and carried by the servos."""
+    return can_walk(numbers) and servos_carry(numbers)
+
+
+def sentences(numbers: GaitNumbers) -> list[str]:
     """The verdict, most important first: walking, contact, servos, swing feet."""
     return [
-        *_walking(report),
-        *_servos(report),
-        *_swing(report),
-        *_smooth(report),
+        *_walking(numbers),
+        *_servos(numbers),
+        *_swing(numbers),
+        *_smooth(numbers),
     ]
 
 
-def _walking(report: GaitReport) -> list[str]:
-    name, count = report.robot.specification.name.capitalize(), len(report.margin)
-    outside = report.margin <= 0
-    refused = int((~report.dynamics.admissible).sum())
-    if not outside.any() and not refused and not report.can_walk:
+def _walking(numbers: GaitNumbers) -> list[str]:
+    name, count = numbers.robot.specification.name.capitalize(), len(numbers.margin)
+    outside = numbers.margin <= 0
+    refused = int((~numbers.dynamics.admissible).sum())
+    if not outside.any() and not refused and not can_walk(numbers):
         return [f"{name} can't walk this gait as planned, though the floor could carry it."]
     if not outside.any() and not refused:
-        worst = report.margin.min() * 1e3
+        worst = numbers.margin.min() * 1e3
         return [
             f"{name} can walk this gait: the floor can supply every wrench it needs, and the "
             f"ZMP keeps at least {worst:.1f} mm inside the support polygon."
@@ -35,9 +52,9 @@ def _walking(report: GaitReport) -> list[str]:
     text = f"{name} can't walk this gait as planned"
     result = []
     if outside.any():
-        single = ~report.motion.support.all(axis=1)
+        single = ~numbers.motion.support.all(axis=1)
         where = "the stance sole" if (single | ~outside).all() else "the support polygon"
-        low, high = -report.margin[outside].max() * 1e3, -report.margin[outside].min() * 1e3
+        low, high = -numbers.margin[outside].max() * 1e3, -numbers.margin[outside].min() * 1e3
         span = f"{low:.1f} to {high:.1f} mm" if high - low > 0.05 else f"{high:.1f} mm"
         text += (
             f": the ZMP lies outside {where} by {span} in {int(outside.sum())} of {count} samples"
@@ -48,7 +65,7 @@ def _walking(report: GaitReport) -> list[str]:
         if (single & outside).any():
             fall = (
                 "onto the foot it means to lift"
-                if report.tips_towards_swing
+                if numbers.tips_towards_swing
                 else "outwards, away from its other foot"
             )
             text += f" It would tip {fall}."
@@ -58,27 +75,27 @@ def _walking(report: GaitReport) -> list[str]:
             f"{text}: the ZMP stays inside, but in {refused} of {count} samples the soles can't "
             "give the whole wrench (friction or yaw moment)."
         )
-    sample, violation = report.worst_contact
+    sample, violation = numbers.worst_contact
     if refused:
         result.append(
             f"In {refused} of {count} samples no admissible floor wrench exists; the torques "
-            f"suppose feet glued to the floor. At worst (t = {report.motion.t[sample]:g}) "
+            f"suppose feet glued to the floor. At worst (t = {numbers.motion.t[sample]:g}) "
             f"the glue has to supply {violation:.3f} N·m."
         )
     return result
 
 
-def _servos(report: GaitReport) -> list[str]:
-    use, fastest = report.servo_use, report.fastest
+def _servos(numbers: GaitNumbers) -> list[str]:
+    use, fastest = numbers.servo_use, numbers.fastest
     k = int(np.argmax(use))
-    if report.servos_carry:
+    if servos_carry(numbers):
         text = (
-            f"The servos can carry it: the worst, {report.actuators.names[k]}, uses "
+            f"The servos can carry it: the worst, {numbers.actuators.names[k]}, uses "
             f"{use[k]:.0%} of its torque-speed line."
         )
     else:
         text = (
-            f"The servos can't carry it: {report.actuators.names[k]} needs {use[k]:.0%} of its "
+            f"The servos can't carry it: {numbers.actuators.names[k]} needs {use[k]:.0%} of its "
             "torque-speed line."
         )
     if fastest.line is None:
@@ -88,18 +105,18 @@ def _servos(report: GaitReport) -> list[str]:
     return [text]
 
 
-def _swing(report: GaitReport) -> list[str]:
-    if report.clearance < -1e-9:
-        return [f"A swinging sole goes {-report.clearance * 1e3:.1f} mm into the floor."]
+def _swing(numbers: GaitNumbers) -> list[str]:
+    if numbers.clearance < -1e-9:
+        return [f"A swinging sole goes {-numbers.clearance * 1e3:.1f} mm into the floor."]
     return []
 
 
-def _smooth(report: GaitReport) -> list[str]:
-    if not report.rate_jumps:
+def _smooth(numbers: GaitNumbers) -> list[str]:
+    if not numbers.rate_jumps:
         return []
-    worst = report.rate_jumps[0]
+    worst = numbers.rate_jumps[0]
     unit = "m/s" if worst.coordinate in "xyz" else "rad/s"
-    count = len(report.rate_jumps)
+    count = len(numbers.rate_jumps)
     often = "once" if count == 1 else f"{count} times"
     return [
         f"A planned rate jumps {often}, most {worst.body.replace('_', ' ')} {worst.coordinate} by "

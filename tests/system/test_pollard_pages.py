@@ -9,8 +9,9 @@ from chromium import differing, share_drawn
 
 import pollard_pin
 from pollard_pin.motion.path import appendix_b, line
+from pollard_pin.report.limits import MARGIN_BOUNDS
 from pollard_pin.report.page import _plots, trajectory_page
-from pollard_pin.report.view import MARGIN_BOUNDS, margin_zone, path_scene
+from pollard_pin.report.view import path_scene
 from pollard_pin.specification import ACTUATOR_NAMES
 from thesis_pin.pages import player as viewer
 
@@ -156,10 +157,10 @@ def test_between_samples_bodies_are_where_the_mean_angles_put_them(view, report)
 
 
 def test_the_tip_warns_as_the_arm_is_stretched(report):
-    assert set(margin_zone(report)) == {2.0}
+    assert set(report.distance_class) == {2.0}
     outwards = line([0.45, 0, 0, 0, 0, 0], [0.80, 0, 0, 0, 0, 0], 2.0)
     stretching = pollard_pin.trajectory_report(report.robot, outwards, samples=41)
-    zone = margin_zone(stretching)
+    zone = stretching.distance_class
     assert set(zone) == {0.0, 1.0, 2.0}
     assert (np.diff(zone) <= 0).all()
     assert (stretching.solutions.margin[zone == 0] < MARGIN_BOUNDS[0]).all()

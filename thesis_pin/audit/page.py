@@ -25,11 +25,7 @@ from thesis_pin.pages.player import render, web_file
 
 
 def page(report: Report) -> str:
-    """A self-contained page: formulas as MathML, filters, no network.
-
-    Raises:
-        BadInput: jinja2 isn't installed.
-    """
+    """A self-contained page: formulas as MathML, filters, no network."""
     from markupsafe import Markup
 
     order = {row.id: k for k, row in enumerate(report.failures)}

@@ -91,10 +91,13 @@ def refuse_beside(arguments: argparse.Namespace, flag: str, others: tuple[str, .
     Raises:
         BadInput: ``flag`` and one of the others are given.
     """
-    if getattr(arguments, flag) in (None, False):
-        return
+
+    def given(name: str) -> bool:
+        value = getattr(arguments, name.replace("-", "_"))
+        return value is not None and value is not False  # port 0 is one
+
     for other in others:
-        if getattr(arguments, other.replace("-", "_")) not in (None, False):
+        if given(flag) and given(other):
             raise BadInput(
                 f"--{other} means nothing beside --{flag}", remedy="Leave one of them out"
             )

@@ -32,7 +32,11 @@ class Bar:
         self._timer: threading.Timer | None = None
 
     def __enter__(self) -> Bar:
-        if sys.stderr is not None and sys.stderr.isatty():
+        if sys.stderr is None or not sys.stderr.isatty():
+            return self
+        if self.after <= 0:
+            self._show()
+        else:
             self._timer = threading.Timer(self.after, self._show)
             self._timer.daemon = True
             self._timer.start()

@@ -144,7 +144,7 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         "samples": len(scene.time),
         "page": arguments.html,
     }
-    from thesis_pin.pages import player
+    from thesis_pin.pages import player, serving
 
     if arguments.html:
         player.write_html(scene, arguments.html, speed=arguments.speed)
@@ -154,18 +154,18 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
             write_file(arguments.json, json_bytes(shown | {"address": None}))
         return ExitCode.DONE
 
-    def serving(address: str) -> None:
+    def ready(address: str) -> None:
         if arguments.json:
             write_file(arguments.json, json_bytes(shown | {"address": address}))
 
-    player.show(
+    serving.show(
         scene,
         speed=arguments.speed,
         port=arguments.port,
         browser=not arguments.no_browser,
         hold=arguments.hold,
         say=say,
-        serving=serving,
+        ready=ready,
     )
     return ExitCode.DONE
 
@@ -188,14 +188,14 @@ def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Print a URDF, or write every generated file into ``--out``."""
-    from thesis_pin.model.loading import check_urdf
+    with Bar("generating the files"):
+        from thesis_pin.model.loading import check_urdf
 
-    specification = _hook(robot, robot.specification)(arguments.specification)
-    text: str = _hook(robot, robot.urdf)(specification, arguments.inertia)
-    check_urdf(text, where=specification.name)
-    files = {
-        name: content.encode() for name, content in _hook(robot, robot.files)(specification).items()
-    }
+        specification = _hook(robot, robot.specification)(arguments.specification)
+        text: str = _hook(robot, robot.urdf)(specification, arguments.inertia)
+        check_urdf(text, where=specification.name)
+        made = _hook(robot, robot.files)(specification)
+        files = {name: content.encode() for name, content in made.items()}
     document = {
         "schema": f"{robot.command}/urdf",
         "version": 1,

@@ -1,23 +1,20 @@
 """Scenes as pages: one file to mail, or served on this machine only.
 
 One player for both, drawn with the three.js and camera controls that meshcat
-brings. The whole motion is in the page and the browser plays it on its own
-clock, so no frame ever waits for a socket, and a page that loads late misses
-nothing. Libraries and samples are compressed inside the page; its content
-security policy forbids every request to anywhere else.
+brings; :mod:`thesis_pin.pages.serving` shows it live. The whole motion is in the
+page and the browser plays it on its own clock, so no frame ever waits for a
+socket, and a page that loads late misses nothing. Libraries and samples are
+compressed inside the page; its content security policy forbids every request
+to anywhere else.
 
 Example, for any Pinocchio model::
 
-    from thesis_pin.pages import drawing
-
-    from thesis_pin.pages import scene
-
-    from thesis_pin.pages import player as viewer
+    from thesis_pin.pages import drawing, player, scene, serving
 
     items = drawing.robot_items(model, visual_model, q)
     picture = scene.Scene("arm", "An arm waves.", time, (scene.Group("robot", "robot"),), items)
-    viewer.write_html(picture, "arm.html")
-    viewer.show(picture)
+    player.write_html(picture, "arm.html")
+    serving.show(picture)
 """
 
 from __future__ import annotations
@@ -26,8 +23,6 @@ import base64
 import gzip
 import json
 import struct
-import sys
-from collections.abc import Callable
 from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
@@ -39,8 +34,6 @@ from thesis_pin.errors import BadInput
 from thesis_pin.files import write_file
 from thesis_pin.numeric.checks import instance, real, shown
 from thesis_pin.pages.scene import Item, Scene
-
-_INSTALL = "pip install 'thesis-pin[viewer]'"
 
 
 def html(scene: Scene, *, speed: float = 1.0) -> bytes:
@@ -71,42 +64,6 @@ def write_html(scene: Scene, target: str | Path, *, speed: float = 1.0) -> None:
     write_file(target, html(scene, speed=speed))
 
 
-def show(
-    scene: Scene,
-    *,
-    speed: float = 1.0,
-    port: int | None = None,
-    browser: bool = True,
-    hold: float | None = None,
-    say: Callable[[str], None] = lambda text: print(text, file=sys.stderr),
-    serving: Callable[[str], None] = lambda address: None,
-) -> None:
-    """Serve a scene on 127.0.0.1 until interrupted (Ctrl-C) or ``hold`` has passed.
-
-    Args:
-        scene: What to show.
-        speed: Playing speed at first; 1 is real time.
-        port: Port; None takes the first free one from :data:`DEFAULT_PORT` on.
-        browser: Whether to open the page in the user's browser.
-        hold: Seconds to serve; None for ever.
-        say: Told the address, and when the browser can't draw every frame.
-        serving: Given the address, before a browser opens it.
-
-    Raises:
-        BadInput: The port is taken or not allowed.
-    """
-    from thesis_pin.pages.serving import PageServer
-
-    with PageServer(html(scene, speed=speed), port, say) as server:
-        say(f"showing {scene.title} at {server.address} (Ctrl-C ends)")
-        serving(server.address)
-        if browser:
-            import webbrowser
-
-            webbrowser.open(server.address)
-        server.wait(hold)
-
-
 def player_parts(scene: Scene) -> dict[str, Any]:
     """What a template needs to embed a player: packed scene, libraries, style."""
     return {
@@ -121,12 +78,7 @@ def player_parts(scene: Scene) -> dict[str, Any]:
 
 def render(template: str, **values: Any) -> bytes:
     """A page from a template of ``thesis_pin/pages/web``; every value is escaped by default."""
-    try:
-        import jinja2
-    except ImportError:
-        raise BadInput(
-            "pages need jinja2, which isn't installed", remedy=f"Install it: {_INSTALL}"
-        ) from None
+    import jinja2
 
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(web_file),
@@ -158,7 +110,7 @@ def package_file(package: str, path: str) -> bytes:
     for folder in (found.submodule_search_locations or ()) if found else ():
         if (file := Path(folder, path)).is_file():
             return file.read_bytes()
-    raise BadInput(f"{path} is missing", where=package, remedy=f"Install it: {_INSTALL}")
+    raise BadInput(f"{path} is missing", where=package, remedy=f"Install it: pip install {package}")
 
 
 def _meshcat_bundle() -> bytes:

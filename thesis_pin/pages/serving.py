@@ -1,16 +1,20 @@
-"""A page on the loopback interface: one GET for it, one POST for its frame rate."""
+"""A scene's page on the loopback interface: one GET for it, one POST for its frame rate."""
 
 from __future__ import annotations
 
 import errno
 import json
-import sys
+import logging
 import threading
 from collections.abc import Callable
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import Any
 
 from thesis_pin.errors import BadInput
+from thesis_pin.pages.browser import directions, graphical
+from thesis_pin.pages.player import html
+from thesis_pin.pages.scene import Scene
+
+_LOG = logging.getLogger(__name__)
 
 HOST = "127.0.0.1"
 DEFAULT_PORT = 7000
@@ -20,6 +24,49 @@ TRIED = 20
 
 SMOOTH = 30.0
 """Frames a second below which the viewer says that it drops frames."""
+
+LONGEST = 1000
+"""Bytes of a request's body that are read; a frame rate needs a few dozen."""
+PATIENCE = 10.0
+"""Seconds a connection may stand still."""
+_PIECE = 1 << 16
+
+
+def show(
+    scene: Scene,
+    *,
+    speed: float = 1.0,
+    port: int | None = None,
+    browser: bool = True,
+    hold: float | None = None,
+    say: Callable[[str], None] = _LOG.warning,
+    ready: Callable[[str], None] | None = None,
+) -> None:
+    """Serve a scene on 127.0.0.1 until interrupted (Ctrl-C) or ``hold`` has passed.
+
+    Args:
+        scene: What to show.
+        speed: Playing speed at first; 1 is real time.
+        port: Port; None takes the first free one from :data:`DEFAULT_PORT` on.
+        browser: Whether to open the page in the user's browser. Over SSH and where
+            only a text browser is at hand, ``say`` is told how to reach it instead.
+        hold: Seconds to serve; None for ever.
+        say: Told the address, and when the browser can't draw every frame; left out,
+            a log, which Python writes on standard error unless told otherwise.
+        ready: Given the address, for a program that wants to know it.
+
+    Raises:
+        BadInput: The port is taken or not allowed.
+    """
+    with PageServer(html(scene, speed=speed), port, say) as server:
+        say(f"showing {scene.title} at {server.address} (Ctrl-C ends)")
+        if ready is not None:
+            ready(server.address)
+        if browser:
+            window = graphical()
+            if window is None or not window.open(server.address):
+                say(directions(HOST, server.port))
+        server.wait(hold)
 
 
 class PageServer:
@@ -35,14 +82,19 @@ class PageServer:
     """
 
     def __init__(self, page: bytes, port: int | None, say: Callable[[str], None]) -> None:
-        self._server = _listen(_handler(page, self._frames), port)
+        self._server = _listen(page, self._frames, port)
         self._say, self._said = say, False
         self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
 
     @property
+    def port(self) -> int:
+        """The port it listens on."""
+        return self._server.server_port
+
+    @property
     def address(self) -> str:
         """Where the page is."""
-        return f"http://{HOST}:{self._server.server_port}/"
+        return f"http://{HOST}:{self.port}/"
 
     def __enter__(self) -> PageServer:
         self._thread.start()
@@ -69,17 +121,22 @@ class PageServer:
 
 
 class _Server(ThreadingHTTPServer):
-    def handle_error(self, request: Any, client_address: Any) -> None:
-        """A browser that leaves halfway is no error of ours; anything else is."""
-        if not isinstance(sys.exc_info()[1], ConnectionError):
-            super().handle_error(request, client_address)
+    daemon_threads = True
+    request_queue_size = 512  # connections that may wait while a thread is made for each
+
+    def __init__(self, page: bytes, frames: Callable[[float], None], port: int) -> None:
+        self.page, self.frames = page, frames
+        super().__init__((HOST, port), _Handler)
+
+    def handle_error(self, request: object, client_address: object) -> None:
+        """What goes wrong in a request ends it; its text is a stranger's and isn't printed."""
 
 
-def _listen(handler: type[BaseHTTPRequestHandler], port: int | None) -> _Server:
+def _listen(page: bytes, frames: Callable[[float], None], port: int | None) -> _Server:
     last = min(DEFAULT_PORT + TRIED, 65536)
     for candidate in (port,) if port is not None else range(DEFAULT_PORT, last):
         try:
-            return _Server((HOST, candidate), handler)
+            return _Server(page, frames, candidate)
         except (OSError, OverflowError) as error:
             busy = isinstance(error, OSError) and error.errno == errno.EADDRINUSE
             if port is None and busy:
@@ -95,42 +152,62 @@ def _listen(handler: type[BaseHTTPRequestHandler], port: int | None) -> _Server:
     )
 
 
-def _handler(page: bytes, frames: Callable[[float], None]) -> type[BaseHTTPRequestHandler]:
-    class Handler(BaseHTTPRequestHandler):
-        def do_GET(self) -> None:
-            if self._is_ours() and self.path == "/":
-                self._answer(200, page)
-            else:
-                self._answer(404, b"")
+class _Handler(BaseHTTPRequestHandler):
+    server: _Server
+    timeout = PATIENCE
 
-        def do_POST(self) -> None:
-            body = self.rfile.read(min(int(self.headers.get("Content-Length") or 0), 1000))
-            try:
-                rate = float(json.loads(body)["frames_a_second"])
-            except (ValueError, TypeError, KeyError):
-                self._answer(400, b"")
-                return
-            if self._is_ours() and self.path == "/frames":
-                frames(rate)
-                self._answer(204, b"")
-            else:
-                self._answer(404, b"")
+    def do_GET(self) -> None:
+        if self._is_ours() and self.path == "/":
+            self._answer(200, self.server.page)
+        else:
+            self._answer(404)
 
-        def _is_ours(self) -> bool:
-            # A foreign page may point its own host name at 127.0.0.1.
-            host = (self.headers.get("Host") or "").rsplit(":", 1)[0]
-            return host in (HOST, "localhost")
+    def do_POST(self) -> None:
+        if not self._is_ours() or self.path != "/frames":
+            self._answer(404)
+            return
+        length = self.headers.get("Content-Length", "0")
+        if not (length.isascii() and length.isdecimal() and len(length) <= 4):
+            self._answer(400)
+        elif int(length) > LONGEST:
+            self._answer(413)
+        elif (rate := _rate(self.rfile.read(int(length)))) is None:
+            self._answer(400)
+        else:
+            self.server.frames(rate)
+            self._answer(204)
 
-        def _answer(self, status: int, body: bytes) -> None:
-            self.send_response(status)
-            self.send_header("Content-Type", "text/html; charset=utf-8")
-            self.send_header("Content-Length", str(len(body)))
-            self.send_header("Cache-Control", "no-store")
-            self.send_header("X-Content-Type-Options", "nosniff")
-            self.end_headers()
-            self.wfile.write(body)
+    def _is_ours(self) -> bool:
+        """Whether our own page asks: nothing is read or told otherwise.
 
-        def log_message(self, format: str, *args: object) -> None:
-            """Standard error belongs to messages for people."""
+        A foreign page may point its own host name at 127.0.0.1, which ``Host`` betrays,
+        or post to us from where it is, which ``Origin`` betrays.
+        """
+        host = self.headers.get("Host", "")
+        origin = self.headers.get("Origin", f"http://{host}")
+        return host.rsplit(":", 1)[0] in (HOST, "localhost") and origin == f"http://{host}"
 
-    return Handler
+    def _answer(self, status: int, body: bytes = b"") -> None:
+        self.send_response(status)
+        self.send_header("Content-Type", "text/html; charset=utf-8")
+        self.send_header("Content-Length", str(len(body)))
+        self.send_header("Cache-Control", "no-store")
+        self.send_header("X-Content-Type-Options", "nosniff")
+        self.end_headers()
+        # In pieces, as the socket's patience is for each call: a tunnel may be slow.
+        for start in range(0, len(body), _PIECE):
+            self.wfile.write(body[start : start + _PIECE])
+
+    def log_message(self, format: str, *args: object) -> None:
+        """Standard error belongs to messages for people."""
+
+
+def _rate(body: bytes) -> float | None:
+    """Frames a second that a page reports; None for anything else."""
+    try:
+        rate = json.loads(body)["frames_a_second"]
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return None
+    if isinstance(rate, bool) or not isinstance(rate, int | float):
+        return None
+    return float(rate) if 0 <= rate <= 1000 else None

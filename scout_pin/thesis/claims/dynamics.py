@@ -10,10 +10,12 @@ from functools import partial
 import numpy as np
 import pinocchio as pin
 
-from scout_pin.dynamics.inverse import free_flyer_state, inverse_dynamics, joint_trajectory
+from scout_pin.coordinates import free_flyer_state
+from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.model import Scout, load
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import Motion
+from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import Specification
 from scout_pin.thesis.explicit import ExplicitModel, Interval, resting, solve_one
 from scout_pin.thesis.references import References

@@ -16,11 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
-from scout_pin.dynamics.inverse import joint_trajectory
 from scout_pin.kinematics.inverse import leg_inverse_kinematics
 from scout_pin.model import Scout, load
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import Gait
+from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import Specification
 from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue

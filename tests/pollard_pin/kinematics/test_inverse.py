@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import pollard_pin
 from pollard_pin import ALL_BRANCHES, DEFAULT_BRANCH, USEFUL_BRANCHES, Branch
-from pollard_pin.kinematics.geometry import pose_from_placement, pose_rotation
+from pollard_pin.coordinates import pose_from_placement, pose_rotation
 from pollard_pin.kinematics.inverse import inverse_kinematics
 from thesis_pin.errors import BadInput, NotFinite, SingularPose, Unreachable, WrongShape
 from thesis_pin.numeric.arrays import wrap

@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from pollard_pin import ALL_BRANCHES, USEFUL_BRANCHES
-from pollard_pin.kinematics.geometry import angular_rate_matrix
+from pollard_pin.coordinates import angular_rate_matrix
 from pollard_pin.specification import ACTUATORS
 from thesis_pin.errors import Unreachable
 from thesis_pin.loops import kinematics as loops

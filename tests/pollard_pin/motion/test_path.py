@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pollard_pin.motion.path import appendix_b, arc, joined, line, load_path, through, timing_law
+from pollard_pin.motion.files import load_path
+from pollard_pin.motion.path import appendix_b, arc, joined, line, through, timing_law
 from thesis_pin.errors import BadInput, SpecificationError, TrajectoryError, UnknownName
 
 START, END = [0.4, 0.0, 0.0, 0.0, 0.0, 0.0], [0.5, 0.1, 0.1, 0.1, 0.2, 0.3]

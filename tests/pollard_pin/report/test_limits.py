@@ -5,8 +5,8 @@ import pytest
 
 import pollard_pin
 from pollard_pin.motion.path import appendix_b
+from pollard_pin.report.document import trajectory_report
 from pollard_pin.report.limits import MotorUse
-from pollard_pin.report.numbers import trajectory_report
 
 
 def robot_with(**limits):
@@ -29,13 +29,13 @@ def test_shares_are_peaks_over_limits_with_their_times(report):
         (sample,) = np.flatnonzero(report.joints.time == time)
         assert abs(report.torque[sample, k]) == peak[k]
     assert use.within
-    assert "θ21 with 15% of 10 N·m" in next(use.sentences())
+    assert "θ21 with 15% of 10 N·m" in " ".join(report.verdict())
 
 
 def test_limits_that_are_exceeded_are_named_with_the_time():
     weak = trajectory_report(robot_with(effort=1.2, velocity=0.05), appendix_b(), samples=201)
     assert not weak.motor_use.within
-    (text,) = weak.motor_use.sentences()
+    (text,) = [one for one in weak.verdict() if "motors can't" in one]
     assert "The motors can't do this: θ21 needs 129% of its 1.2 N·m (t = " in text
     assert "θ211 needs" in text
     assert "rad/s" in text

@@ -4,7 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from pollard_pin.kinematics.geometry import angular_rate_matrix
+from pollard_pin.coordinates import angular_rate_matrix
 from pollard_pin.specification import LINK_NAMES, SKEWED_PATH, Specification
 from pollard_pin.thesis import ExplicitModel
 from pollard_pin.thesis.claims.dynamics import largest_relative, projected_terms, random_motion

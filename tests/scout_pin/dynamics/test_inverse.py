@@ -5,13 +5,9 @@ import pinocchio as pin
 import pytest
 from scipy.optimize import linprog
 
+from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts, touchdown_impact
-from scout_pin.dynamics.inverse import (
-    free_flyer_state,
-    inverse_dynamics,
-    joint_friction,
-    joint_trajectory,
-)
+from scout_pin.dynamics.inverse import inverse_dynamics, joint_friction
 from scout_pin.dynamics.stability import (
     momentum,
     pressure_point,
@@ -20,6 +16,7 @@ from scout_pin.dynamics.stability import (
     zero_moment_point,
 )
 from scout_pin.motion.files import load_gait
+from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.stability import support_polygon
 from thesis_pin.errors import NoSupportForce

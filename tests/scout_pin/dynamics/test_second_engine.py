@@ -4,8 +4,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from scout_pin.dynamics.inverse import free_flyer_state, inverse_dynamics, joint_trajectory
+from scout_pin.coordinates import free_flyer_state
+from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.motion.files import load_gait
+from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.urdf import meshes
 
 from ..conftest import EXAMPLES

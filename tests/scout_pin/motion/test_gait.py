@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import scout_pin
-from scout_pin.dynamics.inverse import joint_trajectory
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import BODIES
+from scout_pin.motion.trajectory import joint_trajectory
 from thesis_pin.errors import BadInput, SpecificationError, TrajectoryError, UnknownName
 
 from ..conftest import EXAMPLES

@@ -5,8 +5,10 @@ import pinocchio as pin
 import pytest
 
 import scout_pin
-from scout_pin.dynamics.inverse import free_flyer_state, inverse_dynamics, joint_trajectory
+from scout_pin.coordinates import free_flyer_state
+from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.motion.files import load_gait
+from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import Specification
 from scout_pin.thesis import ExplicitModel
 from thesis_pin.errors import BadInput, NoSolution, UnknownName

@@ -1,0 +1,71 @@
+"""A path's answer: yes or no, and in plain sentences."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from pollard_pin.report.numbers import TrajectoryNumbers
+from pollard_pin.specification import ACTUATOR_SYMBOLS
+
+_NEAR = (
+    "nearly touches a singularity",
+    "comes near a singularity",
+    "stays far from singularities",
+)
+
+
+def within_limits(numbers: TrajectoryNumbers) -> bool:
+    """Whether no motor exceeds its limits; what can't be followed raises before."""
+    return numbers.motor_use.within
+
+
+def sentences(numbers: TrajectoryNumbers) -> list[str]:
+    """The verdict, most important first: reach, singularities, motors, energy."""
+    return [*_reach(numbers), *_motors(numbers), *_balance(numbers)]
+
+
+def _reach(numbers: TrajectoryNumbers) -> list[str]:
+    name = numbers.robot.specification.name.capitalize()
+    margin, condition = numbers.solutions.margin, numbers.holding.condition
+    k = int(np.argmin(margin))
+    return [
+        f"{name} can follow this path on branch {numbers.branch}: every pose is reached inside "
+        "the joint limits, and no singularity is crossed.",
+        f"The path {_NEAR[int(numbers.distance_class.min())]}: reach margin at least "
+        f"{margin[k]:.3f} (t = {numbers.joints.time[k]:.3g} s), condition "
+        f"number {condition.min():.1f} to {condition.max():.1f}.",
+    ]
+
+
+def _motors(numbers: TrajectoryNumbers) -> list[str]:
+    """The most loaded motors, or everything that is exceeded."""
+    use, broken = numbers.motor_use, []
+    for shares, times, limit in (
+        (use.torque, use.torque_time, f"{use.effort:g} N·m"),
+        (use.speed, use.speed_time, f"{use.velocity:g} rad/s"),
+    ):
+        for k in np.flatnonzero(shares > 1.0):
+            broken.append(
+                f"{ACTUATOR_SYMBOLS[k]} needs {shares[k]:.0%} of its {limit} (t = {times[k]:.3f} s)"
+            )
+    if broken:
+        return [f"The motors can't do this: {'; '.join(broken)}."]
+    torque, speed = int(use.torque.argmax()), int(use.speed.argmax())
+    return [
+        f"Motors within their limits: the most loaded is {ACTUATOR_SYMBOLS[torque]} with "
+        f"{use.torque[torque]:.0%} of {use.effort:g} N·m, the fastest "
+        f"{ACTUATOR_SYMBOLS[speed]} with {use.speed[speed]:.0%} of {use.velocity:g} rad/s."
+    ]
+
+
+def _balance(numbers: TrajectoryNumbers) -> list[str]:
+    if numbers.three is not None:
+        return [
+            f"Three motors leave up to {numbers.three.share.max():.2%} of the generalized force "
+            "unexplained: (3.154) inverts a 3×6 matrix, and these torques are its least-squares "
+            "solution. Their work can't balance the energy."
+        ]
+    return [
+        f"The motors' work balances the change of energy to {numbers.relative_energy_error:.1e} of "
+        f"the {numbers.work_exchanged:.3f} J exchanged."
+    ]

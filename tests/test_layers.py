@@ -1,0 +1,122 @@
+"""Imports go downwards, also late ones, those for types, and names of modules in strings."""
+
+import ast
+from copy import deepcopy
+from pathlib import Path
+
+import grimp
+import pytest
+from importlinter.api import read_configuration
+from importlinter.contracts.acyclic_siblings import AcyclicSiblingsContract
+from importlinter.contracts.forbidden import ForbiddenContract
+from importlinter.contracts.independence import IndependenceContract
+from importlinter.contracts.layers import LayersContract
+from importlinter.contracts.protected import ProtectedContract
+
+ROOT = Path(__file__).parents[1]
+PACKAGES = ("thesis_pin", "scout_pin", "pollard_pin")
+KINDS = {
+    "acyclic_siblings": AcyclicSiblingsContract,
+    "forbidden": ForbiddenContract,
+    "independence": IndependenceContract,
+    "layers": LayersContract,
+    "protected": ProtectedContract,
+}
+CONFIGURATION = read_configuration(str(ROOT / "pyproject.toml"))
+CONTRACTS = {options["name"]: options for options in CONFIGURATION["contracts_options"]}
+# The one place that imports a module by a name it is given; those who give it are found.
+IMPORTS_BY_NAME = "thesis_pin.command.registry"
+
+
+def sources():
+    """Module → syntax tree of every file of the packages."""
+    for package in PACKAGES:
+        for path in sorted((ROOT / package).rglob("*.py")):
+            parts = path.relative_to(ROOT).with_suffix("").parts
+            module = ".".join(part for part in parts if part != "__init__")
+            yield module, ast.parse(path.read_text(encoding="utf-8"))
+
+
+def in_strings(graph):
+    """(module, module it names in a string, line) of all strings but docstrings.
+
+    A command's words name functions, ``module:function``; a robot's hooks within its package.
+    """
+    known = graph.modules - set(PACKAGES)
+    for module, tree in sources():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                name = node.value.partition(":")[0]
+                own = f"{module.partition('.')[0]}.{name}" if ":" in node.value else name
+                for imported in {name, own} & known:
+                    yield module, imported, node.lineno
+
+
+def in_stubs():
+    """(package, module that a public name comes from, line)."""
+    for package in PACKAGES:
+        stub = (ROOT / package / "__init__.pyi").read_text(encoding="utf-8")
+        for node in ast.walk(ast.parse(stub)):
+            if isinstance(node, ast.ImportFrom):
+                assert node.level == 1, "a stub imports from its own package only"
+                yield package, f"{package}.{node.module}", node.lineno
+
+
+@pytest.fixture(scope="module")
+def whole_graph():
+    """Every import, written as a statement, a string or a line of a stub."""
+    graph = grimp.build_graph(*PACKAGES, cache_dir=None)
+    for importer, imported, line in [*in_strings(graph), *in_stubs()]:
+        assert imported in graph.modules, f"{importer}, line {line}: no module {imported}"
+        graph.add_import(
+            importer=importer, imported=imported, line_number=line, line_contents=imported
+        )
+    return graph
+
+
+def broken(options, graph):
+    """Whether a contract is broken; import-linter prints by what. Changes the graph."""
+    contract = KINDS[options["type"]](options["name"], CONFIGURATION["session_options"], options)
+    check = contract.check(graph, verbose=False)
+    if not check.kept:
+        contract.render_broken_contract(check)
+    return not check.kept
+
+
+@pytest.mark.parametrize("name", CONTRACTS)
+def test_imports_keep_the_contract(name, whole_graph):
+    assert not broken(CONTRACTS[name], deepcopy(whole_graph))
+
+
+@pytest.mark.parametrize(
+    ("importer", "imported", "name"),
+    [
+        ("scout_pin.model", "pollard_pin.model", "The robots stand on thesis_pin"),
+        ("thesis_pin.errors", "scout_pin.model", "The robots stand on thesis_pin"),
+        ("thesis_pin.files", "thesis_pin.numeric.checks", "Layers of thesis_pin"),
+        ("thesis_pin.numeric.checks", "thesis_pin.equations.values", "Layers of thesis_pin"),
+        ("thesis_pin.equations.values", "thesis_pin.loops.closures", "Equations stand"),
+        ("pollard_pin.urdf", "pollard_pin.model", "Layers of a robot"),
+        ("scout_pin.model", "thesis_pin.command.options", "Only the commands"),
+        ("thesis_pin.model.samples", "thesis_pin.command.progress", "Only the commands"),
+        ("thesis_pin.numeric.checks", "thesis_pin", "Layers of thesis_pin"),
+        ("thesis_pin.errors", "thesis_pin.files", "No circles"),
+    ],
+)
+def test_a_contract_sees_an_import_that_breaks_it(importer, imported, name, whole_graph):
+    graph = deepcopy(whole_graph)
+    graph.add_import(importer=importer, imported=imported)
+    options = next(CONTRACTS[full] for full in CONTRACTS if full.startswith(name))
+    assert broken(options, graph)
+
+
+def test_modules_are_imported_by_a_name_in_a_variable_in_one_place_only():
+    places = {
+        module
+        for module, tree in sources()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and ast.unparse(node.func) in ("import_module", "importlib.import_module", "__import__")
+        and not isinstance(node.args[0], ast.Constant)
+    }
+    assert places <= {IMPORTS_BY_NAME}
