@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Set up everything from scratch and check it: lint, types, tests, wheel.
+# Set up everything from scratch and check it: lint, types, tests, bytes, wheel.
 # Needs Python 3.11 or newer and the package registry; writes only below
 # .venv-check and a temporary folder.
 set -euo pipefail
@@ -24,6 +24,9 @@ echo "== types"
 
 echo "== tests"
 "$bin/python" -m pytest -n auto -rs
+
+echo "== generated files, as other processors add up"
+"$bin/python" tests/processors.py -n auto
 
 echo "== wheel, used from a clean virtual environment outside the checkout"
 outside="$(mktemp -d)"

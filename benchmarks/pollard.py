@@ -8,6 +8,7 @@ from scipy.optimize import least_squares
 from timing import Comparison, again
 
 import pollard_pin
+from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.motion.path import appendix_b
 from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.specification import ACTUATORS
@@ -101,7 +102,7 @@ def dynamics(count: int = 20_000) -> list[Comparison]:
     robot = pollard_pin.load()
     path = appendix_b(robot.specification)
     motion = path.sample(count)
-    joints, _ = joint_trajectory(robot, motion)
+    joints = joint_trajectory(robot, motion)
     state = (joints.q, joints.v, joints.a)
     columns = [np.asfortranarray(part.T) for part in state]
     pool, tau = pin.ModelPool(robot.model, 1), np.empty((12, count), order="F")
@@ -111,14 +112,14 @@ def dynamics(count: int = 20_000) -> list[Comparison]:
         return pin.rneaInParallel(1, pool, *columns, tau)
 
     def fast() -> object:
-        return robot.inverse_dynamics(*state)
+        return inverse_dynamics_at(robot, *state)
 
     def general() -> object:
         return loop_dynamics.inverse_dynamics(robot, *some)
 
     def whole() -> None:
-        joints, _ = joint_trajectory(robot, motion)
-        robot.inverse_dynamics(joints.q, joints.v, joints.a)
+        joints = joint_trajectory(robot, motion)
+        inverse_dynamics_at(robot, joints.q, joints.v, joints.a)
 
     def stream() -> None:
         for _ in pollard_pin.torque_blocks(robot, path, motion.time):

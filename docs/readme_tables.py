@@ -1,16 +1,17 @@
-"""Tables of the README, worked out by the package itself.
+"""Tables of the README and of CONTRIBUTING.md, worked out by the package itself.
 
 Run ``python docs/readme_tables.py`` to renew them; a test fails when they are stale.
 """
 
 from __future__ import annotations
 
+import ast
 import re
-from collections.abc import Iterator
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-README = ROOT / "README.md"
 
 
 def gaits() -> Iterator[str]:
@@ -85,19 +86,49 @@ def audits() -> Iterator[str]:
         yield f"| [{name}](docs/audit/{name}.md) | {' | '.join(cells)} |"
 
 
-TABLES = {"gaits": gaits, "paths": paths, "audits": audits}
+def rooms() -> Iterator[str]:
+    """Packages and modules from the ground up, in the order that the layers' contracts give."""
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    contracts = settings["tool"]["importlinter"]["contracts"]
+    yield "| where | what |"
+    yield "| --- | --- |"
+    for contract in contracts:
+        for layer in reversed(contract["layers"] if "containers" in contract else ()):
+            for room in re.findall(r"\w+", layer):
+                for package in contract["containers"]:
+                    if said := _first_line(ROOT / package / room):
+                        yield f"| `{package}/{room}` | {said} |"
 
 
-def renewed(text: str) -> str:
-    """The README with every table between its markers worked out again."""
-    for name, rows in TABLES.items():
+def _first_line(place: Path) -> str:
+    """First line of the docstring of a package or module; empty if there is none such."""
+    for path in (place / "__init__.py", place.with_suffix(".py")):
+        if path.is_file():
+            text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+            line = text.partition("\n")[0].replace("``", "`")
+            return re.sub(r":\w+:`", "`", line).removesuffix(".")
+    return ""
+
+
+Tables = Mapping[str, Callable[[], Iterator[str]]]
+TABLES: dict[str, Tables] = {
+    "README.md": {"gaits": gaits, "paths": paths, "audits": audits},
+    "CONTRIBUTING.md": {"rooms": rooms},
+}
+
+
+def renewed(document: str, text: str) -> str:
+    """A document with every table between its markers worked out again."""
+    for name, rows in TABLES[document].items():
         block = f"<!-- table:{name} -->\n" + "\n".join(rows()) + "\n<!-- end -->"
         pattern = rf"<!-- table:{name} -->\n.*?<!-- end -->"
         text, count = re.subn(pattern, lambda _, block=block: block, text, flags=re.DOTALL)
         if count != 1:
-            raise SystemExit(f"README.md needs the markers of table {name!r} once, has {count}")
+            raise SystemExit(f"{document} needs the markers of table {name!r} once, has {count}")
     return text
 
 
 if __name__ == "__main__":
-    README.write_text(renewed(README.read_text(encoding="utf-8")), encoding="utf-8")
+    for document in TABLES:
+        path = ROOT / document
+        path.write_text(renewed(document, path.read_text(encoding="utf-8")), encoding="utf-8")

@@ -22,10 +22,12 @@ from .kinematics.geometry import (
 )
 
 # Motion
-from .motion.path import Path as Path
+from .motion.path import ToolPath as ToolPath
 from .motion.files import load_path as load_path
+from .motion.trajectory import joint_trajectory as joint_trajectory
 
 # Dynamics
+from .dynamics.inverse import inverse_dynamics as inverse_dynamics
 from .dynamics.stream import torque_blocks as torque_blocks
 
 # Report
@@ -35,6 +37,8 @@ from .report.document import trajectory_report as trajectory_report
 from .specification import ACTUATOR_NAMES as ACTUATOR_NAMES
 from .model import CLOSURE_PATH as CLOSURE_PATH
 from .motion.path import appendix_b as appendix_b
+from .dynamics.inverse import inverse_dynamics_at as inverse_dynamics_at
+from .dynamics.three_motors import three_torques as three_torques
 from .study.workspace import evaluate_workspace as evaluate_workspace
 
 __version__: str

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
 
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import closures
 from pollard_pin.coordinates import pose_from_placement
-from pollard_pin.dynamics import inverse as dynamics
 from pollard_pin.kinematics import forward, rates, singularity
 from pollard_pin.kinematics import inverse as kinematics
 from pollard_pin.kinematics.geometry import (
@@ -26,14 +27,13 @@ from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
 from pollard_pin.urdf import urdf
-from thesis_pin.errors import WrongShape
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import model_folder
 from thesis_pin.numeric.arrays import finite_array, spread, together, vector
-from thesis_pin.numeric.checks import choice, instance
+from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 PACKAGE_PATH = str(model_folder("pollard"))
@@ -83,12 +83,16 @@ class Pollard(ClosedRobot):
         self.specification, self.inertia = specification, inertia
         self.geometry = Geometry.of(specification)
         self.lower, self.upper = self.geometry.lower, self.geometry.upper
-        self._pool = pin.ModelPool(self.model, 1)
         order = tuple(list(self.model.names)[1:])
         if order != JOINT_NAMES or tuple(self.passive) != PASSIVE:
             raise RuntimeError(f"Pinocchio reordered the joints: {order}")
         if tuple(self.actuated) != ACTUATORS:
             raise RuntimeError(f"the closure file reordered the motors: {self.actuated}")
+
+    @functools.cached_property
+    def pool(self) -> pin.ModelPool:
+        """What Pinocchio's batched algorithms work on."""
+        return pin.ModelPool(self.model, 1)
 
     @property
     def mass(self) -> float:
@@ -98,14 +102,15 @@ class Pollard(ClosedRobot):
     # -- kinematics ----------------------------------------------------------
 
     def inverse_kinematics(
-        self, pose: Any, branch: Branches = DEFAULT_BRANCH, reference: Any = None
+        self, pose: ArrayLike, branch: Branches = DEFAULT_BRANCH, reference: ArrayLike | None = None
     ) -> Solutions:
         """Joint angles for poses; see :func:`pollard_pin.kinematics.inverse.inverse_kinematics`.
 
         Args:
             pose: (x, y, z, ψ, θ, φ), shape ``(..., 6)``.
             branch: One :class:`Branch`, several, ``"useful"`` (16) or ``"all"`` (128).
-            reference: Angles that fill in what a straight wrist leaves free.
+            reference: Angles that fill in what a singular pose leaves free; see
+                :func:`pollard_pin.kinematics.inverse.inverse_kinematics`.
 
         Returns:
             Angles ``(..., 12)`` on one branch, ``(..., branches, 12)`` on several.
@@ -118,7 +123,7 @@ class Pollard(ClosedRobot):
             self.geometry, pose, branch_labels(branch), reference, squeeze=False
         )
 
-    def forward_kinematics(self, motors: Any, reference: Any = None) -> Any:
+    def forward_kinematics(self, motors: ArrayLike, reference: ArrayLike | None = None) -> Any:
         """Assembly modes of motor angles ``(..., 6)`` [rad].
 
         Args:
@@ -132,24 +137,24 @@ class Pollard(ClosedRobot):
         modes = forward.forward_kinematics(self.geometry, motors)
         return modes if reference is None else modes.nearest(reference)
 
-    def posture(self, q: Any) -> Posture:
+    def posture(self, q: ArrayLike) -> Posture:
         """Points and axes of configurations ``(..., 12)``."""
         return Posture.of(self.geometry, finite_array("q", q, 12))
 
-    def pose(self, q: Any) -> np.ndarray:
+    def pose(self, q: ArrayLike) -> np.ndarray:
         """Pose of the spray tip, by chain 0: ``(..., 12)`` → ``(..., 6)``."""
         posture = self.posture(q)
         return pose_from_placement(posture.tip, posture.tool_rotation)
 
-    def branch_of(self, q: Any) -> Branch:
+    def branch_of(self, q: ArrayLike) -> Branch:
         """Label of a closed configuration ``(12,)``."""
         return forward.branch_of(self.geometry, vector("q", q, 12))
 
     def joint_motion(
         self,
-        pose: Any,
-        rate: Any,
-        acceleration: Any = None,
+        pose: ArrayLike,
+        rate: ArrayLike,
+        acceleration: ArrayLike | None = None,
         branch: Branch = DEFAULT_BRANCH,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Joint angles, rates and accelerations of a motion of the tool.
@@ -170,86 +175,64 @@ class Pollard(ClosedRobot):
         solution = self.inverse_kinematics(pose, one_branch(branch)).require()
         return solution.angles, *self._derivatives(solution.posture, pose, rate, acceleration)
 
-    def rates(self, pose: Any, rate: Any, branch: Branch = DEFAULT_BRANCH) -> np.ndarray:
+    def rates(
+        self, pose: ArrayLike, rate: ArrayLike, branch: Branch = DEFAULT_BRANCH
+    ) -> np.ndarray:
         """Joint rates ``(..., 12)``; see :meth:`joint_motion`."""
         return self.joint_motion(pose, rate, None, branch)[1]
 
     def accelerations(
-        self, pose: Any, rate: Any, acceleration: Any, branch: Branch = DEFAULT_BRANCH
+        self,
+        pose: ArrayLike,
+        rate: ArrayLike,
+        acceleration: ArrayLike,
+        branch: Branch = DEFAULT_BRANCH,
     ) -> np.ndarray:
         """Joint accelerations ``(..., 12)``; see :meth:`joint_motion`."""
         return self.joint_motion(pose, rate, acceleration, branch)[2]
 
     def _derivatives(
-        self, posture: Posture, pose: Any, rate: Any, acceleration: Any
+        self, posture: Posture, pose: ArrayLike, rate: ArrayLike, acceleration: ArrayLike | None
     ) -> tuple[np.ndarray, np.ndarray]:
-        rates.check_regular(posture)
         shape = posture.shape
-        acceleration = np.zeros(6) if acceleration is None else acceleration
-        pose, rate, acceleration = (
-            np.ascontiguousarray(spread(name, finite_array(name, value, 6), shape).reshape(-1, 6).T)
-            for name, value in (("pose", pose), ("rate", rate), ("acceleration", acceleration))
-        )
-        v = rates.joint_rates(posture, *rates.tool_twist(posture, pose[3:5], rate))
-        wrist, alpha = rates.tool_acceleration(posture, pose[3:5], rate, acceleration)
-        a = rates.joint_accelerations(posture, v, wrist, alpha)
-        return v.T.reshape(*shape, 12), a.T.reshape(*shape, 12)
+        given = {
+            "pose": pose,
+            "rate": rate,
+            "acceleration": np.zeros(6) if acceleration is None else acceleration,
+        }
+        flat = [
+            spread(name, finite_array(name, value, 6), shape).reshape(-1, 6)
+            for name, value in given.items()
+        ]
+        v, a = rates.motion_rates(posture, *flat)
+        return v.reshape(*shape, 12), a.reshape(*shape, 12)
 
-    def rate_jacobian(self, q: Any) -> np.ndarray:
+    def rate_jacobian(self, q: ArrayLike) -> np.ndarray:
         """Joint rates over the pose's rates at closed configurations, ``(..., 12, 6)``."""
         posture = self.posture(q)
         rates.check_regular(posture)
         return singularity.rate_jacobian(posture, self.pose(q))
 
-    def actuation(self, q: Any) -> singularity.Actuation:
+    def actuation(self, q: ArrayLike) -> singularity.Actuation:
         """Condition and determinants of the six motors' Jacobian at ``(..., 12)``."""
         posture = self.posture(q)
         rates.check_regular(posture)
         return singularity.actuation(posture)
 
-    def mobility(self, q: Any) -> loops.Mobility:
+    def mobility(self, q: ArrayLike) -> loops.Mobility:
         """Degrees of freedom by rank at one configuration ``(12,)``."""
         return loops.mobility(self, q)
 
     # -- dynamics ------------------------------------------------------------
 
-    def inverse_dynamics(
-        self, q: Any, v: Any, a: Any, posture: Posture | None = None
-    ) -> dynamics.PollardDynamics:
-        """Six torques and both ball-joint forces of closed motions ``(..., 12)``.
-
-        ``posture`` is that of q, for motions of :meth:`joint_motion`: with it, q, v and a
-        are taken to keep the loops closed.
-
-        Raises:
-            BadInput: q, v or a opens a ball joint.
-            SingularPose: The forces aren't determined.
-        """
-        q, v, a = (finite_array(name, x, 12) for name, x in (("q", q), ("v", v), ("a", a)))
-        q, v, a = map(np.ascontiguousarray, together(q=q, v=v, a=a))
-        if posture is not None:
-            instance("posture", posture, Posture, "Pollard.posture()")
-            if posture.shape != q.shape[:-1]:
-                raise WrongShape("q", q.shape, f"{(*posture.shape, 12)}, as posture")
-        else:
-            posture = Posture.of(self.geometry, q)
-            dynamics.refuse_open_loops(posture, q, v, a)
-        return dynamics.inverse_dynamics(self._pool, posture, q, v, a)
-
-    def tree_torques(self, q: Any, v: Any, a: Any) -> np.ndarray:
-        """RNEA of the open tree over a stack, ``(n, 12)`` each [N·m]."""
-        q, v, a = (finite_array(name, x, None, 12) for name, x in (("q", q), ("v", v), ("a", a)))
-        q, v, a = map(np.ascontiguousarray, together(q=q, v=v, a=a))
-        return dynamics.tree_torques(self._pool, q, v, a)
-
-    def forward_dynamics(self, q: Any, v: Any, torque: Any) -> np.ndarray:
+    def forward_dynamics(self, q: ArrayLike, v: ArrayLike, torque: ArrayLike) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` under six torques, the loops closed."""
         return loop_dynamics.forward_dynamics(self, q, v, torque)
 
     def simulate(
         self,
-        q: Any,
-        v: Any,
+        q: ArrayLike,
+        v: ArrayLike,
         torque: Callable[[float, np.ndarray, np.ndarray], np.ndarray],
         duration: float,
         step: float = 1e-3,
@@ -257,16 +240,7 @@ class Pollard(ClosedRobot):
         """Motion under six torques; see :func:`thesis_pin.loops.dynamics.simulate`."""
         return loop_dynamics.simulate(self, q, v, torque, duration, step)
 
-    def three_torques(self, q: Any, joint_force: Any) -> dynamics.ThreeTorques:
-        """The thesis's three base torques.
-
-        See :func:`pollard_pin.dynamics.inverse.three_torques`.
-        """
-        return dynamics.three_torques(
-            self.rate_jacobian(q), finite_array("joint_force", joint_force, 12)
-        )
-
-    def energy(self, q: Any, v: Any) -> np.ndarray:
+    def energy(self, q: ArrayLike, v: ArrayLike) -> np.ndarray:
         """Kinetic plus potential energy [J], shape ``(...)``."""
         q, v = together(q=finite_array("q", q, 12), v=finite_array("v", v, 12))
         data = self.model.createData()

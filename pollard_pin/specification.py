@@ -180,7 +180,7 @@ class ReplacedInertia(Assumption):
     inertia_convention: Convention
 
 
-class Motion(Assumption):
+class CurveTiming(Assumption):
     """Duration [s] and timing law of appendix B's curve."""
 
     duration: Positive
@@ -200,7 +200,7 @@ class Assumptions(Strict):
     signs: Signs
     centres_of_gravity: CentresOfGravity
     joint_limits: JointLimits
-    motion: Motion
+    motion: CurveTiming
     placement: Placement
     replaced_inertias: tuple[ReplacedInertia, ...] = ()
 

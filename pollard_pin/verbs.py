@@ -9,12 +9,13 @@ import numpy as np
 
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, USEFUL_BRANCHES, Branch
 from pollard_pin.model import Pollard, load
-from pollard_pin.motion.path import Path
+from pollard_pin.motion.path import ToolPath
 from pollard_pin.specification import Specification
 from thesis_pin.command.exits import ExitCode
 from thesis_pin.command.messages import say
 from thesis_pin.command.output import print_table, print_text
 from thesis_pin.command.progress import Bar
+from thesis_pin.command.targets import free
 from thesis_pin.command.verbs import Answer, give, json_bytes
 from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.files import write_file, write_folder
@@ -24,7 +25,7 @@ def _branch(arguments: argparse.Namespace) -> Branch:
     return DEFAULT_BRANCH if arguments.branch is None else Branch.parse(arguments.branch)
 
 
-def _path(arguments: argparse.Namespace, specification: Specification) -> Path:
+def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPath:
     from pollard_pin.motion.files import load_path
     from pollard_pin.motion.path import appendix_b
 
@@ -130,7 +131,7 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         say(f"wrote {arguments.out}")
     if arguments.json:
         write_file(arguments.json, content)
-    if arguments.json != "-":
+    if free(arguments):
         rows = [
             (name.replace("_", " "), "–" if value is None else f"{value:.6g}")
             for name, value in space.summary().items()

@@ -5,9 +5,8 @@ Source: Scout thesis, 3.1 and (4.2).
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from thesis_pin.errors import BadInput, SingularPose
 from thesis_pin.numeric.arrays import finite_array, together
@@ -22,7 +21,7 @@ rotation = Rx(pitch) Ry(roll) Rz(yaw)."""
 
 
 def to_free_flyer(
-    q: Any, v: Any = None, a: Any = None
+    q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
 ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
     """Thesis coordinates (4.2) and their derivatives → free-flyer q, v, a.
 
@@ -46,7 +45,7 @@ def to_free_flyer(
 
 
 def to_thesis(
-    q: Any, v: Any = None, a: Any = None
+    q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
 ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
     """Free-flyer q, v, a → thesis coordinates (4.2) and their derivatives.
 
@@ -61,10 +60,10 @@ def to_thesis(
     Raises:
         SingularPose: φ_B = ±90°, where θ_B and ψ_B can't be told apart.
     """
-    q, given, second = _motion(finite_array("q", q, 19), v, a)
-    if not np.linalg.norm(q[..., 3:7], axis=-1).all():
+    state, given, second = _motion(finite_array("q", q, 19), v, a)
+    if not np.linalg.norm(state[..., 3:7], axis=-1).all():
         raise BadInput("a quaternion in q[3:7] is zero", allowed="unit quaternions")
-    matrix = _rotation_matrix(q[..., 3:7])
+    matrix = _rotation_matrix(state[..., 3:7])
     cosine = np.hypot(matrix[..., 0, 0], matrix[..., 0, 1])
     if (cosine < TOLERANCES.near_singular).any():
         k = int(np.argmax(np.atleast_1d(cosine) < TOLERANCES.near_singular))
@@ -81,23 +80,22 @@ def to_thesis(
         ],
         axis=-1,
     )
-    position = np.concatenate([q[..., :3], angles, q[..., 7:]], axis=-1)
+    position = np.concatenate([state[..., :3], angles, state[..., 7:]], axis=-1)
     if v is None:
         return position, None, None
-    v, a = given, None if a is None else second
-    linear = np.einsum("...ij,...j->...i", matrix, v[..., :3])
-    omega = np.einsum("...ij,...j->...i", matrix, v[..., 3:6])
+    linear = np.einsum("...ij,...j->...i", matrix, given[..., :3])
+    omega = np.einsum("...ij,...j->...i", matrix, given[..., 3:6])
     inverse = np.linalg.inv(euler_rate_matrix("xyz", angles))
     rates = np.einsum("...ij,...j->...i", inverse, omega)
-    velocity = np.concatenate([linear, rates, v[..., 6:]], axis=-1)
+    velocity = np.concatenate([linear, rates, given[..., 6:]], axis=-1)
     if a is None:
         return position, velocity, None
-    moving = a[..., :3] + np.cross(v[..., 3:6], v[..., :3])
+    moving = second[..., :3] + np.cross(given[..., 3:6], given[..., :3])
     bias = euler_placement("xyz", angles, rates, np.zeros(rates.shape))[2]
-    alpha = np.einsum("...ij,...j->...i", matrix, a[..., 3:6])
-    second = np.einsum("...ij,...j->...i", inverse, alpha - bias)
+    alpha = np.einsum("...ij,...j->...i", matrix, second[..., 3:6])
+    bend = np.einsum("...ij,...j->...i", inverse, alpha - bias)
     linear = np.einsum("...ij,...j->...i", matrix, moving)
-    return position, velocity, np.concatenate([linear, second, a[..., 6:]], axis=-1)
+    return position, velocity, np.concatenate([linear, bend, second[..., 6:]], axis=-1)
 
 
 def free_flyer_state(
@@ -119,14 +117,14 @@ def free_flyer_state(
     return q, v, a
 
 
-def _motion(q: np.ndarray, v: Any, a: Any) -> tuple[np.ndarray, ...]:
+def _motion(q: np.ndarray, v: ArrayLike | None, a: ArrayLike | None) -> tuple[np.ndarray, ...]:
     """q, v and a checked and in one stack; what isn't given is zero."""
     if v is None and a is not None:
         raise BadInput("a is given without v", allowed="v alone, or both")
-    v, a = (
+    rates, second = (
         np.zeros(18) if x is None else finite_array(name, x, 18) for name, x in (("v", v), ("a", a))
     )
-    return together(q=q, v=v, a=a)
+    return together(q=q, v=rates, a=second)
 
 
 def _rotation_matrix(quaternion: np.ndarray) -> np.ndarray:

@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
 
 from scout_pin import coordinates
 from scout_pin.kinematics import forward
@@ -15,7 +16,7 @@ from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
-from thesis_pin.contacts.cones import Contact
+from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.errors import BadInput
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
@@ -124,13 +125,13 @@ class Scout(LoadedRobot):
     # -- coordinates ---------------------------------------------------------
 
     def to_free_flyer(
-        self, q: Any, v: Any = None, a: Any = None
+        self, q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
     ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
         """Thesis coordinates → free-flyer q, v, a: :func:`scout_pin.coordinates.to_free_flyer`."""
         return coordinates.to_free_flyer(q, v, a)
 
     def to_thesis(
-        self, q: Any, v: Any = None, a: Any = None
+        self, q: ArrayLike, v: ArrayLike | None = None, a: ArrayLike | None = None
     ) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
         """Free-flyer q, v, a → thesis coordinates: :func:`scout_pin.coordinates.to_thesis`."""
         return coordinates.to_thesis(q, v, a)
@@ -138,16 +139,20 @@ class Scout(LoadedRobot):
     # -- kinematics ----------------------------------------------------------
 
     def leg_inverse_kinematics(
-        self, side: str, torso_to_foot: Any, reference: Any = None
+        self, side: str, torso_to_foot: ArrayLike, reference: ArrayLike | None = None
     ) -> kinematics.LegSolutions:
-        """All branches of one leg.
+        """All branches of one leg; where an angle is free, one member of each family.
 
         See :func:`scout_pin.kinematics.inverse.leg_inverse_kinematics`.
         """
         return kinematics.leg_inverse_kinematics(self._leg(side), torso_to_foot, reference)
 
     def inverse_kinematics(
-        self, torso: Any, left_foot: Any, right_foot: Any, reference: Any = None
+        self,
+        torso: ArrayLike,
+        left_foot: ArrayLike,
+        right_foot: ArrayLike,
+        reference: ArrayLike | None = None,
     ) -> np.ndarray:
         """Joint angles that bring both soles to their places, one branch a leg.
 
@@ -230,11 +235,13 @@ class Scout(LoadedRobot):
             angles.append(found)
         return np.concatenate(angles, axis=1)
 
-    def leg_forward_kinematics(self, side: str, theta: Any) -> np.ndarray:
+    def leg_forward_kinematics(self, side: str, theta: ArrayLike) -> np.ndarray:
         """Sole in the torso frame from six angles, ``(..., 6)`` → ``(..., 4, 4)``."""
         return forward.leg_forward_kinematics(self._leg(side), finite_array("theta", theta, 6))
 
-    def forward_kinematics(self, theta: Any, torso: Any = None) -> dict[str, np.ndarray]:
+    def forward_kinematics(
+        self, theta: ArrayLike, torso: ArrayLike | None = None
+    ) -> dict[str, np.ndarray]:
         """Soles in the world from twelve angles.
 
         Args:
@@ -251,7 +258,7 @@ class Scout(LoadedRobot):
             for k, side in enumerate(SIDES)
         }
 
-    def sole_vertices(self, side: str, foot: Any) -> np.ndarray:
+    def sole_vertices(self, side: str, foot: ArrayLike) -> np.ndarray:
         """Corners of a sole in the world [m]: ``(..., 4, 4)`` → ``(..., corners, 3)``.
 
         Source: Scout thesis, 3.1 (last equation) and B.4.

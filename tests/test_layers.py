@@ -24,8 +24,8 @@ KINDS = {
 }
 CONFIGURATION = read_configuration(str(ROOT / "pyproject.toml"))
 CONTRACTS = {options["name"]: options for options in CONFIGURATION["contracts_options"]}
-# The one place that imports a module by a name it is given; those who give it are found.
-IMPORTS_BY_NAME = "thesis_pin.command.registry"
+# What imports a module by a name it is given; those who give the name are found by its string.
+IMPORTS_BY_NAME = "thesis_pin.command."
 
 
 def sources():
@@ -40,16 +40,15 @@ def sources():
 def in_strings(graph):
     """(module, module it names in a string, line) of all strings but docstrings.
 
-    A command's words name functions, ``module:function``; a robot's hooks within its package.
+    ``module`` and ``module:function`` count, the latter also seen from the package.
     """
-    known = graph.modules - set(PACKAGES)
     for module, tree in sources():
         for node in ast.walk(tree):
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
-                name = node.value.partition(":")[0]
-                own = f"{module.partition('.')[0]}.{name}" if ":" in node.value else name
-                for imported in {name, own} & known:
-                    yield module, imported, node.lineno
+                named, colon, _ = node.value.partition(":")
+                names = {named, f"{module.partition('.')[0]}.{named}"} if colon else {named}
+                for name in names & (graph.modules - set(PACKAGES)):
+                    yield module, name, node.lineno
 
 
 def in_stubs():
@@ -110,7 +109,7 @@ def test_a_contract_sees_an_import_that_breaks_it(importer, imported, name, whol
     assert broken(options, graph)
 
 
-def test_modules_are_imported_by_a_name_in_a_variable_in_one_place_only():
+def test_modules_are_imported_by_a_name_in_a_variable_by_the_commands_only():
     places = {
         module
         for module, tree in sources()
@@ -119,4 +118,9 @@ def test_modules_are_imported_by_a_name_in_a_variable_in_one_place_only():
         and ast.unparse(node.func) in ("import_module", "importlib.import_module", "__import__")
         and not isinstance(node.args[0], ast.Constant)
     }
-    assert places <= {IMPORTS_BY_NAME}
+    assert all(place.startswith(IMPORTS_BY_NAME) for place in places), places
+
+
+def test_modules_named_in_strings_are_found(whole_graph):
+    importers = {importer for importer, _, _ in in_strings(whole_graph)}
+    assert {"scout_pin.cli", "pollard_pin.cli"} <= importers

@@ -7,8 +7,37 @@ react to them without reading the text.
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
+
+LONGEST = 1000
+"""Characters that a message quotes of any one thing."""
+
+MOST_NAMES = 40
+"""Names that a message lists."""
+
+MOST_PROBLEMS = 50
+"""Problems of one file that a message lists; the error carries all of them."""
+
+
+def escaped(text: str, most: int = LONGEST, *, keep: str = "\n") -> str:
+    """Text that can go to any terminal: shortened, and no control character is left raw.
+
+    Args:
+        text: What a user or a file gave.
+        most: Characters at most; longer text loses its middle.
+        keep: Control characters that stay.
+    """
+    if len(text) > most:
+        text = f"{text[: most - 40]} … {text[-36:]}"
+    if text.isprintable():
+        return text
+    # Cc and Cf would move the cursor or turn the writing round, Cs can't be encoded.
+    return "".join(
+        repr(c)[1:-1] if c not in keep and unicodedata.category(c)[0] in "CZ" and c != " " else c
+        for c in text
+    )
 
 
 class ThesisPinError(Exception):
@@ -26,13 +55,17 @@ class BadInput(ThesisPinError, ValueError):
     """
 
     def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = "") -> None:
-        self.what, self.where, self.allowed, self.remedy = what, where, allowed, remedy
-        text = f"{where}: {what}" if where else what
-        if allowed:
-            text += f"; allowed: {allowed}"
-        if remedy:
-            text += f". {remedy}"
-        super().__init__(text)
+        self.what, self.where = escaped(what), escaped(where, keep="")
+        self.allowed, self.remedy = escaped(allowed), escaped(remedy)
+        super().__init__(self._message())
+
+    def _message(self) -> str:
+        text = f"{self.where}: {self.what}" if self.where else self.what
+        if self.allowed:
+            text += f"; allowed: {self.allowed}"
+        if self.remedy:
+            text += f". {self.remedy}"
+        return text
 
 
 class CannotWrite(BadInput):
@@ -60,8 +93,9 @@ class Problem:
     value: str = ""
 
     def __str__(self) -> str:
-        found = f" (found {self.value})" if self.value else ""
-        return f"{self.where}: {self.key}: {self.what}{found}"
+        found = f" (found {escaped(self.value, keep='')})" if self.value else ""
+        where, key, what = (escaped(x, keep="") for x in (self.where, self.key, self.what))
+        return f"{where}: {key}: {what}{found}"
 
 
 class SpecificationError(BadInput):
@@ -70,8 +104,12 @@ class SpecificationError(BadInput):
     def __init__(self, kind: str, problems: Sequence[Problem]) -> None:
         self.kind, self.problems = kind, tuple(problems)
         count = f"{len(self.problems)} problem" + ("s" if len(self.problems) > 1 else "")
-        lines = "".join(f"\n  {problem}" for problem in self.problems)
-        super().__init__(f"{count} in the {kind}{lines}")
+        listed = [f"\n  {problem}" for problem in self.problems[:MOST_PROBLEMS]]
+        if (more := len(self.problems) - len(listed)) > 0:
+            listed.append(f"\n  … and {more} more")
+        super().__init__(f"{count} in the {kind}")
+        self.what += "".join(listed)  # each is escaped and shortened by itself
+        self.args = (self._message(),)
 
 
 class WrongShape(BadInput):
@@ -95,7 +133,10 @@ class UnknownName(BadInput):
 
     def __init__(self, kind: str, name: object, known: Sequence[str], *, where: str = "") -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
-        super().__init__(f"unknown {kind} {name!r}", where=where, allowed=", ".join(known))
+        listed = ", ".join(escaped(one, 100, keep="") for one in known[:MOST_NAMES])
+        if len(known) > MOST_NAMES:
+            listed += f", … ({len(known)} in all)"
+        super().__init__(f"unknown {kind} {name!r}", where=where, allowed=listed)
 
 
 class ModelError(BadInput):

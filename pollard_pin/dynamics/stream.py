@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pollard_pin.dynamics.inverse import PollardDynamics
-from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
+from pollard_pin.dynamics.inverse import PollardDynamics, inverse_dynamics
+from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.model import Pollard
-from pollard_pin.motion.path import Path, ToolMotion
+from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.motion.trajectory import joint_trajectory
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.elementwise import BLOCK, blocks
@@ -36,21 +36,22 @@ class TorqueBlock:
 
 def torque_blocks(
     robot: Pollard,
-    path: Path,
+    path: ToolPath,
     time: np.ndarray,
-    branch: Branch = DEFAULT_BRANCH,
+    *,
+    branch: Branch | None = None,
     size: int = BLOCK,
 ) -> Iterator[TorqueBlock]:
     """Sample a path, solve its joints and its torques, block by block.
 
-    The numbers are those of ``Pollard.inverse_dynamics`` on the whole. Singularities
+    The numbers are those of :func:`pollard_pin.inverse_dynamics` on the whole. Singularities
     of the actuation aren't looked for; the report does that.
 
     Args:
         robot: The robot.
         path: The path of the spray tip.
         time: Sample times in order [s], shape ``(n,)``.
-        branch: Which inverse-kinematics solution.
+        branch: Which solution; None for the default branch.
         size: Samples a block.
 
     Yields:
@@ -64,9 +65,8 @@ def torque_blocks(
         # The sample before comes along, so that no jump hides between two blocks.
         before = int(last is not None)
         motion = path.at(time[part.start - before : part.stop])
-        joints, _ = joint_trajectory(robot, motion, branch, path, last)
-        last = joints.q[-1]
+        solved = joint_trajectory(robot, motion, branch=branch, reference=last)
+        last = solved.q[-1]
         some = slice(before, None)
-        motion, joints = motion.part(some), joints.part(some)
-        dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a)
-        yield TorqueBlock(part.start, motion, joints, dynamics)
+        motion, joints = motion.part(some), solved.part(some)
+        yield TorqueBlock(part.start, motion, joints, inverse_dynamics(robot, motion, joints))

@@ -18,9 +18,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.coordinates import pose_from_placement
 from pollard_pin.kinematics.geometry import Branch, Geometry
@@ -71,7 +71,7 @@ class Assemblies:
                 remedy="Bring the base motors nearer to a pose found by inverse kinematics",
             )
 
-    def nearest(self, reference: Any) -> np.ndarray:
+    def nearest(self, reference: ArrayLike) -> np.ndarray:
         """Joint angles of the mode nearest to reference angles, shape ``(..., 12)``.
 
         Args:
@@ -90,7 +90,7 @@ class Assemblies:
         return np.take_along_axis(self.angles, best[..., None, None], axis=-2)[..., 0, :]
 
 
-def forward_kinematics(geometry: Geometry, motors: Any) -> Assemblies:
+def forward_kinematics(geometry: Geometry, motors: ArrayLike) -> Assemblies:
     """Every assembly mode of the closed mechanism.
 
     Args:

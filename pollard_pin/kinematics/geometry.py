@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import itertools
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -69,27 +70,24 @@ DEFAULT_BRANCH = Branch(e0=-1, f0=1, w=1, e1=-1, f1=1, e2=1, f2=1)
 _KNOWN = frozenset(ALL_BRANCHES)
 
 
-def one_branch(branch: Any) -> Branch:
+def one_branch(branch: object) -> Branch:
     """A branch label, checked.
 
     Raises:
         BadInput: It isn't a :class:`Branch` of seven signs.
     """
-    try:
-        known = isinstance(branch, Branch) and branch in _KNOWN
-    except TypeError:  # a sign that can't be hashed is no sign
-        known = False
-    if not known:
-        given = branch if isinstance(branch, Branch) else f"a {type(branch).__name__}"
-        raise BadInput(
-            f"branch is {given if isinstance(given, str) else tuple(given)}",
-            allowed="a pollard_pin.Branch of seven signs, each 1 or -1",
-            remedy=f'Make one with Branch.parse("{DEFAULT_BRANCH}") or Branch(*signs)',
-        )
-    return branch
+    with suppress(TypeError):  # a sign that can't be hashed is no sign
+        if isinstance(branch, Branch) and branch in _KNOWN:
+            return branch
+    given = tuple(branch) if isinstance(branch, Branch) else f"a {type(branch).__name__}"
+    raise BadInput(
+        f"branch is {given}",
+        allowed="a pollard_pin.Branch of seven signs, each 1 or -1",
+        remedy=f'Make one with Branch.parse("{DEFAULT_BRANCH}") or Branch(*signs)',
+    )
 
 
-def branch_labels(branches: Any) -> tuple[Branch, ...]:
+def branch_labels(branches: object) -> tuple[Branch, ...]:
     """Several branch labels: ``"all"``, ``"useful"`` or a sequence of them.
 
     Raises:

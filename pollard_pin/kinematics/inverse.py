@@ -15,34 +15,45 @@ Source: Pollard thesis, 2.4 (2.8–2.23), 2.7 (2.89–2.105), 2.7.4–2.7.6 (2.1
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from pollard_pin.kinematics.closed_form import ClosedForm
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.solutions import Solutions
 from thesis_pin.numeric.arrays import finite_array, spread, wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
+from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, blocks
 from thesis_pin.tolerances import TOLERANCES
+
+_TRIED = 720
+"""Values of θ21 or θ43 that are tried where a pose leaves one free."""
 
 
 def inverse_kinematics(
     geometry: Geometry,
-    pose: Any,
+    pose: ArrayLike,
     branches: Sequence[Branch],
-    reference: Any = None,
+    reference: ArrayLike | None = None,
     *,
     squeeze: bool = True,
 ) -> Solutions:
     """Joint angles that bring the spray tip to a pose, on the branches asked for.
 
+    Where a singular pose leaves an angle free, a branch stands for a family of
+    solutions by one member. A straight wrist, and a rod along the axis of a joint,
+    keep the reference's angle. A wrist centre on the shoulder's axis, or a forearm
+    along y, leave θ21 or θ43 free and all chains depend on it: the reference's value
+    is kept if every chain closes and the joint limits hold; otherwise the nearest of
+    720 evenly spread ones for which they do, or else for which the chains close.
+
     Args:
         geometry: The robot's lengths.
         pose: (x, y, z, ψ, θ, φ) [m, rad], shape ``(..., 6)``.
         branches: Labels.
-        reference: Angles [rad], ``(12,)`` or ``(..., 12)``, whose θ1615 is kept where
-            the wrist is straight and only θ1615 ± θ1817 is determined (0 without one).
+        reference: Angles [rad], ``(12,)`` or ``(..., 12)``, that fill in what a singular
+            pose leaves free; None for zero.
         squeeze: Drop the branch axis if there is one branch.
 
     Returns:
@@ -54,12 +65,14 @@ def inverse_kinematics(
     target = finite_array("pose", pose, 6)
     stack, count = target.shape[:-1], math.prod(target.shape[:-1])
     flat = target.reshape(count, 6)
-    roll = np.zeros(count)
+    free = np.zeros((count, 12))
     if reference is not None:
         given = finite_array("reference", reference, 12)
-        roll = spread("reference", given, stack)[..., 3].reshape(count)
+        free = spread("reference", given, stack).reshape(count, 12)
     work = _few if count < FEW else _many
-    angles, cosines = work(geometry, flat, branches, roll)
+    angles, cosines, loose = work(geometry, flat, branches, free)
+    for k in loose:
+        angles[k], cosines[k] = _members(geometry, flat[k], branches, free[k])
     if (beyond := ~(np.abs(cosines).max(axis=-1) <= 1.0 + TOLERANCES.reach)).any():
         angles[beyond] = np.nan
     shape: tuple[int, ...] = (*stack, len(branches))
@@ -75,147 +88,61 @@ def inverse_kinematics(
     )
 
 
+_Solved = tuple[np.ndarray, np.ndarray, list[int]]
+"""Angles ``(n, branches, 12)``, cosines ``(n, branches, 3)``, poses with θ21 or θ43 free."""
+
+
 def _few(
-    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], roll: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Angles ``(n, branches, 12)`` and cosines ``(n, branches, 3)`` of n poses, by floats."""
+    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray
+) -> _Solved:
+    """A few poses, by floats."""
     numbers: list[float] = []  # one list for all: an array costs more to begin than to fill
-    for pose, one in zip(poses.tolist(), roll.tolist(), strict=True):
-        chunk = _Chunk(FLOATS, geometry, pose, one)
+    loose: list[int] = []
+    for k, (pose, one) in enumerate(zip(poses.tolist(), free.tolist(), strict=True)):
+        chunk = ClosedForm(FLOATS, geometry, pose, one)
         for branch in branches:
             angles, cosines = chunk.solve(branch)
             numbers += angles
             numbers += cosines
+        if chunk.loose:
+            loose.append(k)
     rows = np.array(numbers).reshape(len(poses), len(branches), 15)
-    return wrap(rows[..., :12]), rows[..., 12:]
+    return wrap(rows[..., :12]), rows[..., 12:], loose
 
 
 def _many(
-    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], roll: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """The same by arrays, in blocks."""
-    count = len(poses)
+    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray
+) -> _Solved:
+    """Many poses, by arrays, in blocks."""
+    count, loose = len(poses), []
     angles, cosines = np.empty((count, len(branches), 12)), np.empty((count, len(branches), 3))
     for part in blocks(count):
-        chunk = _Chunk(ARRAYS, geometry, np.ascontiguousarray(poses[part].T), roll[part])
+        chunk = ClosedForm(ARRAYS, geometry, np.ascontiguousarray(poses[part].T), free[part].T)
         for b, branch in enumerate(branches):
             found, cosine = chunk.solve(branch)
             angles[part, b] = wrap(np.array(found)).T
             cosines[part, b] = np.array(cosine).T
-    return angles, cosines
+        loose += (part.start + np.flatnonzero(chunk.loose)).tolist()
+    return angles, cosines, loose
 
 
-class _Chunk:
-    """Angles of one chunk of poses; what several branches share is computed once.
-
-    Works on floats and arrays alike.
-    """
-
-    def __init__(self, xp: Elementwise, geometry: Geometry, pose: Any, roll: Any) -> None:
-        self.xp, self.geometry, self.roll = xp, geometry, roll
-        self.memo: dict[tuple[Any, ...], Any] = {}
-        x, y, z, psi, theta, phi = pose
-        (cp, sp), (ct, st), (cf, sf) = (xp.cosine_sine(a) for a in (psi, theta, phi))
-        # Rows of Rx(θ) Ry(ψ) Rz(φ).
-        self.R = (
-            (cp * cf, -cp * sf, sp),
-            (ct * sf + st * sp * cf, ct * cf - st * sp * sf, -st * cp),
-            (st * sf - ct * sp * cf, st * cf + ct * sp * sf, ct * cp),
-        )
-        tip = geometry.x_1918
-        self.W = tuple(p - tip * row[0] for p, row in zip((x, y, z), self.R, strict=True))
-
-    def solve(self, branch: Branch) -> tuple[list[Any], list[Any]]:
-        """Twelve angles, and the cosines of the three chains."""
-        first, cosine = self._memo(self._shoulder, branch.e0)[:2]
-        elbow = self._memo(self._forearm, branch.e0, branch.f0)[:2]
-        wrist = self._memo(self._wrist, branch.e0, branch.f0, branch.w)
-        angles, cosines = [first, *elbow, *wrist], [cosine]
-        for i, e, f in ((0, branch.e1, branch.f1), (1, branch.e2, branch.f2)):
-            arm, c_arm = self._memo(self._arm, branch.e0, branch.f0, i, e)[:2]
-            angles += [arm, *self._memo(self._rod, branch.e0, branch.f0, i, e, f)]
-            cosines.append(c_arm)
-        return angles, cosines
-
-    def _memo(self, function: Callable[..., Any], *signs: int) -> Any:
-        key = (function.__name__, signs)
-        found = self.memo.get(key)
-        if found is None:
-            found = self.memo[key] = function(*signs)
-        return found
-
-    def _acos(self, cosine: Any) -> Any:
-        return self.xp.acos(self.xp.clipped(cosine))
-
-    def _hypot(self, one: Any, other: Any) -> Any:
-        return self.xp.sqrt(one * one + other * other)
-
-    def _ratio(self, value: Any, size: Any) -> Any:
-        """value / size; infinite where size vanishes, so that no solution is claimed there."""
-        zero = size == 0.0
-        if not self.xp.some(zero):
-            return value / size
-        return self.xp.where(zero, math.inf, value / self.xp.where(zero, 1.0, size))
-
-    def _shoulder(self, e0: int) -> tuple[Any, ...]:
-        g, xp = self.geometry, self.xp
-        wx, wy, wz = self.W
-        dz = wz - g.z_10
-        square = wx * wx + wy * wy + dz * dz
-        cosine = self._ratio(
-            square + g.x_32 * g.x_32 - g.forearm * g.forearm, 2 * g.x_32 * self._hypot(wx, dz)
-        )
-        theta = xp.atan2(-dz, wx) + e0 * self._acos(cosine)
-        c, s = xp.cosine_sine(theta)
-        return theta, cosine, c, s, c * wx - s * dz - g.x_32, wy, s * wx + c * dz
-
-    def _forearm(self, e0: int, f0: int) -> tuple[Any, ...]:
-        g, xp = self.geometry, self.xp
-        _, _, c21, s21, X, Y, Z = self._memo(self._shoulder, e0)
-        theta_43 = xp.atan2(-f0 * Z, f0 * X)
-        theta_54 = xp.atan2(Y, f0 * self._hypot(X, Z))
-        (c43, s43), (c54, s54) = xp.cosine_sine(theta_43), xp.cosine_sine(theta_54)
-        ca, sa = c21 * c43 - s21 * s43, s21 * c43 + c21 * s43
-        # Rows of Ry(θ21 + θ43) Rz(θ54).
-        rows = ((ca * c54, -ca * s54, sa), (s54, c54, 0.0), (-sa * c54, sa * s54, ca))
-        elbow = (g.x_32 * c21, 0.0, g.z_10 - g.x_32 * s21)
-        return theta_43, theta_54, rows, elbow
-
-    def _wrist(self, e0: int, f0: int, w: int) -> tuple[Any, ...]:
-        xp, R = self.xp, self.R
-        F = self._memo(self._forearm, e0, f0)[2]
-
-        def entry(i: int, j: int) -> Any:  # B = Rfᵀ R
-            return F[0][i] * R[0][j] + F[1][i] * R[1][j] + F[2][i] * R[2][j]
-
-        b00, b10, b20 = entry(0, 0), entry(1, 0), entry(2, 0)
-        theta_1615 = xp.atan2(w * b20, w * b10)
-        if xp.some(straight := self._hypot(b10, b20) < TOLERANCES.singular):
-            theta_1615 = xp.where(straight, self.roll, theta_1615)
-        # With θ1615 known the others follow from Rx(−θ1615) B, also where it is free.
-        c, s = xp.cosine_sine(theta_1615)
-        theta_1716 = xp.atan2(c * b10 + s * b20, b00)
-        theta_1817 = xp.atan2(c * entry(2, 1) - s * entry(1, 1), c * entry(2, 2) - s * entry(1, 2))
-        return theta_1615, theta_1716, theta_1817
-
-    def _arm(self, e0: int, f0: int, i: int, e: int) -> tuple[Any, ...]:
-        xp = self.xp
-        _, _, F, elbow = self._memo(self._forearm, e0, f0)
-        ax, ay, az, y_10, z_32, arm, rod, _, _ = self.geometry.sides[i]
-        sx, sy, sz = (
-            row[0] * ax + row[1] * ay + row[2] * az + p for row, p in zip(F, elbow, strict=True)
-        )
-        dx, dy, h = sx, sy - y_10, sz + z_32
-        square = dx * dx + dy * dy + h * h
-        cosine = self._ratio(square + arm * arm - rod * rod, 2 * arm * self._hypot(dx, dy))
-        theta = xp.atan2(dy, dx) + e * self._acos(cosine)
-        return theta, cosine, dx, dy, h
-
-    def _rod(self, e0: int, f0: int, i: int, e: int, f: int) -> tuple[Any, Any]:
-        xp = self.xp
-        theta, _, dx, dy, h = self._memo(self._arm, e0, f0, i, e)
-        c, s = xp.cosine_sine(theta)
-        *_, arm, _, cb, sb = self.geometry.sides[i]
-        along, across = c * dx + s * dy - arm, c * dy - s * dx
-        vy, vz = cb * across + sb * h, cb * h - sb * across
-        return xp.atan2(-f * vz, f * along), xp.atan2(vy, f * self._hypot(along, vz))
+def _members(
+    geometry: Geometry, pose: np.ndarray, branches: Sequence[Branch], free: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Angles and cosines of one pose that leaves θ21 or θ43 free, one member of each family."""
+    tried = np.tile(free, (1 + _TRIED, 1))
+    tried[1:, :2] += (np.arange(1, 1 + _TRIED) * (2 * np.pi / _TRIED))[:, None]
+    angles, cosines, _ = _many(geometry, np.tile(pose, (len(tried), 1)), branches, tried)
+    size = np.abs(cosines).max(axis=-1)
+    distance = np.abs(wrap(angles - free)).sum(axis=-1)
+    distance[0] = -1.0  # the reference's own comes first
+    closes = size <= 1.0 + TOLERANCES.reach
+    beyond = np.maximum(geometry.lower - angles, angles - geometry.upper).max(axis=-1)
+    kept = closes & (beyond <= TOLERANCES.joint_limit)
+    cost = np.where(closes, distance, 12 * np.pi + size)
+    cost = np.where(kept.any(axis=0) & ~kept, np.inf, cost)
+    best = np.argmin(cost, axis=0)[None, :, None]
+    return (
+        np.take_along_axis(angles, best, axis=0)[0],
+        np.take_along_axis(cosines, best, axis=0)[0],
+    )

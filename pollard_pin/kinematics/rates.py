@@ -19,7 +19,7 @@ import numpy as np
 
 from pollard_pin.kinematics.screws import Posture
 from thesis_pin.errors import SingularPose
-from thesis_pin.numeric.vectors import Vector, cross, dot
+from thesis_pin.numeric.vectors import Vector, cross, dot, rows
 from thesis_pin.tolerances import TOLERANCES
 
 _EY = np.array([0.0, 1.0, 0.0])
@@ -36,15 +36,16 @@ def _z_cross(v: Vector) -> Vector:
 
 
 def _scaled(k: np.ndarray, v: Vector) -> Vector:
-    return k * (v if v.ndim > k.ndim else v[:, None])
+    return np.asarray(k * (v if v.ndim > k.ndim else v[:, None]))
 
 
-def check_regular(posture: Posture, time: np.ndarray | None = None) -> None:
+def check_regular(posture: Posture, time: np.ndarray | None = None, first: int = 0) -> None:
     """Refuse postures in which rates don't exist.
 
     Args:
         posture: The postures.
         time: Their times [s], for the message.
+        first: Number of the first of them, for the message.
 
     Raises:
         SingularPose: Names the first one and the direction that is lost.
@@ -55,11 +56,42 @@ def check_regular(posture: Posture, time: np.ndarray | None = None) -> None:
         sample, which = (int(k) for k in np.argwhere(lost)[0])
         raise SingularPose(
             f"rates don't exist: {Posture.SERIAL_NAMES[which]} (sine {sines[sample, which]:.1e})",
-            where=(f"pose {sample}" if len(sines) > 1 else "pose")
+            where=(f"pose {first + sample}" if first or len(sines) > 1 else "pose")
             + ("" if time is None else f" at t = {time[sample]:.6g} s"),
             allowed=f"sines above {TOLERANCES.near_singular:.0e}",
             remedy="Move the path away from this posture, or choose another branch",
         )
+
+
+def motion_rates(
+    posture: Posture,
+    pose: np.ndarray,
+    rate: np.ndarray,
+    acceleration: np.ndarray,
+    time: np.ndarray | None = None,
+    first: int = 0,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Rates and accelerations of the twelve joints of a motion of the tool.
+
+    Args:
+        posture: Closed postures of n samples.
+        pose: Their poses (x, y, z, ψ, θ, φ), shape ``(n, 6)``.
+        rate: Time derivative of the poses, shape ``(n, 6)``.
+        acceleration: Their second time derivative, shape ``(n, 6)``.
+        time: Their times [s], for the message.
+        first: Number of the first of them, for the message.
+
+    Returns:
+        [rad/s] and [rad/s²], each ``(n, 12)``.
+
+    Raises:
+        SingularPose: Rates don't exist at some sample.
+    """
+    check_regular(posture, time, first)
+    p, dp, ddp = (rows(x) for x in (pose, rate, acceleration))
+    v = joint_rates(posture, *tool_twist(posture, p[3:5], dp))
+    a = joint_accelerations(posture, v, *tool_acceleration(posture, p[3:5], dp, ddp))
+    return v.T, a.T
 
 
 def tool_twist(posture: Posture, psi_theta: np.ndarray, rate: np.ndarray) -> tuple[Vector, Vector]:
@@ -143,7 +175,9 @@ def joint_accelerations(
 
     def carried(lever: Vector) -> Vector:
         """What the rates alone accelerate at a point of the forearm."""
-        return bias_elbow + cross(bias_alpha, lever) + cross(omega_f, cross(omega_f, lever))
+        return np.asarray(
+            bias_elbow + cross(bias_alpha, lever) + cross(omega_f, cross(omega_f, lever))
+        )
 
     omega_1 = omega_f + k_12 * f
     omega_2 = omega_1 + k_18 * n

@@ -97,15 +97,17 @@ class Posture:
     @property
     def elbow(self) -> Vector:
         """Elbow of chain 0, ``(3, n)``."""
-        return self.upper_arm + np.array([[0.0], [0.0], [self.geometry.z_10]])
+        return np.asarray(self.upper_arm + np.array([[0.0], [0.0], [self.geometry.z_10]]))
 
     def ball_joint(self, i: int) -> Vector:
         """Ball joint ``i`` (0 or 1) as a point of the forearm, ``(3, n)``."""
-        return self.elbow + self.levers[i]
+        return np.asarray(self.elbow + self.levers[i])
 
     def side_reach(self, i: int) -> Vector:
         """From the base of side chain ``i``, at its axis, to the tip of its rod, ``(3, n)``."""
-        return self.arms[i] + self.rods[i] - np.array([[0.0], [0.0], [self.geometry.z_32[i]]])
+        return np.asarray(
+            self.arms[i] + self.rods[i] - np.array([[0.0], [0.0], [self.geometry.z_32[i]]])
+        )
 
     @property
     def tip(self) -> np.ndarray:

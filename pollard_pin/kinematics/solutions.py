@@ -44,23 +44,27 @@ class Solutions:
     @cached_property
     def margin(self) -> np.ndarray:
         """Reach margin, shape ``(...)``: 1 − the largest |cosine|, negative if unreachable."""
-        return 1.0 - np.abs(np.where(np.isnan(self.cosines), np.inf, self.cosines)).max(axis=-1)
+        return np.asarray(
+            1.0 - np.abs(np.where(np.isnan(self.cosines), np.inf, self.cosines)).max(axis=-1)
+        )
 
     @cached_property
     def reachable(self) -> np.ndarray:
         """Whether a solution exists, joint limits aside, shape ``(...)``."""
-        return ~np.isnan(self.angles).any(axis=-1)
+        return np.asarray(~np.isnan(self.angles).any(axis=-1))
 
     @cached_property
     def beyond_limits(self) -> np.ndarray:
         """By how much each angle leaves its limits [rad], ≤ 0 inside, ``(..., 12)``."""
-        return np.maximum(self.geometry.lower - self.angles, self.angles - self.geometry.upper)
+        return np.asarray(
+            np.maximum(self.geometry.lower - self.angles, self.angles - self.geometry.upper)
+        )
 
     @cached_property
     def valid(self) -> np.ndarray:
         """Whether a solution exists and keeps the joint limits, shape ``(...)``."""
         # NaN compares false, so unreachable poses drop out.
-        return np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1)
+        return np.asarray(np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1))
 
     @cached_property
     def posture(self) -> Posture:
@@ -70,18 +74,18 @@ class Solutions:
     @property
     def position_residual(self) -> np.ndarray:
         """Distance of the spray tip from the pose asked for [m], shape ``(...)``."""
-        return np.linalg.norm(self.posture.tip - self.pose[..., :3], axis=-1)
+        return np.asarray(np.linalg.norm(self.posture.tip - self.pose[..., :3], axis=-1))
 
     @property
     def rotation_residual(self) -> np.ndarray:
         """Largest entry of the difference of the two orientations [-], shape ``(...)``."""
         gap = self.posture.tool_rotation - pose_rotation(self.pose)
-        return np.abs(gap).max(axis=(-1, -2))
+        return np.asarray(np.abs(gap).max(axis=(-1, -2)))
 
     @property
     def loop_residual(self) -> np.ndarray:
         """Opening of the two ball joints [m], shape ``(..., 2)``."""
-        return np.linalg.norm(self.posture.opening, axis=-1)
+        return np.asarray(np.linalg.norm(self.posture.opening, axis=-1))
 
     @property
     def rod_angles(self) -> np.ndarray:

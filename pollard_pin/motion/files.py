@@ -28,13 +28,13 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Sequence
-from pathlib import Path as File
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
-from pollard_pin.motion.path import Path, Timing, arc, joined, line, through
+from pollard_pin.motion.path import Timing, ToolPath, arc, joined, line, through
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.model.samples import check_increasing, check_width, finite, numbers, read_rows
 from thesis_pin.model.specification import Key, Positive, Strict, Vector3, read_toml
@@ -104,7 +104,7 @@ class PathFile(Strict):
                 )
 
 
-def load_path(file: Any) -> Path:
+def load_path(file: Any) -> ToolPath:
     """A path from a CSV or TOML file; see the head of this module."""
     suffix = str(file).rpartition(".")[2].lower()
     if suffix == "csv":
@@ -114,7 +114,7 @@ def load_path(file: Any) -> Path:
     raise BadInput(f"a path can't be a .{suffix} file", where=str(file), allowed=".csv or .toml")
 
 
-def read_toml_path(file: str | File) -> Path:
+def read_toml_path(file: str | Path) -> ToolPath:
     """A path from TOML.
 
     Raises:
@@ -135,7 +135,7 @@ def read_toml_path(file: str | File) -> Path:
         ) from None
 
 
-def _segments(content: PathFile) -> list[Path]:
+def _segments(content: PathFile) -> list[ToolPath]:
     assert content.start is not None  # cross_check has seen to it
     current, paths = content.start.array(), []
     for segment in content.segments:
@@ -152,7 +152,7 @@ def _segments(content: PathFile) -> list[Path]:
     return paths
 
 
-def read_csv(file: str | File, method: str = "free") -> Path:
+def read_csv(file: str | Path, method: str = "free") -> ToolPath:
     """A path from CSV; see the head of this module.
 
     Raises:
@@ -175,7 +175,7 @@ def read_csv(file: str | File, method: str = "free") -> Path:
     table *= factors
     # 179° and −179° are neighbours: an angle that wraps around doesn't turn back.
     table[:, 4:] = np.unwrap(table[:, 4:], axis=0)
-    return through(table[:, 0], table[:, 1:], method, name=File(file).name)
+    return through(table[:, 0], table[:, 1:], method, name=Path(file).name)
 
 
 def _bare_columns(header: Sequence[str], where: str) -> tuple[list[int], np.ndarray]:

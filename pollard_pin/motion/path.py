@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.specification import Specification
 from thesis_pin.errors import TrajectoryError, WrongShape
@@ -41,22 +42,28 @@ class ToolMotion:
         pose: x, y, z [m], ψ, θ, φ [rad], shape ``(n, 6)``.
         rate: First time derivative, shape ``(n, 6)``.
         acceleration: Second time derivative, shape ``(n, 6)``.
+        path: Where the samples come from, to look closer where they are far apart.
     """
 
     time: np.ndarray
     pose: np.ndarray
     rate: np.ndarray
     acceleration: np.ndarray
+    path: ToolPath | None = None
 
     def part(self, samples: slice) -> ToolMotion:
         """Some consecutive samples, as views."""
         return ToolMotion(
-            self.time[samples], self.pose[samples], self.rate[samples], self.acceleration[samples]
+            self.time[samples],
+            self.pose[samples],
+            self.rate[samples],
+            self.acceleration[samples],
+            self.path,
         )
 
 
 @dataclass(frozen=True)
-class Path:
+class ToolPath:
     """A pose over time.
 
     Attributes:
@@ -71,7 +78,7 @@ class Path:
     function: Callable[[np.ndarray], Triple]
     parameters: dict[str, Any]
 
-    def at(self, time: Any) -> ToolMotion:
+    def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""
         time = np.atleast_1d(finite_array("time", time))
         if time.ndim != 1 or not time.size:
@@ -83,7 +90,7 @@ class Path:
                 where=f"path {self.name!r}",
                 allowed=f"0 to {self.duration:g} s",
             )
-        return ToolMotion(time, *self.function(time))
+        return ToolMotion(time, *self.function(time), self)
 
     def sample(self, count: int) -> ToolMotion:
         """Evenly spaced samples from beginning to end.
@@ -139,7 +146,7 @@ def appendix_b(
     orientation: Sequence[float] | None = None,
     duration: float | None = None,
     timing: str | None = None,
-) -> Path:
+) -> ToolPath:
     """The thesis's spray path, placed and timed.
 
     Printed in millimetres and without a time: x = −0.001 t², y = t,
@@ -178,7 +185,7 @@ def appendix_b(
         value = value * _MM + np.concatenate([place, tool])
         return value, first * (_MM * span), second * (_MM * span**2)
 
-    return Path(
+    return ToolPath(
         "appendix B",
         seconds,
         lambda time: along(curve, timing_law(law, seconds, time)),
@@ -192,7 +199,9 @@ def appendix_b(
     )
 
 
-def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") -> Path:
+def line(
+    start: ArrayLike, end: ArrayLike, duration: float, timing: str = "rest-to-rest"
+) -> ToolPath:
     """A straight line between two poses (x, y, z, ψ, θ, φ)."""
     first, last = vector("start", start, 6), vector("end", end, 6)
 
@@ -204,12 +213,12 @@ def line(start: Any, end: Any, duration: float, timing: str = "rest-to-rest") ->
 
 
 def arc(
-    start: Any,
-    via: Any,
-    end: Any,
+    start: ArrayLike,
+    via: ArrayLike,
+    end: ArrayLike,
     duration: float,
     timing: str = "rest-to-rest",
-) -> Path:
+) -> ToolPath:
     """A circular arc.
 
     Args:
@@ -253,10 +262,12 @@ def arc(
     return _single("arc", curve, duration, timing)
 
 
-def _single(name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str) -> Path:
+def _single(
+    name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str
+) -> ToolPath:
     timing_law(timing, duration, np.zeros(1))
     duration = float(duration)
-    return Path(
+    return ToolPath(
         name,
         duration,
         lambda time: along(curve, timing_law(timing, duration, time)),
@@ -264,7 +275,9 @@ def _single(name: str, curve: Callable[[np.ndarray], Triple], duration: float, t
     )
 
 
-def through(time: Any, poses: Any, method: str = "cubic", *, name: str = "poses over time") -> Path:
+def through(
+    time: ArrayLike, poses: ArrayLike, method: str = "cubic", *, name: str = "poses over time"
+) -> ToolPath:
     """A spline through poses at given times, with its exact derivatives.
 
     Args:
@@ -291,10 +304,10 @@ def through(time: Any, poses: Any, method: str = "cubic", *, name: str = "poses 
 
     parameters = {"path": name, "nodes": len(time), "interpolation": method}
     duration = float(time[-1] - begin)
-    return Path(name, duration, function, {**parameters, "duration": duration})
+    return ToolPath(name, duration, function, {**parameters, "duration": duration})
 
 
-def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
+def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
     """Paths that follow each other without a jump in pose or rate.
 
     Raises:
@@ -306,7 +319,7 @@ def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
             allowed="a list of at least one path",
         )
     for path in paths:
-        instance("a segment", path, Path, "line(), arc() or through()")
+        instance("a segment", path, ToolPath, "line(), arc() or through()")
     for number, (before, after) in enumerate(itertools.pairwise(paths), start=1):
         end, start = before.at(before.duration), after.at(0.0)
         for what, one, two in (
@@ -331,4 +344,4 @@ def joined(paths: Sequence[Path], *, name: str = "segments") -> Path:
         return rows[0], rows[1], rows[2]
 
     parameters = {"path": name, "segments": [path.parameters for path in paths]}
-    return Path(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})
+    return ToolPath(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})

@@ -2,60 +2,73 @@
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import dataclass
 
-from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
-from pollard_pin.kinematics.rates import (
-    check_regular,
-    joint_accelerations,
-    joint_rates,
-    tool_acceleration,
-    tool_twist,
-)
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
+from pollard_pin.kinematics.rates import motion_rates
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
-from pollard_pin.motion.path import Path, ToolMotion
+from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable
+from thesis_pin.numeric.arrays import vector
+from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
-from thesis_pin.numeric.vectors import rows
 from thesis_pin.tolerances import TOLERANCES
 
 _JUMP = 1.0  # rad between two samples that only a break of the branch explains …
 _UNFORESEEN = 0.5  # … if the rates on both sides foretell less than this of it
 
 
+@dataclass(frozen=True)
+class SolvedTrajectory(JointTrajectory):
+    """Joint positions, rates and accelerations over time, and how they were found.
+
+    Attributes:
+        time: Sample times [s], shape ``(n,)``.
+        q: Joint angles [rad], without jumps of a whole turn, shape ``(n, 12)``.
+        v: Joint rates [rad/s], shape ``(n, 12)``.
+        a: Joint accelerations [rad/s²], shape ``(n, 12)``.
+        solutions: Margins, residuals and posture of each sample.
+    """
+
+    solutions: Solutions
+
+
 def joint_trajectory(
     robot: Pollard,
     motion: ToolMotion,
-    branch: Branch = DEFAULT_BRANCH,
-    path: Path | None = None,
-    start: np.ndarray | None = None,
-) -> tuple[JointTrajectory, Solutions]:
-    """Angles, rates and accelerations of the twelve joints along a path.
+    *,
+    branch: Branch | None = None,
+    reference: ArrayLike | None = None,
+) -> SolvedTrajectory:
+    """Inverse kinematics of a whole motion, rates and accelerations included.
 
     Args:
         robot: The robot.
-        motion: Sampled path.
-        branch: Which solution; it is kept all along.
-        path: Where the samples come from, to look closer where they are far apart.
-        start: Angles of the first sample but for whole turns [rad], ``(12,)``; None for
-            those in (−π, π].
-
-    Returns:
-        The joint trajectory, its angles without jumps of a whole turn, and the
-        solutions with margins and residuals.
+        motion: The sampled path.
+        branch: Which solution; it is kept all along. None for the default branch.
+        reference: Angles [rad] whose whole turns the first sample takes, ``(12,)``;
+            None for angles in (−π, π].
 
     Raises:
         Unreachable: A pose can't be reached, or an angle leaves its limits.
         SingularPose: A sample is singular, or the path crosses a serial singularity.
     """
+    instance("robot", robot, Pollard, "pollard_pin.load()")
+    instance("motion", motion, ToolMotion, "ToolPath.sample()")
+    branch = DEFAULT_BRANCH if branch is None else one_branch(branch)
+    path = motion.path
     solution, v, a = _solve(robot, motion, branch)
     q, changes = _unwrapped(solution.angles)
-    if start is not None and (turns := np.rint((start - q[0]) / (2 * np.pi))).any():
-        q = q + 2 * np.pi * turns
+    if reference is not None:
+        turns = np.rint((vector("reference", reference, 12) - q[0]) / (2 * np.pi))
+        q = q + 2 * np.pi * turns if turns.any() else q
     for k, joint, change in _suspicious(motion.time, changes, v):
         if path is None or _breaks(robot, path, motion.time[k : k + 2], branch):
             raise SingularPose(
@@ -66,7 +79,7 @@ def joint_trajectory(
                 + ("" if path else "; if the samples are far apart, take more of them"),
             )
     _check_limits(robot, motion.time, q)
-    return JointTrajectory(motion.time, q, v, a), solution
+    return SolvedTrajectory(motion.time, q, v, a, solution)
 
 
 def _solve(
@@ -76,14 +89,9 @@ def _solve(
     solution = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
     v, a = np.empty(solution.angles.shape), np.empty(solution.angles.shape)
     for part in blocks(len(motion.time)):
+        some = motion.part(part)
         posture = Posture.of(robot.geometry, solution.angles[part])
-        check_regular(posture, motion.time[part])
-        pose, rate, acceleration = (
-            rows(x[part]) for x in (motion.pose, motion.rate, motion.acceleration)
-        )
-        rates = joint_rates(posture, *tool_twist(posture, pose[3:5], rate))
-        wrist = tool_acceleration(posture, pose[3:5], rate, acceleration)
-        v[part], a[part] = rates.T, joint_accelerations(posture, rates, *wrist).T
+        v[part], a[part] = motion_rates(posture, some.pose, some.rate, some.acceleration, some.time)
     return solution, v, a
 
 
@@ -110,7 +118,7 @@ def _suspicious(
     return found
 
 
-def _breaks(robot: Pollard, path: Path, ends: np.ndarray, branch: Branch) -> bool:
+def _breaks(robot: Pollard, path: ToolPath, ends: np.ndarray, branch: Branch) -> bool:
     """Whether the branch breaks between two samples, looked at 300 times as closely."""
     motion = path.at(np.linspace(ends[0], ends[1], 301))
     solution, v, _ = _solve(robot, motion, branch)

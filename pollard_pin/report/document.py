@@ -8,7 +8,8 @@ from typing import Any, Literal
 import numpy as np
 
 from pollard_pin.coordinates import POSE_NAMES
-from pollard_pin.dynamics.inverse import three_torques
+from pollard_pin.dynamics.inverse import inverse_dynamics
+from pollard_pin.dynamics.three_motors import three_torques
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
@@ -17,7 +18,7 @@ from pollard_pin.kinematics.singularity import (
     require_one_sign,
 )
 from pollard_pin.model import Pollard
-from pollard_pin.motion.path import Path
+from pollard_pin.motion.path import ToolPath
 from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.report import verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
@@ -167,7 +168,7 @@ class TrajectoryReport(TrajectoryNumbers):
 
 def trajectory_report(
     robot: Pollard,
-    path: Path,
+    path: ToolPath,
     *,
     samples: int = 2001,
     branch: Branch = DEFAULT_BRANCH,
@@ -188,13 +189,14 @@ def trajectory_report(
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
-    instance("path", path, Path, "load_path() or appendix_b()")
+    instance("path", path, ToolPath, "load_path() or appendix_b()")
     choice("number of actuators", motors, ("six", "three"))
     function("progress", progress, "progress(done, total)")
     branch = one_branch(branch)
     motion = path.sample(samples)
     progress(1, 4)
-    joints, solutions = joint_trajectory(robot, motion, branch, path)
+    joints = joint_trajectory(robot, motion, branch=branch)
+    solutions = joints.solutions
     progress(2, 4)
     posture = solutions.posture
     holding = actuation(posture)
@@ -205,7 +207,7 @@ def trajectory_report(
 
     require_one_sign(determinant, motion.time, holding.base_determinant)
     progress(3, 4)
-    dynamics = robot.inverse_dynamics(joints.q, joints.v, joints.a, posture)
+    dynamics = inverse_dynamics(robot, motion, joints)
     progress(4, 4)
     three = None
     if motors == "three":

@@ -8,15 +8,16 @@ from typing import Literal
 
 import numpy as np
 
-from pollard_pin.dynamics.inverse import PollardDynamics, ThreeTorques
+from pollard_pin.dynamics.inverse import PollardDynamics, inverse_dynamics_at
 from pollard_pin.dynamics.reactions import joint_reactions
+from pollard_pin.dynamics.three_motors import ThreeTorques
 from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.kinematics.singularity import (
     Actuation,
 )
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
-from pollard_pin.motion.path import Path, ToolMotion
+from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.report.limits import MotorUse, distance_class
 from pollard_pin.specification import (
     ACTUATOR_NAMES,
@@ -45,7 +46,7 @@ class TrajectoryNumbers:
     """
 
     robot: Pollard
-    path: Path
+    path: ToolPath
     branch: Branch
     motors: Literal["six", "three"]
     motion: ToolMotion
@@ -148,5 +149,5 @@ class TrajectoryNumbers:
         """The other reading of the inertias and its peak torques of six motors [N·m]."""
         reading: Reading = "printed" if self.robot.inertia == "physical" else "physical"
         other = Pollard(self.robot.specification, reading)
-        found = other.inverse_dynamics(self.joints.q, self.joints.v, self.joints.a)
+        found = inverse_dynamics_at(other, self.joints.q, self.joints.v, self.joints.a)
         return reading, np.abs(found.torque).max(axis=0)

@@ -1,4 +1,4 @@
-"""The audit of the Pollard thesis: states, causes, coverage.
+"""The audit of the Pollard thesis: its numbers, the states it is judged at, what lies outside.
 
 ``pollard-pin audit`` prints the counts, the failures and what isn't covered.
 """
@@ -6,15 +6,12 @@
 from __future__ import annotations
 
 import functools
-import math
-from collections.abc import Callable, Iterable
-from dataclasses import replace
 
 import numpy as np
 
 from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.causes import CAUSES
-from pollard_pin.thesis.claims.angles import claims
+from pollard_pin.thesis.claims import claims
 from pollard_pin.thesis.effects import Effects
 from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import State, random_state
@@ -22,12 +19,10 @@ from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.loop import loop_symbols
 from pollard_pin.thesis.symbols.mechanics import Mechanics, driven
 from pollard_pin.thesis.symbols.rates import moving
-from thesis_pin.audit.rows import Report
 from thesis_pin.audit.text import ranges
-from thesis_pin.audit.verdicts import Claims, judge
+from thesis_pin.audit.thesis import Ground, Thesis
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
-THESIS = "Pollard thesis"
 NUMBERS = (
     *(f"2.{k}" for k in range(1, 173)),
     *(f"3.{k}" for k in range(1, 155)),
@@ -35,7 +30,6 @@ NUMBERS = (
 )
 COEFFICIENTS = {"V": 79, "E": 66, "G": 92}
 """Coefficients the thesis names: appendix D, chapter 2, appendix E."""
-COMMAND = "pollard-pin audit --markdown docs/audit/pollard.md"
 EFFECTS = (
     "Effects say what a reader meets who follows that one line and is right elsewhere: the change",
     "of D q̈ + V q̇ + C at the closed states, relative to each state's largest component (median",
@@ -49,46 +43,6 @@ def states(*, closed: bool) -> State:
     """Seeded states, each on a robot of its own; closed or with nothing in place."""
     state = random_state(np.random.default_rng(_SEED + closed), _STATES, closed=closed)
     return accelerating(moving(state)) if closed else state
-
-
-def audit(
-    equations: Catalogue | None = None,
-    *,
-    only: Iterable[str] | None = None,
-    with_effects: bool = True,
-    progress: Callable[[Iterable[Equation], int], Iterable[Equation]] | None = None,
-) -> Report:
-    """Audit the thesis.
-
-    Args:
-        equations: The equations; None for the thesis's own.
-        only: Ids to audit; None for all.
-        with_effects: Follow each failing line that the dynamics rest on.
-        progress: Wraps the loop over equations, for a progress bar.
-
-    Returns:
-        The report.
-    """
-    equations = equations or catalogue()
-    chosen = equations.equations if only is None else [equations[name] for name in only]
-    environments = Environments()
-    checks = _once(claims(equations, environments.closed))
-    effects = Effects(equations, environments.closed)
-    rows = []
-    for equation in progress(chosen, len(chosen)) if progress else chosen:
-        row = judge(equations, equation, environments.of(equation), checks, THESIS)
-        if row.failed and not row.effect:
-            effect = effects.of(equation) if with_effects else {}
-            if not effect and row.residual_printed == math.inf:
-                effect = {"this line": "can't be computed"}
-            row = replace(row, effect=effect)
-        rows.append(row)
-    described = (
-        f"States: {_STATES} open ones, where nothing of the loops is assumed, and {_STATES} closed "
-        "ones for equations that need the loops; each on a random robot with unequal side chains "
-        "and β54 ≠ 0, angles on the whole circle, both side chains."
-    )
-    return Report(THESIS, tuple(rows), NUMBERS, described, CAUSES, beyond(equations), EFFECTS)
 
 
 class Environments:
@@ -120,11 +74,6 @@ class Environments:
         return self.closed if closed else self.open
 
 
-def _once(checks: Claims) -> Claims:
-    """Checks that remember their result: several equations share one."""
-    return {name: functools.cache(check) for name, check in checks.items()}
-
-
 def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:
     """What isn't transcribed, counted from the data."""
     covered = {number for equation in equations.equations for number in equation.number}
@@ -142,3 +91,30 @@ def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:
         *found,
         ("figures", "drawings"),
     )
+
+
+def ground(equations: Catalogue) -> Ground:
+    """What the thesis's lines are judged by."""
+    environments = Environments()
+    described = (
+        f"States: {_STATES} open ones, where nothing of the loops is assumed, and {_STATES} closed "
+        "ones for equations that need the loops; each on a random robot with unequal side chains "
+        "and β54 ≠ 0, angles on the whole circle, both side chains."
+    )
+    closed = environments.closed
+    return Ground(
+        described, environments.of, claims(equations, closed), Effects(equations, closed).of
+    )
+
+
+THESIS = Thesis(
+    name="Pollard thesis",
+    robot="pollard",
+    numbers=NUMBERS,
+    catalogue=catalogue,
+    ground=ground,
+    causes=CAUSES,
+    beyond=beyond,
+    effects=EFFECTS,
+)
+audit = THESIS.audit

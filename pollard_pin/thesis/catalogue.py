@@ -1,22 +1,12 @@
-"""How the Pollard thesis writes, and the files with its equations."""
+"""The files with the equations of the Pollard thesis."""
 
 from __future__ import annotations
 
 import functools
 from pathlib import Path
 
+from pollard_pin.thesis.notation import NOTATION
 from thesis_pin.equations.catalogue import Catalogue
-from thesis_pin.equations.evaluation import FUNCTIONS
-from thesis_pin.equations.notation import Notation
-
-NOTATION = Notation(
-    functions=FUNCTIONS,
-    words=("signo", "Ec"),
-    # A number above these is a frame, bold or not.
-    labelled=frozenset("ijkrJ"),
-    # What chapter 3 numbers anew for the side chains.
-    chains=frozenset({*"kmJKLMNUVE", "omega", "bb:D", "bb:V", "bb:C"}),
-)
 
 FILES = tuple(
     Path(__file__).parent / "printed" / f"{name}.toml"

@@ -18,6 +18,7 @@ from pollard_pin.specification import ACTUATORS
 from pollard_pin.thesis.claims.dynamics import AWAY
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
 from pollard_pin.thesis.symbols.mechanics import Mechanics
+from thesis_pin.audit.rows import Effect
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.formula import FormulaError, Symbol
@@ -54,7 +55,7 @@ class Effects:
         """The thesis's robot on the default path."""
         return _Model(self.equations, along_path())
 
-    def of(self, equation: Equation) -> dict[str, float | str]:
+    def of(self, equation: Equation) -> Effect:
         """Changes by quantity; empty if the dynamics don't rest on the line."""
         if not self.random.rests_on(equation):
             return {}

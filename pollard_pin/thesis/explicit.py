@@ -55,7 +55,7 @@ class ExplicitModel:
 
     Poses, rates and accelerations have shape ``(..., 6)``: (x, y, z, ψ, θ, φ) [m], [rad].
     It walks through hundreds of formulas at every call: made for comparison, not for
-    control. :meth:`pollard_pin.Pollard.inverse_dynamics` gives torques faster.
+    control. :func:`pollard_pin.inverse_dynamics_at` gives torques faster.
 
     Args:
         specification: The robot; None for the thesis's.

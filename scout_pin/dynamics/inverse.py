@@ -21,7 +21,7 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.load_sharing import share_load
 from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Motion
+from scout_pin.motion.gait import GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.cones import Contact
@@ -126,7 +126,7 @@ def free_flying_forces(robot: Scout, q: np.ndarray, v: np.ndarray, a: np.ndarray
 
 
 def inverse_dynamics(
-    robot: Scout, motion: Motion, joints: JointTrajectory | None = None
+    robot: Scout, motion: GaitMotion, joints: JointTrajectory | None = None
 ) -> ContactDynamics:
     """Torques and floor wrenches of a motion.
 
@@ -149,7 +149,7 @@ def inverse_dynamics(
     walking(robot)
     if joints is None:
         joints = joint_trajectory(robot, motion)
-    instance("motion", motion, Motion, "Gait.sample()")
+    instance("motion", motion, GaitMotion, "Gait.sample()")
     instance("joints", joints, JointTrajectory, "joint_trajectory()")
     if np.shape(joints.q) != (len(motion.time), 12):
         raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
@@ -172,7 +172,7 @@ def inverse_dynamics(
 
 
 def _fill(
-    result: ContactDynamics, part: slice, robot: Scout, motion: Motion, joints: JointTrajectory
+    result: ContactDynamics, part: slice, robot: Scout, motion: GaitMotion, joints: JointTrajectory
 ) -> None:
     """Work out one block of samples and write it where it belongs."""
     forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))

@@ -7,7 +7,7 @@ import numpy as np
 
 from scout_pin.kinematics.forward import leg_frames
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Motion
+from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.numeric.arrays import skew
@@ -16,7 +16,7 @@ from thesis_pin.numeric.trajectory import JointTrajectory
 
 def share_load(
     robot: Scout,
-    motion: Motion,
+    motion: GaitMotion,
     joints: JointTrajectory,
     forces: np.ndarray,
     double: np.ndarray,

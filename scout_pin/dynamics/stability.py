@@ -9,7 +9,7 @@ import numpy as np
 import pinocchio as pin
 
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Motion
+from scout_pin.motion.gait import GaitMotion
 from thesis_pin.contacts.stability import signed_margin, support_polygon
 from thesis_pin.contacts.stability import zero_moment_point as zero_moment_point
 from thesis_pin.errors import NoSupportForce, WrongShape
@@ -17,7 +17,7 @@ from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import instance
 
 
-def pressure_point(motion: Motion, wrench: np.ndarray) -> np.ndarray:
+def pressure_point(motion: GaitMotion, wrench: np.ndarray) -> np.ndarray:
     """Centre of pressure of all floor wrenches together: the ZMP by another route.
 
     Args:
@@ -31,7 +31,7 @@ def pressure_point(motion: Motion, wrench: np.ndarray) -> np.ndarray:
         NoSupportForce: The floor doesn't push at some sample.
     """
     wrench = finite_array("wrench", wrench, None, 2, 6)
-    instance("motion", motion, Motion, "Gait.sample()")
+    instance("motion", motion, GaitMotion, "Gait.sample()")
     feet = np.stack([motion.left_foot.position, motion.right_foot.position], axis=1)
     force = wrench[..., :3].sum(axis=1)
     moment = (wrench[..., 3:] + np.cross(feet, wrench[..., :3])).sum(axis=1)
@@ -66,7 +66,7 @@ def momentum(
     return com, rate
 
 
-def support_margin(robot: Scout, motion: Motion, points: np.ndarray) -> np.ndarray:
+def support_margin(robot: Scout, motion: GaitMotion, points: np.ndarray) -> np.ndarray:
     """Signed margin of points to the support polygon of each sample.
 
     Args:
@@ -78,7 +78,7 @@ def support_margin(robot: Scout, motion: Motion, points: np.ndarray) -> np.ndarr
         Margins [m], positive inside, shape ``(n,)``.
     """
     instance("robot", robot, Scout, "scout_pin.load()")
-    instance("motion", motion, Motion, "Gait.sample()")
+    instance("motion", motion, GaitMotion, "Gait.sample()")
     points = finite_array("points", points, None, 2)
     if points.shape != (len(motion.time), 2):
         raise WrongShape("points", points.shape, f"({len(motion.time)}, 2), as motion")
@@ -90,7 +90,7 @@ def support_margin(robot: Scout, motion: Motion, points: np.ndarray) -> np.ndarr
 
 
 def polygons(
-    robot: Scout, motion: Motion, feet: dict[str, np.ndarray]
+    robot: Scout, motion: GaitMotion, feet: dict[str, np.ndarray]
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """Support polygons of a motion, each with the samples it holds for.
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Gait, Motion
+from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.elementwise import BLOCK, blocks
@@ -28,7 +28,7 @@ class TorqueBlock:
     """
 
     first: int
-    motion: Motion
+    motion: GaitMotion
     joints: JointTrajectory
     dynamics: ContactDynamics
 

@@ -62,4 +62,5 @@ class LegGeometry:
     @cached_property
     def foot_rows(self) -> list[list[float]]:
         """The first two rows of :attr:`foot`: axes of the foot link, seen from the sole."""
-        return self.foot[:2].tolist()
+        rows: list[list[float]] = self.foot[:2].tolist()
+        return rows

@@ -19,6 +19,8 @@ from typing import Any
 
 import numpy as np
 
+from scout_pin.kinematics.closed_form import ClosedForm, Free
+from scout_pin.kinematics.families import axis_bounds, yaw_bounds
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
 from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
@@ -27,10 +29,10 @@ from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
 from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
 from thesis_pin.tolerances import TOLERANCES
 
-_PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the knee each
+_FREE_POSES = 64
+"""Singular poses worked on at a time: some hundred members of each family are tried."""
 
-Free = tuple[Any, tuple[Any, Any, Any]]
-"""γ1 and the direction of e that a singular pose leaves free."""
+_PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the knee each
 
 
 def leg_inverse_kinematics(
@@ -38,12 +40,17 @@ def leg_inverse_kinematics(
 ) -> LegSolutions:
     """Every set of joint angles that brings a sole to a pose.
 
+    Where a singular pose leaves an angle free there are families of them, and each
+    branch stands for one family by one member: the reference's, if it keeps the joint
+    limits; otherwise the nearest to the reference that does, or, if none does, that
+    reaches. A branch is called unreachable only if no member of its family reaches.
+
     Args:
         leg: Geometry of the leg.
         torso_to_foot: Placement of the sole frame in the torso frame: a
             ``pin.SE3``, a sequence of them, or an array ``(..., 4, 4)``.
         reference: Angles θ [rad], ``(..., 6)`` or ``(6,)``, that fill in what a
-            singular pose leaves free.
+            singular pose leaves free; None for zero.
 
     Returns:
         The eight branches with validity, residuals and reasons.
@@ -66,8 +73,14 @@ def every_branch(
     if reference is not None:
         reference = spread("reference", finite_array("reference", reference, 6), stack)
         reference = reference.reshape(count, 6)
-    work = _few if count < FEW else _many
-    theta, excess, sine_axis, sine_hip = work(leg, target.reshape(count, 16), reference)
+    work, entries = _few if count < FEW else _many, target.reshape(count, 16)
+    theta, excess, sine_axis, sine_hip = work(leg, entries, reference)
+    if count and min(sine_axis.min(), sine_hip.min()) < TOLERANCES.singular:
+        free = np.flatnonzero(np.minimum(sine_axis, sine_hip) < TOLERANCES.singular)
+        for part in blocks(len(free), _FREE_POSES):
+            some = free[part]
+            given = np.zeros((len(some), 6)) if reference is None else reference[some]
+            theta[some], excess[some] = _members(leg, entries[some], given)
     if (beyond := excess > TOLERANCES.reach).any():
         theta[beyond] = np.nan
     return LegSolutions(
@@ -89,7 +102,7 @@ def _few(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -
     numbers: list[float] = []  # one list for all: an array costs more to begin than to fill
     for k, matrix in enumerate(matrices.tolist()):
         free = _free(leg, FLOATS, None if reference is None else (reference[k] + leg.beta).tolist())
-        chunk = _Chunk(FLOATS, leg, matrix, free)
+        chunk = ClosedForm(FLOATS, leg, matrix, free)
         excesses: list[float] = []
         for axis, two in _PAIRS:
             one, other, excess = chunk.solve(axis, two)
@@ -109,13 +122,57 @@ def _many(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) 
     for part in blocks(count):
         given = None if reference is None else (reference[part] + leg.beta).T
         columns = np.ascontiguousarray(matrices[part].T)
-        chunk = _Chunk(ARRAYS, leg, columns, _free(leg, ARRAYS, given))
+        chunk = ClosedForm(ARRAYS, leg, columns, _free(leg, ARRAYS, given))
         for k, pair in enumerate(_PAIRS):
             one, other, excess[2 * k : 2 * k + 2, part] = chunk.solve(*pair)
             theta[2 * k, :, part], theta[2 * k + 1, :, part] = one, other
         theta[:, :, part] = wrap(theta[:, :, part] - leg.beta[:, None])
         sines[:, part] = chunk.sine_axis, chunk.h
     return theta.transpose(2, 0, 1), excess.T, sines[0], sines[1]
+
+
+def _members(
+    leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """θ ``(n, 8, 6)`` and excess ``(n, 8)`` of singular poses: one member of each family.
+
+    The reference's own value of what is free, if it keeps the joint limits; else the
+    nearest member that does; else, limits aside, likewise; else the nearest to reach.
+    """
+    count, columns = len(matrices), np.ascontiguousarray(matrices.T)
+    gamma_1, axis = _free(leg, ARRAYS, (reference + leg.beta).T)
+    given = ClosedForm(ARRAYS, leg, columns, (gamma_1, axis))
+    v, a, j = (np.stack(vector) for vector in (given.reach, given.a, given.j))
+    level = np.array([0.0, 0.0, 1.0])[:, None]
+    yaws = np.concatenate([gamma_1[None], yaw_bounds(leg, v, a)])
+    axes = np.stack([np.stack(axis), *np.broadcast_to(level, (len(yaws) - 1, 3, count))])
+    if (given.sine_axis < TOLERANCES.singular).any():
+        more = axis_bounds(leg, v, a, j)
+        axes = np.concatenate([axes, more])
+        yaws = np.concatenate([yaws, np.broadcast_to(gamma_1, (len(more), count))])
+    tried = len(yaws)
+    chunk = ClosedForm(
+        ARRAYS,
+        leg,
+        np.tile(columns, tried),
+        (yaws.ravel(), (axes[:, 0].ravel(), axes[:, 1].ravel(), axes[:, 2].ravel())),
+    )
+    gamma, gaps = np.empty((8, 6, tried * count)), np.empty((8, tried * count))
+    for k, pair in enumerate(_PAIRS):
+        gamma[2 * k], gamma[2 * k + 1], gaps[2 * k : 2 * k + 2] = chunk.solve(*pair)
+    theta = wrap(gamma - leg.beta[:, None]).reshape(8, 6, tried, count).transpose(2, 3, 0, 1)
+    excess = gaps.reshape(8, tried, count).transpose(1, 2, 0)
+    distance = np.abs(wrap(theta - reference[:, None, :])).sum(axis=-1)
+    distance[0] = -1.0  # the reference's own comes first
+    beyond = np.maximum(leg.lower - theta, theta - leg.upper).max(axis=-1)
+    reaches = excess <= TOLERANCES.reach
+    best = np.argmin(np.where(reaches, distance, 6 * np.pi + excess), axis=0)
+    kept = reaches & (beyond <= TOLERANCES.joint_limit)
+    best = np.where(kept.any(axis=0), np.argmin(np.where(kept, distance, np.inf), axis=0), best)
+    return (
+        np.take_along_axis(theta, best[None, ..., None], axis=0)[0],
+        np.take_along_axis(excess, best[None], axis=0)[0],
+    )
 
 
 def one_branch(
@@ -200,7 +257,7 @@ def follow_branch(
     """
     start = np.zeros(6) if reference is None else reference
     free = _free(leg, FLOATS, None if reference is None else (reference + leg.beta).tolist())
-    first = _Chunk(FLOATS, leg, matrices(slice(0, 1))[:, 0].tolist(), free)
+    first = ClosedForm(FLOATS, leg, matrices(slice(0, 1))[:, 0].tolist(), free)
     gammas = [gamma for pair in _PAIRS for gamma in first.solve(*pair)[:2]]
     step = np.abs(wrap(np.array(gammas) - leg.beta - start)).max(axis=1)
     lower, upper = (
@@ -210,7 +267,7 @@ def follow_branch(
     theta = np.empty((count, 6))
     for k in np.argsort(step, kind="stable"):
         for part in blocks(count):
-            *gammas, excess = _Chunk(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
+            *gammas, excess = ClosedForm(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
             angles = wrap(np.array(gammas[k % 2]) - leg.beta[:, None])
             if not (
                 (excess <= TOLERANCES.reach).all()
@@ -227,92 +284,6 @@ def follow_branch(
 def _free(leg: LegGeometry, xp: Elementwise, gamma: Any) -> Free:
     """What a reference, as γ with the joint first, says of γ1 and e; None is neutral."""
     if gamma is None:
-        return float(leg.beta[0]), (1.0, 0.0, 0.0)
+        gamma = leg.beta.tolist()
     (c1, s1), (c2, s2) = xp.cosine_sine(gamma[0]), xp.cosine_sine(gamma[1])
     return gamma[0], (c1 * s2, s1 * s2, c2)
-
-
-class _Chunk:
-    """A chunk of poses; what several branches share is computed once.
-
-    Works on floats and arrays alike. ``m`` holds the rows of the placement,
-    entry by entry.
-    """
-
-    def __init__(self, xp: Elementwise, leg: LegGeometry, m: Any, free: Free) -> None:
-        self.xp, self.leg = xp, leg
-        self.planes: dict[int, tuple[Any, ...]] = {}
-        (f_ax, f_ay, f_az), (f_jx, f_jy, f_jz) = leg.foot_rows
-        ax, ay, az = (m[k] * f_ax + m[k + 1] * f_ay + m[k + 2] * f_az for k in (0, 4, 8))
-        jx, jy, jz = (m[k] * f_jx + m[k + 1] * f_jy + m[k + 2] * f_jz for k in (0, 4, 8))
-        vx = m[3] - leg.y_6 * jx - leg.x_5 * ax - leg.x_0
-        vy = m[7] - leg.y_6 * jy - leg.x_5 * ay
-        vz = m[11] - leg.y_6 * jz - leg.x_5 * az + leg.z_1
-        ex, ey, ez = self._axis((vx, vy, vz), (ax, ay, az), free[1])
-
-        self.h = h = xp.sqrt(ex * ex + ey * ey)
-        if xp.some(yaw_free := h < TOLERANCES.singular):
-            safe, (c, s) = xp.where(yaw_free, 1.0, h), xp.cosine_sine(free[0])
-            c, s = xp.where(yaw_free, c, ex / safe), xp.where(yaw_free, s, ey / safe)
-            self.yaw = xp.where(yaw_free, free[0], xp.atan2(ey, ex))
-        else:
-            c, s, self.yaw = ex / h, ey / h, xp.atan2(ey, ex)
-        self.tilt = xp.atan2(h, ez)
-        # Components along i3 and j3 of the branch S_E = S_2 = +1.
-        self.v = ez * (c * vx + s * vy) - h * vz, c * vy - s * vx
-        self.foot = xp.atan2(c * ay - s * ax, ez * (c * ax + s * ay) - h * az)
-        self.turn_6 = xp.atan2(
-            jx * ex + jy * ey + jz * ez,
-            jx * (ey * az - ez * ay) + jy * (ez * ax - ex * az) + jz * (ex * ay - ey * ax),
-        )
-
-    def _axis(self, v: Any, a: Any, free: Any) -> tuple[Any, Any, Any]:
-        """e, perpendicular to v and a; where v is along a, the free axis, perpendicular to a."""
-        xp, (vx, vy, vz), (ax, ay, az) = self.xp, v, a
-        ex, ey, ez = vy * az - vz * ay, vz * ax - vx * az, vx * ay - vy * ax
-        size = xp.sqrt(ex * ex + ey * ey + ez * ez)
-        length = xp.sqrt(vx * vx + vy * vy + vz * vz)
-        self.sine_axis = size / xp.where(length > 0.0, length, 1.0)
-        if xp.some(lost := self.sine_axis < TOLERANCES.singular):
-            fx, fy, fz = free
-            # Where the free axis itself is along a, the torso's y.
-            other = abs(fx * ax + fy * ay + fz * az) > 0.99
-            fx, fy, fz = (xp.where(other, y, f) for y, f in ((0.0, fx), (1.0, fy), (0.0, fz)))
-            ex, ey, ez = (xp.where(lost, f, e) for f, e in ((fx, ex), (fy, ey), (fz, ez)))
-        along = ex * ax + ey * ay + ez * az  # rounding only, except for the free axis
-        ex, ey, ez = ex - along * ax, ey - along * ay, ez - along * az
-        size = xp.sqrt(ex * ex + ey * ey + ez * ez)
-        return ex / size, ey / size, ez / size
-
-    def solve(self, axis: int, two: int) -> tuple[list[Any], list[Any], Any]:
-        """γ of the two branches with S_E = axis and S_2 = two, knee one way and the other.
-
-        Last is by how much their hip-to-ankle distance misses [m].
-        """
-        excess, knee, thigh, ankle = self.planes.get(two) or self._plane(two)
-        # In the plane of two = −1 the foot's direction is turned by π.
-        foot = axis * (self.foot if two > 0 else self.foot + math.pi)
-        gamma_1 = self.yaw if axis == two else self.yaw + math.pi
-        gamma_2 = two * (self.tilt if axis > 0 else math.pi - self.tilt)
-        gamma_6 = self.turn_6 if axis > 0 else self.turn_6 + math.pi
-        one, other = axis * ankle - thigh, axis * ankle + thigh
-        return (
-            [gamma_1, gamma_2, one, knee, foot - one - knee, gamma_6],
-            [gamma_1, gamma_2, other, -knee, foot - other + knee, gamma_6],
-            excess,
-        )
-
-    def _plane(self, two: int) -> tuple[Any, ...]:
-        """The triangle of thigh and shank: excess, knee, angle at the hip, direction."""
-        xp, x_3, x_4 = self.xp, self.leg.x_3, self.leg.x_4
-        u_i, u_j = two * self.v[0] - self.leg.x_2, two * self.v[1]
-        square = u_i * u_i + u_j * u_j
-        reach = xp.sqrt(square)
-        c_4 = xp.clipped((square - x_3 * x_3 - x_4 * x_4) / (2 * x_3 * x_4))
-        self.planes[two] = plane = (
-            xp.larger(reach - (x_3 + x_4), abs(x_3 - x_4) - reach),
-            xp.acos(c_4),
-            xp.atan2(x_4 * xp.sqrt(1.0 - c_4 * c_4), x_3 + x_4 * c_4),
-            xp.atan2(u_j, u_i),
-        )
-        return plane

@@ -23,6 +23,8 @@ on (−1, 1, −1) for the right."""
 class LegSolutions:
     """All branches of a leg's inverse kinematics, for one pose or a stack.
 
+    At a pose that leaves an angle free a branch holds one member of its family.
+
     Attributes:
         geometry: The leg.
         target: The poses asked for, torso to sole, shape ``(..., 4, 4)``.
@@ -44,19 +46,19 @@ class LegSolutions:
     @property
     def reachable(self) -> np.ndarray:
         """Whether a branch exists, limits aside, shape ``(..., 8)``."""
-        return self.excess <= TOLERANCES.reach
+        return np.asarray(self.excess <= TOLERANCES.reach)
 
     @cached_property
     def beyond_limits(self) -> np.ndarray:
         """By how much each angle leaves its limits [rad], ≤ 0 inside, ``(..., 8, 6)``."""
         leg = self.geometry
-        return np.maximum(leg.lower - self.angles, self.angles - leg.upper)
+        return np.asarray(np.maximum(leg.lower - self.angles, self.angles - leg.upper))
 
     @cached_property
     def valid(self) -> np.ndarray:
         """Whether a branch exists and keeps every joint limit, shape ``(..., 8)``."""
         # NaN compares false, so unreachable branches drop out.
-        return np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1)
+        return np.asarray(np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1))
 
     @cached_property
     def _reached(self) -> np.ndarray:
@@ -66,22 +68,23 @@ class LegSolutions:
     def position_residual(self) -> np.ndarray:
         """Distance between the pose a branch reaches and the target [m], ``(..., 8)``."""
         gap = self._reached[..., :3, 3] - self.target[..., None, :3, 3]
-        return np.linalg.norm(gap, axis=-1)
+        return np.asarray(np.linalg.norm(gap, axis=-1))
 
     @property
     def rotation_residual(self) -> np.ndarray:
         """Largest entry of the difference of the two rotations [-], ``(..., 8)``."""
         gap = self._reached[..., :3, :3] - self.target[..., None, :3, :3]
-        return np.abs(gap).max(axis=(-1, -2))
+        return np.asarray(np.abs(gap).max(axis=(-1, -2)))
 
     @property
     def singularity(self) -> np.ndarray:
         """Names of the singular sets each pose lies in, shape ``(...)``, empty if none.
 
-        ``yaw free``: θ2 = ±90° from neutral, joint 1 turns about the leg's normal;
-        the reference's joint 1 is kept (θ1 = 0 without one). ``axis free``: p2 lies on
-        link 5's line; e is the reference's, or nearest the torso's x axis. ``knee
-        straight`` or ``knee folded``: two branches coincide on the reach boundary.
+        ``yaw free``: θ2 = ±90° from neutral, joint 1 turns about the leg's normal.
+        ``axis free``: p2 lies on link 5's line, about which e turns. In both the angles
+        of a branch are one member of a family, see
+        :func:`scout_pin.kinematics.inverse.leg_inverse_kinematics`. ``knee straight`` or
+        ``knee folded``: two branches coincide on the reach boundary.
         """
         leg = self.geometry
         text = np.where(self.sine_hip < TOLERANCES.near_singular, "yaw free; ", "").astype("U64")

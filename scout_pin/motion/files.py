@@ -48,7 +48,7 @@ class Segment(Strict):
         return self.t[-1] if self.until is None else self.until
 
 
-class Body(Strict):
+class BodyCurves(Strict):
     """Curves of one body; a number is a constant. ``_mm`` and ``_deg`` change the unit."""
 
     x: float | tuple[Segment, ...] | None = None
@@ -73,9 +73,9 @@ class GaitFile(Strict):
     source: str = ""
     time_unit: Positive
     interpolation: Method = "quadratic"
-    torso: Body
-    left_foot: Body
-    right_foot: Body
+    torso: BodyCurves
+    left_foot: BodyCurves
+    right_foot: BodyCurves
     phases: Annotated[tuple[Phase, ...], Field(min_length=1)]
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
@@ -176,7 +176,7 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
     return Gait(file.name, file.source, file.time_unit, curves, file.phases)
 
 
-def _curves(file: GaitFile, body: Body, override: str | None) -> tuple[PPoly, ...]:
+def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[PPoly, ...]:
     curves = []
     for coordinate in POSE_NAMES:
         suffix, scale = ("_mm", 1e-3) if coordinate in "xyz" else ("_deg", np.pi / 180)

@@ -41,7 +41,7 @@ class Phase(Strict):
 
 
 @dataclass(frozen=True)
-class Motion:
+class GaitMotion:
     """A sampled gait: what inverse kinematics and dynamics work on.
 
     Attributes:
@@ -64,18 +64,18 @@ class Motion:
         names = {(True, False): "left", (False, True): "right", (True, True): "double"}
         return [names[bool(left), bool(right)] for left, right in self.support]
 
-    def part(self, samples: slice) -> Motion:
+    def part(self, samples: slice) -> GaitMotion:
         """Some consecutive samples, as views."""
-        return Motion(
+        return GaitMotion(
             self.time[samples],
             self.t[samples],
             self.support[samples],
             *(body.part(samples) for body in (self.torso, self.left_foot, self.right_foot)),
         )
 
-    def at_rest(self, samples: np.ndarray) -> Motion:
+    def at_rest(self, samples: np.ndarray) -> GaitMotion:
         """The poses of some samples (indices or a mask), without any motion."""
-        return Motion(
+        return GaitMotion(
             self.time[samples],
             self.t[samples],
             self.support[samples],
@@ -199,7 +199,7 @@ class Gait:
         rotation, omega, alpha = euler_placement("xyz", values[3:].T, rates[3:].T, second[3:].T)
         return BodyMotion(rotation, values[:3].T, rates[:3].T, second[:3].T, omega, alpha)
 
-    def sample(self, t: np.ndarray, time_unit: float | None = None) -> Motion:
+    def sample(self, t: np.ndarray, time_unit: float | None = None) -> GaitMotion:
         """Sample the gait and check that it can be meant.
 
         Args:
@@ -220,7 +220,7 @@ class Gait:
             )
         bodies = {name: self.body(name, t, unit) for name in BODIES}
         self._check_stance()
-        return Motion(time=t * unit, t=t, support=self.support(t), **bodies)
+        return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies)
 
     def _unit(self, time_unit: float | None) -> float:
         """Seconds in a unit of t: what was given, or the gait's own."""

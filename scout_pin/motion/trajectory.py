@@ -6,7 +6,7 @@ import numpy as np
 
 from scout_pin.kinematics.rates import leg_rates
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Motion
+from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -15,7 +15,7 @@ _LEGS = (slice(0, 6), slice(6, 12))  # each leg's joints, in the order of SIDES
 
 
 def joint_trajectory(
-    robot: Scout, motion: Motion, reference: np.ndarray | None = None
+    robot: Scout, motion: GaitMotion, reference: np.ndarray | None = None
 ) -> JointTrajectory:
     """Inverse kinematics of a whole motion, rates and accelerations included.
 
@@ -29,7 +29,7 @@ def joint_trajectory(
         SingularPose: A leg's Jacobian loses rank on the way.
     """
     instance("robot", robot, Scout, "scout_pin.load()")
-    instance("motion", motion, Motion, "Gait.sample()")
+    instance("motion", motion, GaitMotion, "Gait.sample()")
     q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, reference)
     feet = (motion.left_foot, motion.right_foot)
     v, a = np.empty(q.shape), np.empty(q.shape)

@@ -9,7 +9,7 @@ import numpy as np
 
 from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics, joint_friction
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Gait, Motion
+from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from thesis_pin.numeric.trajectory import JointTrajectory
 
@@ -35,7 +35,7 @@ class FastestTimeUnit:
 def fastest_time_unit(
     robot: Scout,
     gait: Gait,
-    motion: Motion,
+    motion: GaitMotion,
     joints: JointTrajectory,
     dynamics: ContactDynamics,
     unit: float,

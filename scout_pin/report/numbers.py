@@ -10,7 +10,7 @@ import numpy as np
 from scout_pin.dynamics.impact import Impact
 from scout_pin.dynamics.inverse import ContactDynamics
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Gait, Motion, RateJump
+from scout_pin.motion.gait import Gait, GaitMotion, RateJump
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -36,7 +36,7 @@ class GaitNumbers:
     robot: Scout
     gait: Gait
     time_unit: float
-    motion: Motion
+    motion: GaitMotion
     joints: JointTrajectory
     dynamics: ContactDynamics
     com: np.ndarray

@@ -4,6 +4,7 @@
 the corrected or the printed edition.
 """
 
-from scout_pin.thesis.explicit import ExplicitModel, Interval, Solution, catalogue
+from scout_pin.thesis.catalogue import catalogue
+from scout_pin.thesis.explicit import ExplicitModel, Interval, Solution
 
 __all__ = ["ExplicitModel", "Interval", "Solution", "catalogue"]

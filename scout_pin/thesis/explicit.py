@@ -11,20 +11,19 @@ The equations are in the TOML files beside this module.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from scout_pin.specification import Specification
-from scout_pin.thesis.notation import NOTATION
+from scout_pin.thesis.catalogue import catalogue
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from scout_pin.thesis.symbols.forces import matrix_entry
-from thesis_pin.equations.catalogue import Catalogue, Edition
+from thesis_pin.equations.catalogue import Edition
 from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol
@@ -35,23 +34,8 @@ from thesis_pin.numeric.arrays import finite_array
 Interval = Literal[1, 2, 3]
 """T_1: left foot bears the robot; T_2: both; T_3: right foot (4.6)."""
 
-FILES = tuple(
-    Path(__file__).parent / "printed" / f"{name}.toml"
-    for name in (
-        *("chapter_3", "section_3_1", "section_3_2", "section_3_3"),
-        *("chapter_4", *(f"section_4_{k}" for k in range(1, 8))),
-        *("section_5", "section_6_2", "appendix_b", "appendix_c", "appendix_d"),
-    )
-)
-"""The equations, in the thesis's order: the first definition of a symbol counts."""
 _CHUNK = 64  # states whose ∂N/∂q_j stay below a few hundred MB
 _UNBALANCED = 1e-8  # N, N·m: above rounding, below anything physical
-
-
-@functools.cache
-def catalogue() -> Catalogue:
-    """All equations of the thesis that the audit knows."""
-    return Catalogue.read(FILES, NOTATION)
 
 
 @dataclass(frozen=True)
@@ -102,22 +86,22 @@ class ExplicitModel:
 
     # -- left side -------------------------------------------------------------
 
-    def D(self, q: Any) -> np.ndarray:
+    def D(self, q: ArrayLike) -> np.ndarray:
         """Mass matrix, shape ``(..., 18, 18)``. Source: 4.7, (4.8), 4.2."""
         return self._batch(lambda references: self._terms(references, "D")[0], q)
 
-    def V(self, q: Any, v: Any) -> np.ndarray:
+    def V(self, q: ArrayLike, v: ArrayLike) -> np.ndarray:
         """V(q, q̇) = Ṅ − ½ [q̇ᵀ ∂N/∂q_j]_j, shape ``(..., 18, 18)``.
 
         Only V q̇ compares with a Coriolis term. Source: 4.7, (4.8), (4.10).
         """
         return self._batch(lambda references: self._terms(references, "V")[0], q, v)
 
-    def C(self, q: Any) -> np.ndarray:
+    def C(self, q: ArrayLike) -> np.ndarray:
         """Gravity term [N], [N·m], shape ``(..., 18)``. Source: 4.7, (4.10)."""
         return self._batch(lambda references: self._terms(references, "C")[0], q)
 
-    def terms(self, q: Any, v: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def terms(self, q: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """D, V and C at once: what they share is worked out once."""
 
         def stacked(references: References) -> np.ndarray:
@@ -127,7 +111,7 @@ class ExplicitModel:
         found = self._batch(stacked, q, v)
         return found[..., :18], found[..., 18:36], found[..., 36]
 
-    def generalized_force(self, q: Any, v: Any, a: Any) -> np.ndarray:
+    def generalized_force(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> np.ndarray:
         """D q̈ + V q̇ + C, the left side of (4.23) [N], [N·m], shape ``(..., 18)``."""
         q, v, a = (finite_array(name, x, 18) for name, x in zip("qva", (q, v, a), strict=True))
         mass, velocity, gravity = self.terms(q, v)
@@ -135,11 +119,13 @@ class ExplicitModel:
 
     # -- right side ------------------------------------------------------------
 
-    def A_tau(self, q: Any) -> np.ndarray:
+    def A_tau(self, q: ArrayLike) -> np.ndarray:
         """Actuation matrix, shape ``(..., 18, 12)``. Source: 4.5, (4.13)."""
         return self._batch(self._actuation, q)
 
-    def Phi(self, q: Any, interval: Interval, placements: Any = None) -> np.ndarray:
+    def Phi(
+        self, q: ArrayLike, interval: Interval, placements: ArrayLike | None = None
+    ) -> np.ndarray:
         """Constraints (4.15), (4.19), (4.21), shape ``(..., 6)`` or ``(..., 12)``.
 
         As printed they fix directions of foot vectors. Corrected, six rows a stance
@@ -169,18 +155,18 @@ class ExplicitModel:
 
         return self._batch(printed if self.edition == "printed" else corrected, q)
 
-    def dPhi_dq(self, q: Any, interval: Interval) -> np.ndarray:
+    def dPhi_dq(self, q: ArrayLike, interval: Interval) -> np.ndarray:
         """∂Φ/∂q, shape ``(..., 6 or 12, 18)``; rank 6, 12, 6 corrected, 4, 8, 4 printed."""
         self._check_interval(interval)
         return self._batch(lambda references: self._jacobian(references, interval), q)
 
-    def Gamma(self, q: Any, multipliers: Any, interval: Interval) -> np.ndarray:
+    def Gamma(self, q: ArrayLike, multipliers: ArrayLike, interval: Interval) -> np.ndarray:
         """Constraint forces (∂Φ/∂q)ᵀ λ, shape ``(..., 18)``. Source: (4.14)."""
         jacobian = self.dPhi_dq(q, interval)
         multipliers = finite_array("multipliers", multipliers, jacobian.shape[-2])
         return (np.swapaxes(jacobian, -1, -2) @ multipliers[..., None])[..., 0]
 
-    def solve(self, q: Any, v: Any, a: Any, interval: Interval) -> Solution:
+    def solve(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, interval: Interval) -> Solution:
         """Torques and multipliers of (4.23).
 
         In T_2 six components are free: the solution with the least Σ τ² is taken,
@@ -259,7 +245,9 @@ class ExplicitModel:
             blocks.append(np.broadcast_to(value, (count, 1, 6, 18))[:, 0])
         return np.concatenate(blocks, axis=-2)
 
-    def _batch(self, of: Callable[[References], np.ndarray], q: Any, v: Any = None) -> np.ndarray:
+    def _batch(
+        self, of: Callable[[References], np.ndarray], q: ArrayLike, v: ArrayLike | None = None
+    ) -> np.ndarray:
         q = finite_array("q", q, 18)
         v = np.zeros(q.shape) if v is None else finite_array("v", v, 18)
         if q.shape != v.shape:

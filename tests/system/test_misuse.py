@@ -13,6 +13,7 @@ import pytest
 
 import pollard_pin
 import scout_pin
+from pollard_pin.dynamics.inverse import tree_torques
 from pollard_pin.motion import path as pollard_path
 from pollard_pin.thesis import ExplicitModel as PollardExplicit
 from scout_pin.thesis import ExplicitModel as ScoutExplicit
@@ -51,6 +52,7 @@ JUNK = {
 }
 
 DATA = Path(__file__).parents[1] / "thesis_pin" / "loops" / "data"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 SCOUT, POLLARD = scout_pin.load(), pollard_pin.load()
 FEET, GAIT = SCOUT.neutral_feet(), scout_pin.load_gait()
 TIMES = GAIT.sample_times(5)
@@ -59,6 +61,7 @@ FREE = SCOUT.to_free_flyer(np.zeros(18), np.zeros(18), np.zeros(18))
 POSE = [0.45, 0.0, 0.1, 0.0, 0.0, 0.0]
 END = [0.46, 0.0, 0.1, 0.0, 0.0, 0.0]
 BRANCH = pollard_pin.DEFAULT_BRANCH
+SPRAY = pollard_pin.appendix_b().sample(5)
 Q, V, A = POLLARD.joint_motion(POSE, np.full(6, 0.1), np.zeros(6))
 MOTORS = Q[[0, 6, 9, 3, 4, 5]]
 PATH = pollard_pin.appendix_b()
@@ -154,11 +157,23 @@ CALLS = {
     "rate_jacobian": (POLLARD.rate_jacobian, {"q": Q}),
     "actuation": (POLLARD.actuation, {"q": Q}),
     "mobility": (POLLARD.mobility, {"q": Q}),
-    "pollard inverse_dynamics": (
-        POLLARD.inverse_dynamics,
-        {"q": Q, "v": V, "a": A, "posture": POLLARD.posture(Q)},
+    "pollard joint_trajectory": (
+        pollard_pin.joint_trajectory,
+        {"robot": POLLARD, "motion": SPRAY, "branch": BRANCH, "reference": np.zeros(12)},
     ),
-    "tree_torques": (POLLARD.tree_torques, STACK),
+    "pollard inverse_dynamics": (
+        pollard_pin.inverse_dynamics,
+        {
+            "robot": POLLARD,
+            "motion": SPRAY,
+            "joints": pollard_pin.joint_trajectory(POLLARD, SPRAY),
+        },
+    ),
+    "inverse_dynamics_at": (
+        pollard_pin.inverse_dynamics_at,
+        {"robot": POLLARD, "q": Q, "v": V, "a": A, "posture": POLLARD.posture(Q)},
+    ),
+    "tree_torques": (tree_torques, {"robot": POLLARD, **STACK}),
     "pollard forward_dynamics": (
         POLLARD.forward_dynamics,
         {"q": Q, "v": V, "torque": np.zeros(6)},
@@ -173,7 +188,10 @@ CALLS = {
             "step": 1e-3,
         },
     ),
-    "three_torques": (POLLARD.three_torques, {"q": Q, "joint_force": np.zeros(12)}),
+    "three_torques": (
+        pollard_pin.three_torques,
+        {"jacobian": POLLARD.rate_jacobian(Q), "joint_force": np.zeros(12), "length": 0.1},
+    ),
     "energy": (POLLARD.energy, {"q": Q, "v": V}),
     "Solutions.explain": (POLLARD.inverse_kinematics(POSE).explain, {"index": ()}),
     "Solutions.explain of a stack": (USEFUL.explain, {"index": (1, 2)}),
@@ -209,7 +227,7 @@ CALLS = {
         {"time": [0, 1, 2], "poses": np.zeros((3, 6)), "method": "cubic"},
     ),
     "joined": (pollard_path.joined, {"paths": [PATH]}),
-    "load_path": (pollard_pin.load_path, {"file": "examples/spray_arch.toml"}),
+    "load_path": (pollard_pin.load_path, {"file": str(EXAMPLES / "spray_arch.toml")}),
     "trajectory_report": (
         pollard_pin.trajectory_report,
         {"robot": POLLARD, "path": PATH, "samples": 5, "branch": BRANCH, "motors": "six"},
@@ -263,6 +281,12 @@ CALLS = {
     "cubic": (cubic, {"t": [0, 1, 2], "value": [0, 1, 0]}),
     "interpolate": (interpolate, {"t": [0, 1, 2], "value": [0, 1, 0], "method": "cubic"}),
 }
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    """Junk may be a sound name of a file; what it names is written outside the checkout."""
+    monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.parametrize("name", CALLS)

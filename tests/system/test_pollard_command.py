@@ -80,6 +80,7 @@ def test_out_writes_report_samples_and_the_thesis_figures(pollard_pin, tmp_path)
     names = {file.name for file in (tmp_path / "new" / "report").iterdir()}
     figures = ("positions", "velocities", "accelerations", "actuators", "margins")
     assert names == {
+        "manifest.sha256",
         "report.json",
         "samples.csv",
         *(f"{figure}.{kind}" for figure in figures for kind in ("png", "svg")),
@@ -160,7 +161,7 @@ def test_urdf_writes_the_four_files_and_thesis_pin_check_accepts_them(pollard_pi
     done = pollard_pin("urdf", "--out", tmp_path)
     assert done.returncode == 0
     names = ("pollard.urdf", "pollard_printed.urdf", "pollard.closures.yaml", "pollard.mjcf.xml")
-    assert {file.name for file in tmp_path.iterdir()} == set(names)
+    assert {file.name for file in tmp_path.iterdir()} == {*names, "manifest.sha256"}
     capfd.readouterr()
     assert thesis_pin(["check", str(tmp_path / names[0]), str(tmp_path / names[2])]) == 0
     assert "6 by rank" in capfd.readouterr().out
@@ -178,6 +179,7 @@ def test_workspace_writes_data_and_picture(pollard_pin, tmp_path):
     done = pollard_pin("workspace", "--points", "21", "--out", tmp_path, "--y", "-0.2", "0.2")
     assert done.returncode == 0, done.stderr
     assert {file.name for file in tmp_path.iterdir()} == {
+        "manifest.sha256",
         "workspace.csv",
         "workspace.json",
         "workspace.png",

@@ -9,16 +9,19 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
 def blocks(language):
     return re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
 
 
-def test_tables_are_what_the_package_works_out_now():
+@pytest.mark.bytes
+@pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md"])
+def test_tables_are_what_the_package_works_out_now(document):
     renew = runpy.run_path(str(ROOT / "docs" / "readme_tables.py"))["renewed"]
-    assert renew(README) == README, "run: python docs/readme_tables.py"
+    text = (ROOT / document).read_text(encoding="utf-8")
+    assert renew(document, text) == text, "run: python docs/readme_tables.py"
 
 
 @pytest.mark.parametrize("number", range(len(blocks("python"))))

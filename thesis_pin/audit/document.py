@@ -6,12 +6,12 @@ import math
 from typing import Any
 
 from thesis_pin.audit.kinds import KINDS
-from thesis_pin.audit.rows import HOLDS, Report, Row
+from thesis_pin.audit.rows import HOLDS, AuditReport, Row
 
 SCHEMA, VERSION = "thesis-pin/audit", 2
 
 
-def document(report: Report) -> dict[str, Any]:
+def document(report: AuditReport) -> dict[str, Any]:
     """The report for :func:`thesis_pin.report.summary.json_bytes`.
 
     A residual of a formula that can't be evaluated is null, and ``reason`` says why.

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from thesis_pin.audit.kinds import KINDS
-from thesis_pin.audit.rows import Report, Row
+from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.text import (
     KIND_NOTE,
     VERDICT_NOTE,
@@ -24,7 +24,7 @@ from thesis_pin.pages.page import Table
 from thesis_pin.pages.player import render, web_file
 
 
-def page(report: Report) -> str:
+def page(report: AuditReport) -> str:
     """A self-contained page: formulas as MathML, filters, no network."""
     from markupsafe import Markup
 
@@ -50,7 +50,7 @@ def page(report: Report) -> str:
     ).decode()
 
 
-def _tables(report: Report) -> Iterator[Table]:
+def _tables(report: AuditReport) -> Iterator[Table]:
     headings, rows = chapter_table(report)
     yield Table("Verdicts by chapter", headings, rows)
     headings, rows = kind_table(report)

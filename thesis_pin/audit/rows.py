@@ -24,6 +24,10 @@ the gap that both audits leave: rounding stays under 1e-9 on every processor tri
 smallest slip found is above 1e-6; tests hold the gap open on both sides."""
 
 
+Effect = dict[str, float | str]
+"""What following a printed line does: a number, or why there is none, by quantity."""
+
+
 @dataclass(frozen=True)
 class Row:
     """The audit's answer on one equation.
@@ -61,7 +65,7 @@ class Row:
     places: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
     reason: str = ""
-    effect: dict[str, float | str] = field(default_factory=dict)
+    effect: Effect = field(default_factory=dict)
     note: str = ""
     cause: str = ""
     check: str = ""
@@ -110,7 +114,7 @@ class Section:
 
 
 @dataclass(frozen=True)
-class Report:
+class AuditReport:
     """A finished audit.
 
     Attributes:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from thesis_pin.audit.kinds import KINDS
-from thesis_pin.audit.rows import HOLDS, VERDICTS, Report, Row
+from thesis_pin.audit.rows import HOLDS, VERDICTS, AuditReport, Row
 from thesis_pin.audit.slips import Cause
 
 
@@ -61,7 +61,7 @@ def ranges(names: Sequence[str]) -> str:
 # -- terminal ---------------------------------------------------------------------
 
 
-def summary_lines(report: Report) -> Iterator[str]:
+def summary_lines(report: AuditReport) -> Iterator[str]:
     """Counts and coverage in sentences."""
     counts = ", ".join(f"{report.counts[v]} {v}" for v in VERDICTS if report.counts[v])
     yield f"{len(report.rows)} equations of the {report.thesis}: {counts}."
@@ -72,7 +72,7 @@ def summary_lines(report: Report) -> Iterator[str]:
     yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
 
 
-def chapter_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+def chapter_table(report: AuditReport) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Verdicts by chapter: headings and rows; a verdict that nowhere occurs has no column."""
     verdicts = [v for v in VERDICTS if report.counts[v]]
     rows = [
@@ -83,7 +83,7 @@ def chapter_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]
     return ("chapter", "lines", *verdicts), [*rows, total]
 
 
-def kind_table(report: Report) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+def kind_table(report: AuditReport) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Mended lines by kind of slip: headings and rows, without the definitions."""
     rows = [
         (kind, *(str(n or "-") for n in counts.values())) for kind, counts in report.by_kind.items()
@@ -101,7 +101,7 @@ KIND_NOTE = "A line with slips of several kinds counts under each."
 
 
 def failure_rows(
-    report: Report, *, every: bool = False, width: int | None = None
+    report: AuditReport, *, every: bool = False, width: int | None = None
 ) -> list[tuple[str, ...]]:
     """Rows of the failure table: what, lines, verdict, who, worst effect.
 
@@ -176,7 +176,7 @@ def explain(row: Row, cause: Cause | None = None) -> Iterator[tuple[str, str]]:
 # -- Markdown -----------------------------------------------------------------------
 
 
-def markdown(report: Report, command: str) -> str:
+def markdown(report: AuditReport, command: str) -> str:
     """The audit as a document; the same for the same verdicts on every machine."""
     lines = [
         f"# Audit of the {report.thesis}",
@@ -223,7 +223,7 @@ def _markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> I
     yield from ("| " + " | ".join(_cell(cell) for cell in row) + " |" for row in listed)
 
 
-def used_causes(report: Report) -> list[tuple[Cause, list[Row]]]:
+def used_causes(report: AuditReport) -> list[tuple[Cause, list[Row]]]:
     """Slips that failing rows of a report share, with the rows; the most lines first."""
     found = [
         (cause, [row for row in report.failures if row.cause == name])

@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from thesis_pin.audit import kinds
-from thesis_pin.audit.rows import HOLDS, Row, Verdict
+from thesis_pin.audit import kinds, places
+from thesis_pin.audit.rows import HOLDS, Effect, Row, Verdict
 from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import FormulaError
@@ -55,7 +55,7 @@ class ClaimResult:
     printed: float
     corrected: float | None = None
     note: str = ""
-    effect: dict[str, float | str] = field(default_factory=dict)
+    effect: Effect = field(default_factory=dict)
 
 
 Claims = Mapping[str, Callable[[], ClaimResult]]
@@ -155,7 +155,7 @@ def judge(
             residual_corrected=result.corrected,
             reason=result.note,
             effect=result.effect,
-            places=tuple(_places(catalogue, equation)),
+            places=tuple(_places(equation)),
         )
     printed = residual(catalogue, equation, equation.printed, environment, row.left)
     mended = None
@@ -171,7 +171,7 @@ def judge(
         residual_printed=printed.value,
         residual_corrected=mended.value if mended else None,
         reason=printed.reason or (mended.reason if mended else ""),
-        places=tuple(_places(catalogue, equation)),
+        places=tuple(_places(equation)),
     )
 
 
@@ -184,9 +184,9 @@ def _with(row: Row, **changes: Any) -> Row:
     return replace(row, **changes)
 
 
-def _places(catalogue: Catalogue, equation: Equation) -> Iterator[str]:
+def _places(equation: Equation) -> Iterator[str]:
     if equation.left_printed:
-        for place in catalogue.places(equation.left_printed, equation.left):
+        for place in places.places(equation.left_printed, equation.left):
             yield f"left side, {place}"
     for number, text in equation.mending.items():
         if number > len(equation.printed):
@@ -194,7 +194,7 @@ def _places(catalogue: Catalogue, equation: Equation) -> Iterator[str]:
             continue
         before = equation.printed[number - 1]
         where = f"member {number}, " if len(equation.printed) > 1 else ""
-        found = catalogue.places(before, text) if text else ["should not be there"]
+        found = places.places(before, text) if text else ["should not be there"]
         if equation.right and not _local(found, text):
             yield f"{where or 'the whole '}statement: {text}"
         else:

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import argparse
 import difflib
-from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from thesis_pin.command.exits import ExitCode
+from thesis_pin.command.targets import free
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
-    from thesis_pin.audit.rows import Report
-    from thesis_pin.equations.catalogue import Catalogue, Equation
-
-    Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
-
+    from thesis_pin.audit.rows import AuditReport
+    from thesis_pin.audit.thesis import Thesis
+    from thesis_pin.equations.catalogue import Catalogue
 
 _NARROW = {"not checkable": "not\ncheckable", "unexplained": "un-\nexplained"}
 """Headings on two lines: all verdicts fit 80 columns."""
@@ -23,25 +22,8 @@ _TITLE = 31
 """Characters of a failure's title, so that its row fits 80 columns."""
 
 
-class Audit(Protocol):
-    """A robot's audit, of some equations or of all."""
-
-    def __call__(self, *, only: Iterable[str] | None, progress: Progress) -> Report:
-        """The report on the equations of these ids; None for all."""
-
-
-def run_verb(
-    arguments: argparse.Namespace, audit: Audit, catalogue: Catalogue, robot: str, command: str
-) -> ExitCode:
-    """Run the verb; returns the exit code.
-
-    Args:
-        arguments: As :func:`thesis_pin.command.options.add_audit` has them read.
-        audit: The robot's audit.
-        catalogue: Its equations.
-        robot: First part of their ids, "scout" or "pollard".
-        command: What regenerates the document.
-    """
+def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
+    """Run the verb; returns the exit code."""
     from thesis_pin.audit import text as faces
     from thesis_pin.audit.document import document
     from thesis_pin.audit.page import page
@@ -50,15 +32,19 @@ def run_verb(
     from thesis_pin.files import write_file
     from thesis_pin.report.summary import json_bytes
 
-    only = known(arguments.equation, catalogue, robot) if arguments.equation is not None else None
-    report = audit(only=only, progress=lambda rows, total: track(rows, "auditing", total))
+    only = (
+        known(arguments.equation, thesis.catalogue(), thesis.robot)
+        if arguments.equation is not None
+        else None
+    )
+    report = thesis.audit(only=only, progress=lambda rows, total: track(rows, "auditing", total))
     if arguments.html:
         write_file(arguments.html, page(report).encode())
     if arguments.markdown:
-        write_file(arguments.markdown, faces.markdown(report, command).encode())
+        write_file(arguments.markdown, faces.markdown(report, thesis.document_command).encode())
     if arguments.json:
         write_file(arguments.json, json_bytes(document(report)))
-    if "-" in (arguments.html, arguments.markdown, arguments.json):
+    if not free(arguments):
         return ExitCode.DONE
     if only:
         for k, row in enumerate(report.rows):
@@ -84,7 +70,7 @@ def run_verb(
     return ExitCode.DONE
 
 
-def _without_verdict(report: Report) -> Iterator[tuple[str, str]]:
+def _without_verdict(report: AuditReport) -> Iterator[tuple[str, str]]:
     """Section and names of lines that share a reason, and the reason."""
     from thesis_pin.audit.text import ranges
 

@@ -28,8 +28,7 @@ class Robot:
         load, specification: Read a specification, with its model and without.
         info, print_info: What it describes, as JSON and printed.
         urdf, files: Its URDF in one reading, and everything generated from it.
-        audit, catalogue, document: The thesis's audit, its equations, and the command
-            that writes its document.
+        thesis, audit: The thesis ready to be audited, and the function that does it.
     """
 
     package: str
@@ -50,8 +49,7 @@ class Robot:
     urdf: str = "urdf:urdf"
     files: str = "urdf:files"
     audit: str = "thesis.audit:audit"
-    catalogue: str = "thesis.audit:catalogue"
-    document: str = "thesis.audit:COMMAND"
+    thesis: str = "thesis.audit:THESIS"
 
     @property
     def command(self) -> str:

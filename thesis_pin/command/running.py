@@ -13,7 +13,7 @@ from pathlib import Path
 
 from thesis_pin.command.exits import ExitCode
 from thesis_pin.command.messages import say
-from thesis_pin.command.targets import check_targets
+from thesis_pin.command.targets import targets
 from thesis_pin.errors import CannotWrite, ThesisPinError
 
 _FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF}
@@ -40,8 +40,8 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
         except SystemExit:  # help and version have printed, a wrong word has been named
             _flush()
             raise
-        check_targets(parsed)
-        code = ExitCode(parsed.run(parsed))
+        with targets(parsed):
+            code = ExitCode(parsed.run(parsed))
         _flush()
         return code
     except CannotWrite as error:

@@ -3,59 +3,59 @@
 from __future__ import annotations
 
 import argparse
-import os
-import stat
-from pathlib import Path
+import contextlib
+from collections.abc import Iterator
 
-from thesis_pin.errors import BadInput, CannotWrite
-from thesis_pin.numeric.checks import shown
+from thesis_pin.command.messages import say
+from thesis_pin.errors import BadInput
+from thesis_pin.files import Claim, check_file, is_standard_output
 
 FILES = ("json", "html", "markdown")
 """Options that name a file; ``-`` is standard output."""
 
 
-def check_targets(parsed: argparse.Namespace) -> None:
+@contextlib.contextmanager
+def targets(parsed: argparse.Namespace) -> Iterator[None]:
     """Refuse outputs that can't be written before anything is worked out or written.
 
+    While this lasts, no other run writes to ``--out``.
+
+    Args:
+        parsed: The parsed arguments; ``out`` becomes a claim on its folder.
+
     Raises:
-        BadInput: A name is no name, or two outputs want standard output.
-        CannotWrite: A file option has no folder or is a folder; ``--out`` is a file.
+        BadInput: Two outputs want standard output.
+        CannotWrite: An output can't be written.
+        Busy: Another run is at work for the folder.
     """
-    taken = [f"--{option}" for option in FILES if getattr(parsed, option, None) == "-"]
+    taken = [f"--{option}" for option in FILES if is_standard_output(_value(parsed, option))]
     if len(taken) > 1:
         raise BadInput(
             f"{' and '.join(taken)} can't both be standard output",
             remedy="Write one of them to a file",
         )
     for option in FILES:
-        target = getattr(parsed, option, None)
-        if target is None or target == "-":
-            continue
-        path, kind = Path(target), _kind(target, option)
-        if kind == "folder":
-            raise CannotWrite(f"can't write it: {target!r} is a folder", where=f"--{option}")
-        if not path.parent.is_dir():
-            raise CannotWrite(f"can't write it: no folder {path.parent}", where=str(path))
-    out = getattr(parsed, "out", None)
-    if out is not None and _kind(out, "out") == "file":
-        raise CannotWrite(f"can't make the folder: {out!r} isn't a folder", where="--out")
+        if (target := _value(parsed, option)) is not None:
+            check_file(target)
+    out = _value(parsed, "out")
+    if out is None:
+        yield
+        return
+    with Claim(out) as claim:
+        if claim.mixture:
+            say(
+                f"{out} holds a mixture: a run was killed while it wrote {claim.mixture[0]}"
+                + (f" and {len(claim.mixture) - 1} more files" if claim.mixture[1:] else "")
+            )
+        parsed.out = claim
+        yield
 
 
-def _kind(name: str, option: str) -> str:
-    """What stands at a path: ``"folder"``, ``"file"`` or nothing.
+def free(parsed: argparse.Namespace) -> bool:
+    """Whether standard output is still free for text."""
+    return not any(is_standard_output(_value(parsed, option)) for option in FILES)
 
-    Raises:
-        BadInput: No path can have this name, or it can't be looked at.
-    """
-    if not name:
-        raise BadInput("'' isn't the name of a file or folder", where=f"--{option}")
-    try:
-        mode = os.stat(name).st_mode
-    except (FileNotFoundError, NotADirectoryError):
-        return ""
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise BadInput(
-            f"can't write {shown(name)}: {reason}", where=f"--{option}", allowed="a path"
-        ) from None
-    return "folder" if stat.S_ISDIR(mode) else "file"
+
+def _value(parsed: argparse.Namespace, option: str) -> str | None:
+    value: str | None = getattr(parsed, option, None)
+    return value

@@ -12,7 +12,8 @@ from thesis_pin.command.messages import say
 from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import found
-from thesis_pin.files import write_file, write_folder
+from thesis_pin.command.targets import free
+from thesis_pin.files import is_standard_output, write_file, write_folder
 
 if TYPE_CHECKING:  # help has to be quick
     import numpy as np
@@ -86,7 +87,7 @@ def give(
         content = json_bytes(answer.document()) if arguments.json else b""
     if arguments.json:
         write_file(arguments.json, content)
-    if arguments.json != "-":
+    if free(arguments):
         answer.tell()
     return ExitCode.DONE if answer.yes else ExitCode.NO
 
@@ -123,7 +124,7 @@ def report(robot: Robot, what: str, arguments: argparse.Namespace) -> ExitCode:
         write_file(arguments.json, content)
     if arguments.html:
         write_file(arguments.html, html)
-    if "-" not in (arguments.json, arguments.html):
+    if free(arguments):
         _hook(robot, robot.table)(answer)
     refused = arguments.strict and not answer.within_limits
     return ExitCode.NO if refused else ExitCode.DONE
@@ -148,7 +149,7 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
     if arguments.html:
         player.write_html(scene, arguments.html, speed=arguments.speed)
-        if arguments.html != "-":
+        if not is_standard_output(arguments.html):
             say(f"wrote {arguments.html}")
         if arguments.json:
             write_file(arguments.json, json_bytes(shown | {"address": None}))
@@ -201,7 +202,7 @@ def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         "version": 1,
         "robot": specification.name,
         "inertia": arguments.inertia,
-        "folder": arguments.out,
+        "folder": str(arguments.out) if arguments.out else None,
         "files": [{"name": name, "bytes": len(content)} for name, content in files.items()],
     }
     if arguments.out:
@@ -209,7 +210,7 @@ def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         say(f"wrote {', '.join(files)} to {arguments.out}")
     if arguments.json:
         write_file(arguments.json, json_bytes(document))
-    if not arguments.out and arguments.json != "-":
+    if not arguments.out and free(arguments):
         write_file("-", text.encode())
     return ExitCode.DONE
 
@@ -219,13 +220,7 @@ def audit(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     from thesis_pin.command.audit import run_verb
 
     refuse_beside(arguments, "equation", ("every",))
-    return run_verb(
-        arguments,
-        _hook(robot, robot.audit),
-        _hook(robot, robot.catalogue)(),
-        robot.package.removesuffix("_pin"),
-        found(robot.name_of(robot.document)),
-    )
+    return run_verb(arguments, _hook(robot, robot.thesis))
 
 
 def _hook(robot: Robot, name: str) -> Any:

@@ -16,7 +16,6 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from thesis_pin.audit.places import places
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
 from thesis_pin.equations.notation import Notation
@@ -185,10 +184,6 @@ class Catalogue:
                 raise FormulaError("is an equation where an expression belongs")
             self._parsed[formula] = sides[0]
         return self._parsed[formula]
-
-    def places(self, before: str, after: str) -> list[str]:
-        """Where two formulas differ, symbol by symbol, each place in words."""
-        return places(before, after)
 
     @cached_property
     def definitions(self) -> dict[tuple[str, str, int], Definition]:

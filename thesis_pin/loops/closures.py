@@ -16,23 +16,29 @@ first; the force reported for a loop acts on the first frame's body.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
 import pinocchio as pin
-import yaml
 from pydantic import Field, field_validator
 
 from thesis_pin.errors import BadInput, ModelError, UnknownName
 from thesis_pin.loops.joint_types import replace_joints
+from thesis_pin.loops.yaml_text import parse_yaml
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.loading import LoadedRobot, check_urdf, frame_id
-from thesis_pin.model.specification import Key, Strict, key_lines, read_text, validate
+from thesis_pin.model.source import read_text
+from thesis_pin.model.specification import Key, Strict, validate
 from thesis_pin.numeric.checks import shown
 
 FILE_KIND = "closure file"
+
+_Entry = TypeVar("_Entry")
+Bounded = Annotated[tuple[_Entry, ...], Field(max_length=LIMITS.joints)]
 
 
 class Extra(Strict):
@@ -43,29 +49,14 @@ class Extra(Strict):
     names: tuple[str, ...] = ()
 
 
-class _UniqueKeys(yaml.SafeLoader):
-    """YAML's safe loader, which otherwise keeps the last of repeated keys in silence."""
-
-    def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:
-        seen: set[Any] = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            if key in seen:
-                raise yaml.constructor.ConstructorError(
-                    None, None, f"the key {key!r} is given twice", key_node.start_mark
-                )
-            seen.add(key)
-        return super().construct_mapping(node, deep)
-
-
 class ClosureFile(Strict):
     """Content of a closure file."""
 
-    closed_loop: tuple[tuple[str, str], ...]
-    type: tuple[Literal["3d", "6d"], ...]
-    name_mot: tuple[str, ...] = Field(min_length=1)
-    joint_name: tuple[str, ...] = ()
-    joint_type: tuple[Literal["SPHERICAL", "CARDAN", "FIXED"], ...] = ()
+    closed_loop: Bounded[tuple[str, str]]
+    type: Bounded[Literal["3d", "6d"]]
+    name_mot: Annotated[Bounded[str], Field(min_length=1)]
+    joint_name: Bounded[str] = ()
+    joint_type: Bounded[Literal["SPHERICAL", "CARDAN", "FIXED"]] = ()
     thesis_pin: Extra | None = None
 
     @field_validator("type", mode="before")
@@ -88,22 +79,14 @@ class ClosureFile(Strict):
             BadInput: It can't be read or isn't YAML.
             SpecificationError: It breaks the schema; carries every problem.
         """
-        return cls.parse(read_text(FILE_KIND, path), where=str(path))
+        return cls.parse(read_text(FILE_KIND, path, LIMITS.yaml_bytes), where=str(path))
 
     @classmethod
     def parse(cls, text: str, *, where: str = "<text>") -> ClosureFile:
         """The same for text already in memory."""
         if not isinstance(text, str):
             raise BadInput(f"the {FILE_KIND} is {shown(text)}", allowed="text", where=where)
-        try:
-            data = yaml.load(text, Loader=_UniqueKeys)
-        except yaml.YAMLError as error:
-            reason = " ".join(str(error).split())
-            raise BadInput(f"the {FILE_KIND} isn't valid YAML: {reason}", where=where) from None
-        except RecursionError:
-            raise BadInput(f"the {FILE_KIND} is nested too deeply", where=where) from None
-        # key_lines knows TOML's "key = …"; a YAML key at the start of a line is its twin.
-        lines = key_lines("\n".join(line.replace(":", " =", 1) for line in text.splitlines()))
+        data, lines = parse_yaml(FILE_KIND, text, where=where)
         return validate(FILE_KIND, cls, data, where=where, lines=lines)
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
@@ -118,8 +101,8 @@ class ClosureFile(Strict):
             count = len(self.thesis_pin.names)
             yield ("thesis_pin", "names"), f"has {count} entries for {loops} loops", None
         for key in ("name_mot", "joint_name"):
-            values = getattr(self, key)
-            for name in sorted({name for name in values if values.count(name) > 1}):
+            counts = Counter(getattr(self, key))
+            for name in sorted(name for name, count in counts.items() if count > 1):
                 yield (key,), "names a joint twice", name
         for number, (first, second) in enumerate(self.closed_loop):
             if first == second:
@@ -286,12 +269,12 @@ def _loops(model: pin.Model, closures: ClosureFile, where: str) -> tuple[Loop, .
 
 def _motors(model: pin.Model, identifiers: Sequence[str], where: str) -> tuple[str, ...]:
     """Joints the identifiers stand for, in their order; an exact name beats a part of one."""
-    known = list(model.names)[1:]
-    motors: list[str] = []
+    known = dict.fromkeys(list(model.names)[1:])
+    motors: dict[str, None] = {}
     for identifier in identifiers:
         matches = [identifier] if identifier in known else [n for n in known if identifier in n]
         if not matches:
-            raise UnknownName("joint", identifier, known, where=f"{where}: name_mot")
+            raise UnknownName("joint", identifier, list(known), where=f"{where}: name_mot")
         for name in matches:
             if name in motors:
                 raise ModelError(
@@ -299,5 +282,5 @@ def _motors(model: pin.Model, identifiers: Sequence[str], where: str) -> tuple[s
                     where=f"{where}: name_mot",
                     remedy="Write each motor's full name once",
                 )
-            motors.append(name)
+            motors[name] = None
     return tuple(motors)

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
 
 from thesis_pin.errors import BadInput, ThesisPinError
 from thesis_pin.loops.closures import ClosedRobot
@@ -68,7 +69,7 @@ class LoopDynamics:
 
 
 def inverse_dynamics(
-    robot: ClosedRobot, q: Any, v: Any, a: Any, *, check: bool = True
+    robot: ClosedRobot, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, check: bool = True
 ) -> LoopDynamics:
     """Motor torques and loop forces that a motion of the closed robot needs.
 
@@ -118,7 +119,9 @@ def inverse_dynamics(
     )
 
 
-def forward_dynamics(robot: ClosedRobot, q: Any, v: Any, torque: Any) -> np.ndarray:
+def forward_dynamics(
+    robot: ClosedRobot, q: ArrayLike, v: ArrayLike, torque: ArrayLike
+) -> np.ndarray:
     """Joint accelerations of the closed robot under motor torques, shape ``(..., nv)``.
 
     Pinocchio's ``constraintDynamics``; the loops' own drift isn't corrected here, see
@@ -157,8 +160,8 @@ class ForwardDynamics:
 
 def simulate(
     robot: ClosedRobot,
-    q: Any,
-    v: Any,
+    q: ArrayLike,
+    v: ArrayLike,
     torque: Callable[[float, np.ndarray, np.ndarray], np.ndarray],
     duration: float,
     step: float = 1e-3,
@@ -188,32 +191,32 @@ def simulate(
     duration = real("duration", duration, low=_SHORTEST, unit="s")
     step = real("step", step, low=_SHORTEST, unit="s")
     asked = _asked(torque, len(robot.actuators))
-    q, v = vector("q", q, model.nq).copy(), vector("v", v, model.nv)
+    position, rate = vector("q", q, model.nq).copy(), vector("v", v, model.nv)
     dynamics = ForwardDynamics(robot)
-    opening = float(np.abs(residual(robot, q)).max(initial=0.0))
+    opening = float(np.abs(residual(robot, position)).max(initial=0.0))
     if opening > TOLERANCES.loop_closure:
         raise BadInput(f"the loops are open by {opening:.2e}", remedy="Close them with close()")
-    v = project_rates(robot, dynamics.data, q, v)
+    rate = project_rates(robot, dynamics.data, position, rate)
     time = np.append(np.arange(0.0, duration - 1e-9 * step, step), duration)
 
     def slope(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         return dynamics(q, v, asked(t, q, v))
 
-    rows = [(q, v, slope(0.0, q, v))]
+    rows = [(position, rate, slope(0.0, position, rate))]
     for now, width in zip(time[:-1], np.diff(time), strict=True):
         half = width / 2
         a = rows[-1][2]
-        v_2 = v + half * a
-        a_2 = slope(now + half, pin.integrate(model, q, half * v), v_2)
-        v_3 = v + half * a_2
-        a_3 = slope(now + half, pin.integrate(model, q, half * v_2), v_3)
-        v_4 = v + width * a_3
-        a_4 = slope(now + width, pin.integrate(model, q, width * v_3), v_4)
-        q = pin.integrate(model, q, width / 6 * (v + 2 * v_2 + 2 * v_3 + v_4))
-        v = v + width / 6 * (a + 2 * a_2 + 2 * a_3 + a_4)
-        q = newton_close(robot, q, slice(None), 20)
-        v = project_rates(robot, dynamics.data, q, v)
-        rows.append((q, v, slope(now + width, q, v)))
+        v_2 = rate + half * a
+        a_2 = slope(now + half, pin.integrate(model, position, half * rate), v_2)
+        v_3 = rate + half * a_2
+        a_3 = slope(now + half, pin.integrate(model, position, half * v_2), v_3)
+        v_4 = rate + width * a_3
+        a_4 = slope(now + width, pin.integrate(model, position, width * v_3), v_4)
+        position = pin.integrate(model, position, width / 6 * (rate + 2 * v_2 + 2 * v_3 + v_4))
+        rate = rate + width / 6 * (a + 2 * a_2 + 2 * a_3 + a_4)
+        position = newton_close(robot, position, slice(None), 20)
+        rate = project_rates(robot, dynamics.data, position, rate)
+        rows.append((position, rate, slope(now + width, position, rate)))
     return JointTrajectory(time, *(np.array(column) for column in zip(*rows, strict=True)))
 
 

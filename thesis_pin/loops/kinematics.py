@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
 
 from thesis_pin.errors import BadInput, SingularPose, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
@@ -85,7 +86,7 @@ class Mobility:
     condition: float
 
 
-def mobility(robot: ClosedRobot, q: np.ndarray) -> Mobility:
+def mobility(robot: ClosedRobot, q: ArrayLike) -> Mobility:
     """Degrees of freedom at one configuration ``(nq,)``."""
     instance("robot", robot, ClosedRobot, "closures.load()")
     _, values, rows = np.linalg.svd(jacobian(robot, vector("q", q, robot.model.nq)))
@@ -104,7 +105,7 @@ def mobility(robot: ClosedRobot, q: np.ndarray) -> Mobility:
 
 
 def close(
-    robot: ClosedRobot, guess: Any, motors: Any = None, *, iterations: int = 60
+    robot: ClosedRobot, guess: ArrayLike, motors: ArrayLike | None = None, *, iterations: int = 60
 ) -> np.ndarray:
     """Close the loops by Newton steps from a guess.
 
@@ -135,7 +136,12 @@ def close(
 
 
 def follow(
-    robot: ClosedRobot, time: Any, motors: Any, rates: Any, accelerations: Any, guess: Any
+    robot: ClosedRobot,
+    time: ArrayLike,
+    motors: ArrayLike,
+    rates: ArrayLike,
+    accelerations: ArrayLike,
+    guess: ArrayLike,
 ) -> JointTrajectory:
     """Motion of all joints from that of the motors.
 
@@ -184,7 +190,9 @@ def follow(
     return JointTrajectory(time, q, v, a)
 
 
-def each(robot: ClosedRobot, function: Callable[..., np.ndarray], **vectors: Any) -> np.ndarray:
+def each(
+    robot: ClosedRobot, function: Callable[..., np.ndarray], **vectors: ArrayLike
+) -> np.ndarray:
     """Apply a function of single samples over broadcast stacks.
 
     Args:

@@ -7,6 +7,7 @@ each robot's own business.
 from __future__ import annotations
 
 import csv
+import io
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,20 +16,29 @@ from pathlib import Path
 import numpy as np
 
 from thesis_pin.errors import BadInput, TrajectoryError
-from thesis_pin.model.specification import read_text
+from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.source import read_text
+from thesis_pin.numeric.checks import shown
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Line:
     """A line of a CSV file.
 
     Attributes:
-        where: File and line, for messages.
+        file: The file.
+        number: Number of the line, from 1.
         cells: Its cells without the blanks around them.
     """
 
-    where: str
+    file: str
+    number: int
     cells: tuple[str, ...]
+
+    @property
+    def where(self) -> str:
+        """File and line, for messages."""
+        return f"{self.file}:{self.number}"
 
 
 def read_rows(kind: str, file: str | Path) -> list[Line]:
@@ -39,20 +49,40 @@ def read_rows(kind: str, file: str | Path) -> list[Line]:
         file: The file.
 
     Raises:
-        BadInput: It can't be read, is empty or isn't CSV.
+        BadInput: It can't be read, is empty, isn't CSV or passes a limit of
+            :mod:`thesis_pin.model.limits`.
     """
-    lines = read_text(kind, file).splitlines()
-    rows = []
+    reader = csv.reader(io.StringIO(read_text(kind, file, LIMITS.csv_bytes)))
+    rows: list[Line] = []
+    name, count = str(file), 0
     try:
-        for number, cells in enumerate(csv.reader(lines), start=1):
+        for cells in reader:
+            _check_size(kind, f"{name}:{reader.line_num}", len(cells), count, len(rows))
             stripped = tuple(cell.strip() for cell in cells)
             if any(stripped) and not stripped[0].startswith("#"):
-                rows.append(Line(f"{file}:{number}", stripped))
+                rows.append(Line(name, reader.line_num, stripped))
+                count += len(stripped)
     except csv.Error as error:
-        raise BadInput(f"the {kind} isn't CSV: {error}", where=str(file)) from None
+        where = f"{name}:{reader.line_num}"
+        raise BadInput(f"the {kind} isn't CSV: {error}", where=where) from None
     if not rows:
         raise BadInput(f"the {kind} is empty", where=str(file))
     return rows
+
+
+def _check_size(kind: str, where: str, columns: int, cells: int, rows: int) -> None:
+    for what, count, most in (
+        ("columns", columns, LIMITS.columns),
+        ("cells", cells + columns, LIMITS.cells),
+        ("lines", rows + 1, LIMITS.rows),
+    ):
+        if count > most:
+            raise BadInput(
+                f"the {kind} has {count:,} {what} up to here",
+                where=where,
+                allowed=f"at most {most:,}",
+                remedy="Leave out samples or columns",
+            )
 
 
 def check_width(rows: Sequence[Line]) -> None:
@@ -71,6 +101,8 @@ def check_width(rows: Sequence[Line]) -> None:
 
 def finite(cell: str) -> float | None:
     """The number in a cell; None if it isn't a finite one."""
+    if "_" in cell:  # Python's own way of grouping digits, and nobody else's
+        return None
     try:
         value = float(cell)
     except ValueError:
@@ -93,27 +125,28 @@ def numbers(rows: Sequence[Line], columns: Sequence[int], names: Sequence[str]) 
     for k, row in enumerate(rows):
         for j, column in enumerate(columns):
             value = finite(row.cells[column])
-            if value is None:
+            if value is None or abs(value) > LIMITS.magnitude:
                 raise BadInput(
-                    f"{names[j]} is {row.cells[column]!r}",
+                    f"{names[j]} is {shown(row.cells[column])}",
                     where=f"{row.where}, column {column + 1}",
-                    allowed="a finite number",
+                    allowed="a finite number"
+                    + ("" if value is None else f" of magnitude at most {LIMITS.magnitude:g}"),
                 )
             table[k, j] = value
     return table
 
 
 def check_increasing(rows: Sequence[Line], time: np.ndarray) -> None:
-    """Refuse samples whose time doesn't increase strictly.
+    """Refuse samples whose time doesn't increase by at least ``LIMITS.time_step``.
 
     Raises:
         TrajectoryError: Names the line and both times.
     """
-    back = np.flatnonzero(np.diff(time) <= 0)
+    back = np.flatnonzero(np.diff(time) < LIMITS.time_step)
     if back.size:
         k = int(back[0]) + 1
         raise TrajectoryError(
-            f"time goes from {time[k - 1]:g} to {time[k]:g}",
+            f"time goes from {time[k - 1]:.12g} to {time[k]:.12g}",
             where=rows[k].where,
-            allowed="strictly increasing time",
+            allowed=f"strictly increasing time, in steps of at least {LIMITS.time_step:g}",
         )

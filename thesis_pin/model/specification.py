@@ -7,6 +7,7 @@ allowed there.
 
 from __future__ import annotations
 
+import math
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
@@ -16,6 +17,9 @@ from typing import Annotated, Any, TypeVar
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from thesis_pin.errors import BadInput, Problem, SpecificationError
+from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.source import read_text
+from thesis_pin.numeric.checks import brief, shown
 
 Key = tuple[str | int, ...]
 
@@ -42,13 +46,23 @@ def _symmetric(matrix: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...]
     return matrix
 
 
-Positive = Annotated[float, Field(gt=0)]
+def _not_tiny(value: float) -> float:
+    if value < LIMITS.smallest:
+        raise ValueError(f"must be at least {LIMITS.smallest:g}")
+    return value
+
+
+Positive = Annotated[float, Field(gt=0), AfterValidator(_not_tiny)]
 NotNegative = Annotated[float, Field(ge=0)]
 Vector2 = tuple[float, float]
 Vector3 = tuple[float, float, float]
 SymmetricMatrix = Annotated[tuple[Vector3, Vector3, Vector3], AfterValidator(_symmetric)]
 
 File = TypeVar("File", bound=BaseModel)
+
+_PART = r"""(?:"[^"\n]*+"|'[^'\n]*+'|[\w\-]++)[ \t]*+\.[ \t]*+"""
+_DOTTED = re.compile(rf"""(?<![\w\-"'.])(?:{_PART}){{{LIMITS.nesting},}}+""")
+"""A key of more parts than :data:`LIMITS` has levels."""
 
 
 def read_toml(kind: str, schema: type[File], path: str | Path) -> File:
@@ -63,42 +77,34 @@ def read_toml(kind: str, schema: type[File], path: str | Path) -> File:
         The validated object.
 
     Raises:
-        BadInput: The file can't be opened or isn't TOML.
+        BadInput: The file can't be opened, is too large or isn't TOML.
         SpecificationError: It is TOML but breaks the schema; carries every problem.
     """
     return parse_toml(kind, schema, read_text(kind, path), where=str(path))
 
 
-def read_text(kind: str, path: str | Path) -> str:
-    """Text of a UTF-8 file, with or without a byte order mark.
-
-    Args:
-        kind: What the file is, for messages.
-        path: The file.
-
-    Raises:
-        BadInput: It isn't a path, can't be opened or isn't UTF-8.
-    """
-    if not isinstance(path, str | Path) or not str(path):
-        raise BadInput(f"{path!r} isn't the name of a {kind} file", allowed="a path")
-    try:
-        return Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        if isinstance(error, UnicodeDecodeError):
-            reason = "it isn't UTF-8 text"
-        raise BadInput(f"can't read the {kind}: {reason}", where=str(path)) from None
-
-
 def parse_toml(kind: str, schema: type[File], text: str, *, where: str = "<text>") -> File:
     """The same as :func:`read_toml`, for text already in memory."""
+    if not isinstance(text, str):
+        raise BadInput(f"the {kind} is {shown(text)}", allowed="text", where=where)
+    _check_dots(kind, text, where)
     try:
         data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # also whole numbers of more than 4300 digits
         raise BadInput(f"the {kind} isn't valid TOML: {error}", where=where) from None
     except RecursionError:
         raise BadInput(f"the {kind} is nested too deeply", where=where) from None
     return validate(kind, schema, data, where=where, lines=key_lines(text))
+
+
+def _check_dots(kind: str, text: str, where: str) -> None:
+    """Refuse very long dotted keys, over which tomllib takes quadratic time."""
+    if match := _DOTTED.search(text):
+        raise BadInput(
+            f"the {kind} has a key of {match[0].count('.') + 1} parts",
+            where=f"{where}:{text.count(chr(10), 0, match.start()) + 1}",
+            allowed=f"at most {LIMITS.nesting} levels",
+        )
 
 
 def validate(
@@ -127,10 +133,16 @@ def validate(
         line = _line_of(key, lines)
         return f"{where}:{line}" if line else where
 
-    problems = []
+    def told(key: Key, what: str, value: object) -> Problem:
+        return Problem(place(key), _dotted(key), what, "" if value is None else brief(value))
+
+    data, problems = bounded(data)
+    if problems:
+        raise SpecificationError(kind, [told(*problem) for problem in problems])
+    found: list[Problem] = []
     try:
         # Strict: true isn't 1 and "0.33" isn't 0.33. Files have lists where we have tuples.
-        result = schema.model_validate(_tuples(data), strict=True)
+        result = schema.model_validate(data, strict=True)
     except ValidationError as error:
         for detail in error.errors(include_url=False):
             key = _real_key(detail["loc"], data)
@@ -139,18 +151,54 @@ def validate(
             if detail["type"] == "extra_forbidden":
                 message = "unknown key" + _known_keys(schema, key)
             # A value that is missing has nothing to show; tables are too long to.
-            shown = "" if detail["type"] == "missing" else _short(detail["input"])
-            problems.append(Problem(place(key), _dotted(key), message, shown))
-        unique = {(p.key, p.what): p for p in problems}
+            value = "" if detail["type"] == "missing" else brief(detail["input"])
+            found.append(Problem(place(key), _dotted(key), message, value))
+        unique = {(p.key, p.what): p for p in found}
         raise SpecificationError(kind, list(unique.values())) from None
     if isinstance(result, Strict):
-        problems = [
-            Problem(place(key), _dotted(key), message, _short(value) if value is not None else "")
-            for key, message, value in result.cross_check()
-        ]
-    if problems:
-        raise SpecificationError(kind, problems)
+        found = [told(*problem) for problem in result.cross_check()]
+    if found:
+        raise SpecificationError(kind, found)
     return result
+
+
+def bounded(data: object) -> tuple[Any, list[tuple[Key, str, object]]]:
+    """Data with tuples for lists, and what passes :data:`~thesis_pin.model.limits.LIMITS`.
+
+    Args:
+        data: Nested dicts and lists.
+
+    Returns:
+        The same data with tuples for its lists, and key, complaint and value of
+        everything that is too large, too long, too deep or too much.
+    """
+    problems: list[tuple[Key, str, object]] = []
+    count = 0
+
+    def copy(value: object, key: Key) -> object:
+        nonlocal count
+        count += 1
+        if count > LIMITS.values:
+            if count == LIMITS.values + 1:
+                problems.append((key[:1], f"holds more than {LIMITS.values:,} values", None))
+            return None
+        if len(key) > LIMITS.nesting:
+            problems.append((key[:3], f"is nested deeper than {LIMITS.nesting} levels", None))
+            return None
+        if isinstance(value, dict):
+            for name in value:
+                if len(str(name)) > LIMITS.key:
+                    problems.append((key, f"a key is longer than {LIMITS.key} characters", name))
+            return {name: copy(one, (*key, name)) for name, one in value.items()}
+        if isinstance(value, list | tuple):
+            return tuple(copy(one, (*key, k)) for k, one in enumerate(value))
+        if isinstance(value, str) and len(value) > LIMITS.text:
+            problems.append((key, f"is longer than {LIMITS.text:,} characters", value))
+        if isinstance(value, int | float) and LIMITS.magnitude < abs(value) < math.inf:
+            problems.append((key, f"its magnitude must be at most {LIMITS.magnitude:g}", value))
+        return value
+
+    return copy(data, ()), problems
 
 
 def key_lines(text: str) -> dict[Key, int]:
@@ -165,7 +213,7 @@ def key_lines(text: str) -> dict[Key, int]:
     lines: dict[Key, int] = {}
     counts: dict[Key, int] = {}
     prefix: Key = ()
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):
         if match := header.match(line):
             prefix = ()
             for name in (part.strip().strip("\"'") for part in match[2].split(".")):
@@ -224,18 +272,5 @@ def _known_keys(schema: type[BaseModel], key: Key) -> str:
 def _dotted(key: Key) -> str:
     text = ""
     for part in key:
-        text += f"[{part}]" if isinstance(part, int) else ("." if text else "") + part
+        text += f"[{part}]" if isinstance(part, int) else ("." if text else "") + str(part)
     return text or "(whole file)"
-
-
-def _tuples(data: Any) -> Any:
-    if isinstance(data, dict):
-        return {key: _tuples(value) for key, value in data.items()}
-    if isinstance(data, list | tuple):
-        return tuple(_tuples(value) for value in data)
-    return data
-
-
-def _short(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."

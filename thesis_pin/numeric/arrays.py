@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from thesis_pin.errors import BadInput, NotFinite, WrongShape
 from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
 from thesis_pin.tolerances import TOLERANCES
 
 
-def finite_array(name: str, value: Any, *shape: int | None) -> np.ndarray:
+def finite_array(name: str, value: ArrayLike, *shape: int | None) -> np.ndarray:
     """Turn a value into a float array whose last axes have the given shape.
 
     Args:
@@ -47,7 +48,7 @@ def finite_array(name: str, value: Any, *shape: int | None) -> np.ndarray:
     return array
 
 
-def vector(name: str, value: Any, size: int) -> np.ndarray:
+def vector(name: str, value: ArrayLike, size: int) -> np.ndarray:
     """Turn a value into one float vector ``(size,)``, no stack.
 
     Raises:
@@ -63,7 +64,7 @@ def _allowed(shape: tuple[int | None, ...]) -> str:
     return f"(..., {', '.join('n' if size is None else str(size) for size in shape)})"
 
 
-def pose_array(name: str, pose: Any) -> np.ndarray:
+def pose_array(name: str, pose: ArrayLike) -> np.ndarray:
     """Turn a ``pin.SE3`` or homogeneous matrices into checked 4×4 matrices.
 
     Args:

@@ -7,6 +7,7 @@ allowed and how to mend it, where Python or NumPy would fail somewhere inside.
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Callable, Sequence
 from numbers import Integral, Real
 from typing import Any, TypeVar
@@ -15,11 +16,23 @@ from thesis_pin.errors import BadInput, UnknownName
 
 Kind = TypeVar("Kind")
 
+
+class _Brief(reprlib.Repr):
+    """Prints no more of a value than a message could show, however large the value is."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlist = self.maxtuple = self.maxdict = 30
+        self.maxstring = self.maxlong = self.maxother = 200
+
+
+_BRIEF = _Brief()
+
 MOST = 100_000_000
 """Largest number of samples or steps that can be asked for; more is a slip of the pen."""
 
 
-def choice(kind: str, value: Any, known: Sequence[str]) -> str:
+def choice(kind: str, value: object, known: Sequence[str]) -> str:
     """One of some names.
 
     Args:
@@ -35,7 +48,7 @@ def choice(kind: str, value: Any, known: Sequence[str]) -> str:
     return value
 
 
-def instance(name: str, value: Any, kind: type[Kind], made_by: str) -> Kind:
+def instance(name: str, value: object, kind: type[Kind], made_by: str) -> Kind:
     """An object of one of our classes.
 
     Args:
@@ -56,7 +69,7 @@ def instance(name: str, value: Any, kind: type[Kind], made_by: str) -> Kind:
 
 def real(
     name: str,
-    value: Any,
+    value: object,
     *,
     low: float = -math.inf,
     high: float = math.inf,
@@ -85,7 +98,7 @@ def real(
     return number
 
 
-def whole(name: str, value: Any, least: int, *, error: type[BadInput] = BadInput) -> int:
+def whole(name: str, value: object, least: int, *, error: type[BadInput] = BadInput) -> int:
     """A whole number of at least ``least`` and at most :data:`MOST`.
 
     Raises:
@@ -103,7 +116,7 @@ def whole(name: str, value: Any, least: int, *, error: type[BadInput] = BadInput
     return int(value)
 
 
-def function(name: str, value: Any, form: str) -> Callable[..., Any]:
+def function(name: str, value: object, form: str) -> Callable[..., Any]:
     """Something that can be called.
 
     Args:
@@ -119,7 +132,7 @@ def function(name: str, value: Any, form: str) -> Callable[..., Any]:
     return value
 
 
-def element(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
+def element(index: object, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
     """Which element of a stack, as a tuple of indices that exist.
 
     Args:
@@ -146,15 +159,23 @@ def element(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
     )
 
 
-def shown(value: Any) -> str:
+def shown(value: object) -> str:
     """A value in a few characters, for messages."""
     shape = getattr(value, "shape", None)
     if isinstance(shape, tuple) and shape:
         return f"an array of shape {shape}"
     if isinstance(value, str | Real | type(None)):
-        text = repr(value)
-        return text if len(text) <= 60 else text[:57] + "..."
+        return brief(value)
     return f"a {type(value).__name__}"
+
+
+def brief(value: object) -> str:
+    """What Python prints of a value, cut after 60 characters."""
+    try:
+        text = _BRIEF.repr(value)
+    except ValueError:  # a whole number of more than 4300 digits
+        return f"a {type(value).__name__} too long to print"
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _number(value: Any) -> float | None:

@@ -6,36 +6,17 @@ Source: Pollard thesis, (2.10), (2.19), (2.23), (2.34), (2.39), (2.47), (2.97),
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Mapping
 
 import numpy as np
 
-from pollard_pin.thesis.claims import dynamics as claims_dynamics
-from pollard_pin.thesis.claims import path as claims_path
-from pollard_pin.thesis.claims import robot as claims_robot
+from pollard_pin.thesis.claims.robot import Check
 from pollard_pin.thesis.references import References
-from thesis_pin.audit.verdicts import ClaimResult, Claims
+from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.numeric.arrays import wrap
-
-
-def claims(catalogue: Catalogue, closed: References) -> Claims:
-    """The claims by name: the kind of check, ":", and what it is about."""
-    kinds: dict[str, Callable[..., ClaimResult]] = {
-        "angle": _angle,
-        "half-angle": _half_angle,
-        **claims_robot.CHECKS,
-        **claims_path.CHECKS,
-        **claims_dynamics.CHECKS,
-    }
-    return {
-        equation.claim: partial(kinds[equation.claim.split(":")[0]], catalogue, equation, closed)
-        for equation in catalogue.equations
-        if equation.claim
-    }
 
 
 def _angle(catalogue: Catalogue, equation: Equation, closed: References) -> ClaimResult:
@@ -77,3 +58,7 @@ def _half_angle(catalogue: Catalogue, equation: Equation, closed: References) ->
             gaps.append(np.abs(wrap(angle - other)))
         worst.append(np.minimum(*gaps).max())
     return ClaimResult(float(np.max(worst)), note="one of the two signs at every state")
+
+
+CHECKS: Mapping[str, Check] = {"angle": _angle, "half-angle": _half_angle}
+"""Checks by the first part of a claim's name."""

@@ -12,6 +12,8 @@ from collections.abc import Mapping
 import numpy as np
 import pinocchio as pin
 
+from pollard_pin.dynamics.inverse import inverse_dynamics_at
+from pollard_pin.dynamics.three_motors import three_torques
 from pollard_pin.model import Pollard, load
 from pollard_pin.motion.path import appendix_b
 from pollard_pin.specification import ACTUATORS
@@ -89,9 +91,10 @@ def _three_motors(_: Catalogue, __: Equation, ___: References) -> ClaimResult:
     robot = load(inertia="printed")
     motion = appendix_b(robot.specification).sample(201)
     q, v, a = robot.joint_motion(motion.pose, motion.rate, motion.acceleration)
-    dynamics = robot.inverse_dynamics(q, v, a)
-    three = robot.three_torques(q, dynamics.joint_force)
-    rows = robot.rate_jacobian(q)[:, list(ACTUATORS)]
+    dynamics = inverse_dynamics_at(robot, q, v, a)
+    jacobian = robot.rate_jacobian(q)
+    three = three_torques(jacobian, dynamics.joint_force)
+    rows = jacobian[:, list(ACTUATORS)]
     supplied = np.einsum("nij,ni->nj", rows, dynamics.torque)
     left = np.abs(supplied - three.generalized_force).max() / np.abs(three.generalized_force).max()
     note = (

@@ -14,6 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.model import Pollard, load
 from pollard_pin.motion.path import appendix_b
 from pollard_pin.specification import LINK_NAMES, SKEWED_PATH, Specification
@@ -236,7 +237,7 @@ def torque_change(specification: Specification, bodies: list[str]) -> float:
     torques = []
     for robot in (load(specification), load(Specification.model_validate(data))):
         q, v, a = robot.joint_motion(motion.pose, motion.rate, motion.acceleration)
-        torques.append(robot.inverse_dynamics(q, v, a).torque)
+        torques.append(inverse_dynamics_at(robot, q, v, a).torque)
     return float(np.abs(torques[1] - torques[0]).max())
 
 

@@ -109,7 +109,7 @@ def _yaw(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray
 
 
 @dataclass(frozen=True)
-class Row:
+class RateEquation:
     """One rate equation: θ̇ = (Σ V rate) / V_first = (Σ E pose rate) / V_first.
 
     Attributes:
@@ -129,31 +129,35 @@ class Row:
 
 _ANGLES_0 = ("psi", "theta", "phi", "theta_21", "theta_54")
 _ANGLES_I = ("theta_21", "theta_43", "theta_54", "theta_21i", "theta_65i")
-ROWS = (
-    Row("theta_21", 1, POSE, 0, _first),
-    Row("theta_43", 8, ("x", "z", "psi", "theta", "phi", "theta_21"), 1, _second),
-    Row("theta_54", 15, ("x", "y", "psi", "theta", "phi", "theta_21", "theta_43"), 7, _third),
-    Row("theta_1817", 23, _ANGLES_0, 13, _quotient("b", "theta_1817", (1, 3), (1, 2), -1)),
-    Row("theta_1716", 29, (*_ANGLES_0, "theta_1817"), 19, _yaw),
-    Row(
+RATE_EQUATIONS = (
+    RateEquation("theta_21", 1, POSE, 0, _first),
+    RateEquation("theta_43", 8, ("x", "z", "psi", "theta", "phi", "theta_21"), 1, _second),
+    RateEquation(
+        "theta_54", 15, ("x", "y", "psi", "theta", "phi", "theta_21", "theta_43"), 7, _third
+    ),
+    RateEquation("theta_1817", 23, _ANGLES_0, 13, _quotient("b", "theta_1817", (1, 3), (1, 2), -1)),
+    RateEquation("theta_1716", 29, (*_ANGLES_0, "theta_1817"), 19, _yaw),
+    RateEquation(
         "theta_1615",
         36,
         (*_ANGLES_0, "theta_1817", "theta_1716"),
         25,
         _quotient("c", "theta_1615", (3, 2), (2, 2), 1),
     ),
-    Row("theta_21i", 44, ("theta_21", "theta_43", "theta_54"), 31, _first),
-    Row("theta_65i", 48, ("theta_21", "theta_43", "theta_54", "theta_21i"), 37, _second),
-    Row("theta_76i", 53, _ANGLES_I, 43, _third),
-    Row("theta_1110i", 59, _ANGLES_I, 49, _quotient("d", "theta_1110", (3, 2), (3, 1), -1)),
-    Row(
+    RateEquation("theta_21i", 44, ("theta_21", "theta_43", "theta_54"), 31, _first),
+    RateEquation("theta_65i", 48, ("theta_21", "theta_43", "theta_54", "theta_21i"), 37, _second),
+    RateEquation("theta_76i", 53, _ANGLES_I, 43, _third),
+    RateEquation(
+        "theta_1110i", 59, _ANGLES_I, 49, _quotient("d", "theta_1110", (3, 2), (3, 1), -1)
+    ),
+    RateEquation(
         "theta_109i",
         65,
         ("theta_21", "theta_54", "theta_21i", "theta_65i", "theta_1110i"),
         55,
         _quotient("e", "theta_109", (3, 1), (3, 3), -1),
     ),
-    Row(
+    RateEquation(
         "theta_98i",
         71,
         (*_ANGLES_I, "theta_76i", "theta_1110i", "theta_109i"),
@@ -176,7 +180,7 @@ def coefficient(
         rates: :func:`joint_rates` at the states, if they are known.
     """
     letter, number = name[0], int(name[2:])
-    for row in ROWS:
+    for row in RATE_EQUATIONS:
         chain = i if row.angle.endswith("i") else ""
         if row.angle.endswith("i") and not i:
             continue
@@ -235,7 +239,7 @@ def explicit_rates(state: State) -> dict[str, np.ndarray]:
     thesis's k are as functions, which a derivative by one angle alone needs.
     """
     result: dict[str, np.ndarray] = {}
-    for row in ROWS:
+    for row in RATE_EQUATIONS:
         for i in ("1", "2") if row.angle.endswith("i") else ("",):
             below, numerator = row.relation(state, i)
             found = [

@@ -14,7 +14,7 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.model import Scout, load
 from scout_pin.motion.files import load_gait
-from scout_pin.motion.gait import Motion
+from scout_pin.motion.gait import GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import Specification
 from scout_pin.thesis.explicit import ExplicitModel, Interval, resting, solve_one
@@ -57,7 +57,7 @@ def random_motion(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def gait_in_thesis_coordinates(
     robot: Scout, t: np.ndarray
-) -> tuple[Motion, np.ndarray, np.ndarray, np.ndarray]:
+) -> tuple[GaitMotion, np.ndarray, np.ndarray, np.ndarray]:
     """The thesis's gait at times t, with q, q̇, q̈ in the coordinates (4.2)."""
     motion = load_gait("thesis").sample(t)
     joints = joint_trajectory(robot, motion)

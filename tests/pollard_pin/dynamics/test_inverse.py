@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 import pollard_pin
 from pollard_pin import USEFUL_BRANCHES
-from pollard_pin.dynamics.inverse import loop_forces, three_torques
+from pollard_pin.dynamics.inverse import inverse_dynamics_at, loop_forces
 from pollard_pin.dynamics.reactions import joint_reactions
+from pollard_pin.dynamics.three_motors import three_torques
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.motion.path import line
 from pollard_pin.specification import ACTUATORS
@@ -27,7 +28,7 @@ from ..conftest import closed_motion
 def test_torques_and_forces_satisfy_the_equations_of_motion(robot, rng, branch):
     """KKT: M a + h = B τ + Aᵀ λ, with A and the force's frame from Pinocchio."""
     _, _, _, q, v, a = closed_motion(robot, rng, 60, branch)
-    found = robot.inverse_dynamics(q, v, a)
+    found = inverse_dynamics_at(robot, q, v, a)
     data = robot.model.createData()
     for k in range(len(q)):
         tau = pin.rnea(robot.model, data, q[k], v[k], a[k])
@@ -50,7 +51,7 @@ def test_torques_and_forces_satisfy_the_equations_of_motion(robot, rng, branch):
 
 def test_the_fast_solution_is_the_general_one(robot, rng):
     _, _, _, q, v, a = closed_motion(robot, rng, 100)
-    fast = robot.inverse_dynamics(q, v, a)
+    fast = inverse_dynamics_at(robot, q, v, a)
     general = loop_dynamics.inverse_dynamics(robot, q, v, a)
     size = 1 + np.abs(fast.loop_force).max(axis=(1, 2))
     assert (np.abs(fast.torque - general.torque).max(axis=1) / size).max() < 1e-11
@@ -63,7 +64,7 @@ def test_the_fast_solution_is_the_general_one(robot, rng):
 
 def test_constraint_dynamics_returns_the_accelerations(robot, rng):
     _, _, _, q, v, a = closed_motion(robot, rng, 60)
-    torque = robot.inverse_dynamics(q, v, a).torque
+    torque = inverse_dynamics_at(robot, q, v, a).torque
     again = robot.forward_dynamics(q, v, torque)
     scale = np.abs(a).max(axis=1)
     assert (np.abs(again - a).max(axis=1) / scale).max() < 1e-8
@@ -72,7 +73,7 @@ def test_constraint_dynamics_returns_the_accelerations(robot, rng):
 def test_motor_power_is_the_rate_of_energy(robot, rng):
     """Whatever the loops do inside, they do no work."""
     poses, rate, acceleration, q, v, a = closed_motion(robot, rng, 50, away=0.3)
-    power = (robot.inverse_dynamics(q, v, a).torque * v[:, ACTUATORS]).sum(axis=1)
+    power = (inverse_dynamics_at(robot, q, v, a).torque * v[:, ACTUATORS]).sum(axis=1)
     step = 1e-5
 
     def energy(t):
@@ -86,7 +87,7 @@ def test_motor_power_is_the_rate_of_energy(robot, rng):
 
 def test_reactions_balance_every_link_and_carry_the_motor_torque(robot, rng):
     _, _, _, q, v, a = closed_motion(robot, rng, 30)
-    found = robot.inverse_dynamics(q, v, a)
+    found = inverse_dynamics_at(robot, q, v, a)
     wrench = joint_reactions(robot, q, v, a, found.loop_force)
     axis = ["xyz".index(letter) for letter in JOINT_AXES]
     along = wrench[:, np.arange(12), [3 + k for k in axis]]
@@ -99,7 +100,7 @@ def test_reactions_balance_every_link_and_carry_the_motor_torque(robot, rng):
 def test_base_reactions_carry_the_weight_at_rest(robot, rng):
     _, _, _, q, _, _ = closed_motion(robot, rng, 10)
     zero = np.zeros_like(q)
-    found = robot.inverse_dynamics(q, zero, zero)
+    found = inverse_dynamics_at(robot, q, zero, zero)
     wrench = joint_reactions(robot, q, zero, zero, found.loop_force)
     data = robot.model.createData()
     for k in range(10):
@@ -130,12 +131,12 @@ def test_torques_are_the_same_backwards_in_time_and_linear_in_acceleration(
     _, back, same = robot.joint_motion(pose, -rate, acceleration)
     np.testing.assert_allclose(back, -v, atol=1e-12)
     np.testing.assert_allclose(same, a, atol=1e-9 * (1 + np.abs(a).max()))
-    forth = robot.inverse_dynamics(q, v, a).torque
+    forth = inverse_dynamics_at(robot, q, v, a).torque
     size = 1 + np.abs(forth).max()
-    np.testing.assert_allclose(robot.inverse_dynamics(q, -v, a).torque, forth, atol=1e-9 * size)
+    np.testing.assert_allclose(inverse_dynamics_at(robot, q, -v, a).torque, forth, atol=1e-9 * size)
     # Torques with no, half and whole tool acceleration lie on a line.
     torques = [
-        robot.inverse_dynamics(*robot.joint_motion(pose, rate, k * acceleration)).torque
+        inverse_dynamics_at(robot, *robot.joint_motion(pose, rate, k * acceleration)).torque
         for k in (0.0, 0.5, 1.0)
     ]
     np.testing.assert_allclose(torques[1], (torques[0] + torques[2]) / 2, atol=1e-9 * size)
@@ -151,7 +152,7 @@ def test_a_mirrored_motion_mirrors_the_torques():
     mirror = np.array([1, -1, 1, 1, -1, -1])
     q, v, a = pollard.joint_motion(pose, np.zeros(6), np.ones(6) * 0.5)
     other = pollard.joint_motion(pose * mirror, np.zeros(6), np.ones(6) * 0.5 * mirror)
-    one, two = pollard.inverse_dynamics(q, v, a), pollard.inverse_dynamics(*other)
+    one, two = inverse_dynamics_at(pollard, q, v, a), inverse_dynamics_at(pollard, *other)
     assert one.torque[0] == pytest.approx(two.torque[0], abs=1e-12)
     assert one.torque[1] == pytest.approx(-two.torque[2], abs=1e-12)
     assert one.torque[2] == pytest.approx(-two.torque[1], abs=1e-12)
@@ -159,8 +160,8 @@ def test_a_mirrored_motion_mirrors_the_torques():
 
 def test_three_motors_leave_part_of_the_load_unexplained(robot, rng):
     _, _, _, q, v, a = closed_motion(robot, rng, 30)
-    found = robot.inverse_dynamics(q, v, a)
-    three = robot.three_torques(q, found.joint_force)
+    found = inverse_dynamics_at(robot, q, v, a)
+    three = three_torques(robot.rate_jacobian(q), found.joint_force)
     assert three.torque.shape == (30, 3)
     # Six motors explain everything: J_actᵀ τ is the whole generalized force.
     rows = robot.rate_jacobian(q)[:, list(ACTUATORS)]
@@ -177,7 +178,7 @@ def test_three_motors_leave_part_of_the_load_unexplained(robot, rng):
 def test_the_length_weighs_forces_against_moments(pollard, rng):
     """Least squares over (F ℓ, M), solved here by NumPy's own routine."""
     _, _, _, q, v, a = closed_motion(pollard, rng, 5)
-    force = pollard.inverse_dynamics(q, v, a).joint_force
+    force = inverse_dynamics_at(pollard, q, v, a).joint_force
     jacobian = pollard.rate_jacobian(q)
     found = three_torques(jacobian, force, length=0.2)
     scale = np.array([0.2] * 3 + [1.0] * 3)
@@ -193,12 +194,12 @@ def test_angles_that_open_a_loop_are_refused(pollard):
     q = pollard.inverse_kinematics([0.45, 0, 0.05, 0, 0.1, 0]).angles
     q[1] += 1e-4
     with pytest.raises(BadInput, match="opens a ball joint by"):
-        pollard.inverse_dynamics(q, np.zeros(12), np.zeros(12))
+        inverse_dynamics_at(pollard, q, np.zeros(12), np.zeros(12))
 
 
 def test_simulation_keeps_the_loops_closed_and_balances_energy(robot):
     start = robot.inverse_kinematics([0.45, 0.02, 0.05, 0.1, 0.1, 0.1]).angles
-    hold = robot.inverse_dynamics(start, np.zeros(12), np.zeros(12)).torque
+    hold = inverse_dynamics_at(robot, start, np.zeros(12), np.zeros(12)).torque
 
     def torque(t, q, v):
         # Damp the base only: the tool's own inertia is 1e-6 kg·m², too stiff for this step.
@@ -227,7 +228,7 @@ def test_simulation_follows_an_inverse_dynamics_feedforward(pollard):
 
     q, v, _ = planned(0.0)
     motion = pollard.simulate(
-        q, v, lambda t, *_: pollard.inverse_dynamics(*planned(t)).torque, path.duration, 2e-3
+        q, v, lambda t, *_: inverse_dynamics_at(pollard, *planned(t)).torque, path.duration, 2e-3
     )
     np.testing.assert_allclose(motion.q[-1], planned(path.duration)[0], atol=1e-6)
 
@@ -249,17 +250,17 @@ def test_forces_that_are_not_determined_are_refused(pollard, rng):
 
 def test_rates_that_open_a_ball_joint_are_refused(robot, rng):
     _, _, _, q, v, a = closed_motion(robot, rng, 20)
-    robot.inverse_dynamics(q, v, a)  # closed motions pass
+    inverse_dynamics_at(robot, q, v, a)  # closed motions pass
     v[7] += 1e-3 * rng.normal(size=12)
     with pytest.raises(BadInput, match="sample 7: the rates open ball joint"):
-        robot.inverse_dynamics(q, v, a)
+        inverse_dynamics_at(robot, q, v, a)
 
 
 def test_accelerations_that_open_a_ball_joint_are_refused(robot, rng):
     _, _, _, q, v, a = closed_motion(robot, rng, 10)
-    robot.inverse_dynamics(q, v, a)
+    inverse_dynamics_at(robot, q, v, a)
     for joint in (1, 2, 7, 8, 10, 11):
         bent = a.copy()
         bent[6, joint] += 1e-3 * (1 + np.abs(a[6]).max() + np.abs(v[6]).max() ** 2)
         with pytest.raises(BadInput, match="sample 6: the accelerations open ball joint"):
-            robot.inverse_dynamics(q, v, bent)
+            inverse_dynamics_at(robot, q, v, bent)

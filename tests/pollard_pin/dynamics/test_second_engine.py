@@ -9,6 +9,7 @@ import pinocchio as pin
 import pytest
 
 import pollard_pin
+from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.motion.path import appendix_b
 from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.specification import SKEWED_PATH, Specification
@@ -81,8 +82,8 @@ def test_forward_dynamics_with_our_torques_agree_within_soft_constraints(pair):
     """
     robot, model, _ = pair
     path = appendix_b(robot.specification)
-    joints, _ = joint_trajectory(robot, path.sample(60), path=path)
-    found = robot.inverse_dynamics(joints.q, joints.v, joints.a)
+    joints = joint_trajectory(robot, path.sample(60))
+    found = inverse_dynamics_at(robot, joints.q, joints.v, joints.a)
     data = mujoco.MjData(model)
     acceleration, force = np.empty((60, 12)), np.empty((60, 2))
     for k in range(60):

@@ -12,8 +12,8 @@ from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import (
     CAUSES,
     COEFFICIENTS,
-    COMMAND,
     NUMBERS,
+    THESIS,
     Environments,
     audit,
     beyond,
@@ -317,9 +317,9 @@ def test_residuals_leave_no_doubt_between_right_and_wrong(report):
 
 
 def test_the_document_is_current(report):
-    assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(report, COMMAND), (
-        f"stale: run {COMMAND}"
-    )
+    assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(
+        report, THESIS.document_command
+    ), f"stale: run {THESIS.document_command}"
 
 
 def test_what_holds_and_what_fails_are_far_apart(report):

@@ -5,6 +5,7 @@ import pinocchio as pin
 import pytest
 
 from pollard_pin.coordinates import angular_rate_matrix
+from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.specification import LINK_NAMES, SKEWED_PATH, Specification
 from pollard_pin.thesis import ExplicitModel
 from pollard_pin.thesis.claims.dynamics import largest_relative, projected_terms, random_motion
@@ -67,7 +68,7 @@ def test_D_velocity_terms_and_gravity_are_pinocchios_projected_dynamics(request,
 def test_the_generalized_force_is_what_six_motors_supply(model):
     pose, v, a = random_motion(model, 20)
     q, rate, acceleration = model.robot.joint_motion(pose, v, a, model.branch)
-    torque = model.robot.inverse_dynamics(q, rate, acceleration).torque
+    torque = inverse_dynamics_at(model.robot, q, rate, acceleration).torque
     motors = model.rows(pose)[:, [0, 6, 9, 3, 4, 5]]
     supplied = np.einsum("nij,ni->nj", motors, torque)
     assert largest_relative(model.generalized_force(pose, v, a), supplied) < 1e-9

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pollard_pin.thesis.audit import states
-from pollard_pin.thesis.catalogue import NOTATION
+from pollard_pin.thesis.notation import NOTATION
 from pollard_pin.thesis.references import References
 from thesis_pin.audit.text import ranges
 from thesis_pin.equations.evaluation import evaluate

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from scout_pin.thesis import catalogue
-from scout_pin.thesis.audit import CAUSES, COMMAND, NUMBERS, audit, states
+from scout_pin.thesis.audit import CAUSES, NUMBERS, THESIS, audit, states
 from scout_pin.thesis.references import References
 from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
@@ -30,7 +30,7 @@ def rows(report):
 def judged(equation):
     """The verdict on one equation, the catalogue otherwise unchanged."""
     changed = catalogue().with_equation(equation)
-    return audit(changed, only=[equation.id], law_states=2).rows[0]
+    return audit(changed, only=[equation.id], with_effects=False).rows[0]
 
 
 def test_every_numbered_equation_is_covered(report):
@@ -169,9 +169,9 @@ def test_following_the_print_has_a_price_that_is_worked_out(rows):
 
 
 def audit_rows_in_order(rows):
-    from thesis_pin.audit.rows import Report
+    from thesis_pin.audit.rows import AuditReport
 
-    return Report("", tuple(rows.values()), (), "", {}).failures
+    return AuditReport("", tuple(rows.values()), (), "", {}).failures
 
 
 def test_residuals_leave_no_doubt_between_right_and_wrong(report):
@@ -183,9 +183,9 @@ def test_residuals_leave_no_doubt_between_right_and_wrong(report):
 
 
 def test_the_document_is_current(report):
-    assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(report, COMMAND), (
-        f"stale: run {COMMAND}"
-    )
+    assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(
+        report, THESIS.document_command
+    ), f"stale: run {THESIS.document_command}"
 
 
 def test_the_page_renders_every_formula_and_stays_small(report):

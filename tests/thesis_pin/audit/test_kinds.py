@@ -9,7 +9,7 @@ from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
 from thesis_pin.audit.kinds import KINDS, kinds, of_equation
 from thesis_pin.audit.places import places
-from thesis_pin.audit.rows import Report, Row
+from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.command.audit import _NARROW
 from thesis_pin.command.output import print_table
 from thesis_pin.equations.catalogue import Equation
@@ -98,7 +98,7 @@ def report():
         row("robot:D:d", "wrong", "frame"),
     )
     rows = (row("robot:D:c", "misprint", "dot"), *rows)
-    return Report("Thesis", rows, (), "", {})
+    return AuditReport("Thesis", rows, (), "", {})
 
 
 def test_verdicts_are_counted_by_chapter_and_mended_lines_by_kind(report):
@@ -133,7 +133,7 @@ def test_all_verdicts_fit_eighty_columns(monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "80")
     verdicts = ("holds", "misprint", "wrong", "illegible", "not checkable", "unexplained")
     rows = tuple(Row(f"robot:{v}:a", "", (), "a", ("b",), {}, v) for v in verdicts for _ in "12")
-    headings, chapters = audit_report.chapter_table(Report("Thesis", rows, (), "", {}))
+    headings, chapters = audit_report.chapter_table(AuditReport("Thesis", rows, (), "", {}))
     print_table([_NARROW.get(heading, heading) for heading in headings], chapters[-1:])
     shown = capsys.readouterr().out
     assert "…" not in shown

@@ -9,7 +9,7 @@ import scout_pin.thesis.audit
 from thesis_pin.audit import document as audit_json
 from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
-from thesis_pin.audit.rows import Report, Row
+from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.slips import Cause
 from thesis_pin.command.audit import _TITLE
 
@@ -26,7 +26,7 @@ def failing(name, cause="slip"):
 
 
 SLIP = Cause("a slip", "(1.2)", "One took the wrong turn. The others followed.")
-REPORT = Report(
+REPORT = AuditReport(
     "Thesis",
     (failing("c_1"), failing("c_2"), failing("d", "")),
     (),
@@ -77,7 +77,7 @@ def test_the_table_of_failures_keeps_to_titles():
 
 def test_the_cause_of_most_lines_comes_first_and_the_page_finds_its_lines():
     listed = {"unused": REPORT.causes["unused"], "slip": SLIP}
-    many = Report("T", (failing("e", "unused"), *REPORT.rows), (), "", listed)
+    many = AuditReport("T", (failing("e", "unused"), *REPORT.rows), (), "", listed)
     assert [len(rows) for _, rows in audit_report.used_causes(many)] == [2, 1]
     page = audit_page.page(many)
     for title, count in (("a slip", 2), ("another", 1)):

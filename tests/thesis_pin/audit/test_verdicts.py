@@ -8,7 +8,7 @@ import pytest
 from thesis_pin.audit import document as audit_json
 from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
-from thesis_pin.audit.rows import Report, Row
+from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.verdicts import ClaimResult, judge, verdict
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.formula import FormulaError
@@ -127,7 +127,9 @@ def report():
         row(id="robot:2:d", printed="a a", corrected="a b", note="a for b", **MENDED),
         row(id="robot:2:e", printed=(), illegible="torn"),
     )
-    return Report("Thesis", rows, ("1.1", "1.2"), "Ten states.", {}, (("a figure", "a drawing"),))
+    return AuditReport(
+        "Thesis", rows, ("1.1", "1.2"), "Ten states.", {}, (("a figure", "a drawing"),)
+    )
 
 
 def test_a_report_counts_covers_and_names_its_gaps(report):
@@ -152,7 +154,7 @@ def test_failures_come_worst_effect_first():
             ("blocked", {"f": "can't"}),
         )
     )
-    names = [r.id.split(":")[2] for r in Report("T", rows, (), "", {}).failures]
+    names = [r.id.split(":")[2] for r in AuditReport("T", rows, (), "", {}).failures]
     assert names == ["blocked", "big", "small", "none"]
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from thesis_pin.command.parser import Parser
 from thesis_pin.errors import BadInput, NotFinite, ThesisPinError
-from thesis_pin.files import write_file, write_folder
+from thesis_pin.files import MANIFEST, write_file, write_folder
 from thesis_pin.report.summary import csv_bytes, figure_files, json_bytes, new_figure, summarise
 
 
@@ -81,7 +81,7 @@ def test_files_are_written_whole_and_leave_nothing_behind(tmp_path):
     write_folder(tmp_path / "deep" / "er", {"a.txt": b"one", "sub/b.txt": b"two"})
     assert (tmp_path / "deep/er/a.txt").read_bytes() == b"one"
     assert (tmp_path / "deep/er/sub/b.txt").read_bytes() == b"two"
-    assert sorted(os.listdir(tmp_path / "deep/er")) == ["a.txt", "sub"]
+    assert sorted(os.listdir(tmp_path / "deep/er")) == ["a.txt", MANIFEST, "sub"]
 
 
 def test_unwritable_places_are_refused_and_what_stood_there_stays(tmp_path):
