@@ -23,7 +23,7 @@ def main() -> None:
     from scout_pin.report.figures import stick_figures
     from scout_pin.report.view import gait_scene
     from thesis_pin.pages import player as viewer
-    from thesis_pin.report.summary import figure_files
+    from thesis_pin.report.figures import figure_files
 
     gait = scout_pin.load_gait(ROOT / "examples" / "walk.toml")
     report = scout_pin.gait_report(scout_pin.load(), gait)

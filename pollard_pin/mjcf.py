@@ -16,6 +16,7 @@ import numpy as np
 from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.urdf import number, numbers
+from thesis_pin.numeric.exact import cosine, sine
 
 # MuJoCo's springs at their stiffest that its integrators still carry at 1 ms: a
 # time constant of 2 ms, and 0.9999 of the free acceleration taken away.
@@ -113,7 +114,7 @@ class _Writer:
             tensor[0, 2],
             tensor[1, 2],
         )
-        quaternion = (math.cos(turn / 2), math.sin(turn / 2), 0.0, 0.0)
+        quaternion = (cosine(turn / 2), sine(turn / 2), 0.0, 0.0)
         hinges = "".join(
             f'{pad}  <joint name="{JOINT_NAMES[k]}" type="hinge" axis="{_AXES[axis]}" '
             f'range="{number(self.lower[k])} {number(self.upper[k])}"/>\n'

@@ -9,6 +9,7 @@ Source: Pollard thesis, 2.4 (T_03, T_315) and 2.7 (T_02i, T_24i, T_48i, T_311i).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
 from thesis_pin.files import write_files
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.urdf import bar, cylinder, inertial, joint, robot, sphere
+from thesis_pin.numeric.exact import cosine, sine
 
 JOINT_AXES = ("y", "y", "z", "x", "z", "x", "z", "y", "z", "z", "y", "z")
 """Axes of :data:`JOINT_NAMES` in their own frames."""
@@ -42,8 +44,8 @@ def anchors(specification: Specification) -> np.ndarray:
     """Ball joints in the forearm's frame 5 [m], shape ``(2, 3)`` (last column of T_311i)."""
     points = []
     for chain in specification.side_chains:
-        beta = np.radians(chain.beta_1413_deg)
-        x, y = -chain.x_1211 * np.cos(beta), chain.x_1211 * np.sin(beta)
+        beta = math.radians(chain.beta_1413_deg)
+        x, y = -chain.x_1211 * cosine(beta), chain.x_1211 * sine(beta)
         points.append([specification.chain_0.x_65 + x, y, -chain.z_1312])
     return np.array(points)
 
@@ -148,7 +150,7 @@ def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
     balls = [sphere(point, 2 * ROD_RADIUS) for point in points]
     yield tree.link("forearm", [bar(origin, wrist, ARM_RADIUS), *stubs, *balls])
     for frame, point, side in zip(ANCHOR_FRAMES, points, specification.side_chains, strict=True):
-        yaw = -np.radians(side.beta_1413_deg)
+        yaw = -math.radians(side.beta_1413_deg)
         yield joint(f"{frame}_joint", "forearm", frame, xyz=point, rpy=(0.0, 0.0, yaw))
         yield tree.link(frame, [])
     parent, place = "forearm", wrist
@@ -164,7 +166,7 @@ def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
         yield tree.joint(number, "base", f"chain{i}_arm", base)
         hinge = cylinder("z", JOINT_RADIUS, JOINT_LENGTH)
         yield tree.link(f"chain{i}_arm", [bar((0.0, 0.0, -side.z_32), end, ARM_RADIUS), hinge])
-        turn = float(np.radians(side.beta_54_deg))
+        turn = math.radians(side.beta_54_deg)
         yield tree.joint(number + 1, f"chain{i}_arm", f"chain{i}_cross", end, turn)
         yield tree.link(f"chain{i}_cross", [])
         yield tree.joint(number + 2, f"chain{i}_cross", f"chain{i}_rod", origin)

@@ -16,7 +16,7 @@ from thesis_pin.command.messages import say
 from thesis_pin.command.output import print_table, print_text
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.targets import free
-from thesis_pin.command.verbs import Answer, give, json_bytes
+from thesis_pin.command.verbs import Answer, give
 from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.files import write_file, write_folder
 
@@ -106,7 +106,7 @@ def fk(arguments: argparse.Namespace) -> ExitCode:
 def workspace(arguments: argparse.Namespace) -> ExitCode:
     """Map reach and conditioning over a slice or a volume."""
     from pollard_pin.study.workspace import evaluate_workspace
-    from thesis_pin.report.summary import csv_bytes
+    from thesis_pin.report.writers import csv_bytes, json_bytes
 
     axes = {name: _axis(name, getattr(arguments, name), arguments.points) for name in "xyz"}
     robot = load(arguments.specification, inertia=arguments.inertia)
@@ -122,7 +122,7 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         )
         content = json_bytes(space.document()) if arguments.json or arguments.out else b""
         if arguments.out:
-            from pollard_pin.report.figures import workspace_files
+            from pollard_pin.study.figures import workspace_files
 
             files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
             files |= workspace_files(space)

@@ -57,7 +57,6 @@ ROBOT = Robot(
     another="another biped",
     motion=_which_gait,
     report="report.document:gait_report",
-    figures="report.figures:figures",
     page="report.page:gait_page",
     scene="report.view:gait_scene",
     inverse_kinematics="model:Scout.leg_inverse_kinematics",

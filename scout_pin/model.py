@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -14,15 +15,16 @@ from scout_pin import coordinates
 from scout_pin.kinematics import forward
 from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.geometry import LegGeometry
+from scout_pin.kinematics.solutions import branch_numbers
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.errors import BadInput
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
-from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array
+from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
 from thesis_pin.numeric.checks import choice
-from thesis_pin.numeric.rotations import invert
+from thesis_pin.numeric.rotations import invert, quaternions
 from thesis_pin.numeric.trajectory import BodyMotion
 
 PACKAGE_PATH = str(model_folder("scout"))
@@ -136,6 +138,25 @@ class Scout(LoadedRobot):
         """Free-flyer q, v, a → thesis coordinates: :func:`scout_pin.coordinates.to_thesis`."""
         return coordinates.to_thesis(q, v, a)
 
+    def configuration(self, torso: ArrayLike, angles: ArrayLike) -> np.ndarray:
+        """Pinocchio's q of a torso's place and joint angles, for this robot's root.
+
+        Args:
+            torso: Torso in the world: ``pin.SE3``, sequence, or ``(..., 4, 4)``.
+            angles: Joint angles [rad], shape ``(..., 12)``.
+
+        Returns:
+            Shape ``(..., 19)`` with a free-flyer root, ``(..., 18)`` with the thesis's.
+
+        Raises:
+            SingularPose: The root is the thesis's and φ_B = ±90°.
+        """
+        place, joints = pose_array("torso", torso), finite_array("angles", angles, 12)
+        root = np.concatenate([place[..., :3, 3], quaternions(place[..., :3, :3])], axis=-1)
+        root, joints = together(torso=root, angles=joints)
+        q = np.concatenate([root, joints], axis=-1)
+        return q if self.root == "free_flyer" else coordinates.to_thesis(q)[0]
+
     # -- kinematics ----------------------------------------------------------
 
     def leg_inverse_kinematics(
@@ -153,8 +174,12 @@ class Scout(LoadedRobot):
         left_foot: ArrayLike,
         right_foot: ArrayLike,
         reference: ArrayLike | None = None,
+        *,
+        branch: str | Sequence[str] | None = None,
     ) -> np.ndarray:
         """Joint angles that bring both soles to their places, one branch a leg.
+
+        They are no Pinocchio q; :meth:`configuration` makes one of them.
 
         The branch is the one nearest the reference that exists and keeps the joint
         limits. Without a reference, a stack is a trajectory along its first axis:
@@ -167,9 +192,11 @@ class Scout(LoadedRobot):
             left_foot: Left sole in the world, likewise.
             right_foot: Right sole in the world, likewise.
             reference: Angles [rad], ``(12,)`` for a start or ``(..., 12)`` for each pose.
+            branch: Signs of the branch to take, for both legs or one label a leg, as
+                ``"+-+"`` or ``("+++", "-+-")``; None chooses as above.
 
         Returns:
-            Angles [rad], shape ``(..., 12)``.
+            Joint angles [rad], shape ``(..., 12)``.
 
         Raises:
             Unreachable: Some pose has no valid branch; says which and why.
@@ -192,11 +219,11 @@ class Scout(LoadedRobot):
             ) from None
         given = None if reference is None else finite_array("reference", reference, 12)
         world_to_torso = invert(placements[0])
-        sides = []
+        sides, only = [], branch_numbers(branch)
         for number, side in enumerate(SIDES):
             start = None if given is None else given[..., 6 * number : 6 * number + 6]
             target = world_to_torso @ placements[number + 1]
-            sides.append(kinematics.one_branch(self.legs[side], side, target, start))
+            sides.append(kinematics.one_branch(self.legs[side], side, target, start, only[number]))
         return np.concatenate(np.broadcast_arrays(*sides), axis=-1)
 
     def follow(
@@ -205,6 +232,8 @@ class Scout(LoadedRobot):
         left_foot: BodyMotion,
         right_foot: BodyMotion,
         reference: np.ndarray | None = None,
+        *,
+        branch: str | Sequence[str] | None = None,
     ) -> np.ndarray:
         """Joint angles along a motion ``(n, 12)``: :meth:`inverse_kinematics`, only faster.
 
@@ -213,13 +242,15 @@ class Scout(LoadedRobot):
             left_foot: Motion of the left sole.
             right_foot: Motion of the right sole.
             reference: Angles the first sample is to be near [rad], ``(12,)``.
+            branch: As in :meth:`inverse_kinematics`.
 
         Raises:
             Unreachable: Some sample has no valid branch; says which and why.
             BadInput: A rotation isn't one.
         """
         angles: list[np.ndarray] = []
-        for side, foot in zip(SIDES, (left_foot, right_foot), strict=True):
+        numbers = branch_numbers(branch)
+        for side, foot, only in zip(SIDES, (left_foot, right_foot), numbers, strict=True):
 
             def entries(part: slice, foot: BodyMotion = foot, side: str = side) -> np.ndarray:
                 found = foot.part(part).entries_in(torso.part(part))
@@ -227,11 +258,11 @@ class Scout(LoadedRobot):
                 return found
 
             start = None if reference is None else reference[6 * len(angles) :][:6]
-            found = kinematics.follow_branch(self.legs[side], len(foot.position), entries, start)
+            count = len(foot.position)
+            found = kinematics.follow_branch(self.legs[side], count, entries, start, only)
             if found is None:
-                return self.inverse_kinematics(
-                    torso.placement, left_foot.placement, right_foot.placement, reference
-                )
+                places = (torso.placement, left_foot.placement, right_foot.placement)
+                return self.inverse_kinematics(*places, reference, branch=branch)
             angles.append(found)
         return np.concatenate(angles, axis=1)
 
@@ -251,10 +282,10 @@ class Scout(LoadedRobot):
         Returns:
             Placement of each sole by side, shape ``(..., 4, 4)``.
         """
-        theta = finite_array("theta", theta, 12)
+        angles = finite_array("theta", theta, 12)
         base = np.eye(4) if torso is None else pose_array("torso", torso)
         return {
-            side: base @ self.leg_forward_kinematics(side, theta[..., 6 * k : 6 * k + 6])
+            side: base @ self.leg_forward_kinematics(side, angles[..., 6 * k : 6 * k + 6])
             for k, side in enumerate(SIDES)
         }
 

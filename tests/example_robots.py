@@ -16,3 +16,8 @@ def example_robot(name):
     turn = np.linspace(0, 0.7, 31)[:, None] * np.ones(model.nv)
     q = np.array([pin.integrate(model, pin.neutral(model), step) for step in turn])
     return model, visual, np.clip(q, model.lowerPositionLimit, model.upperPositionLimit)
+
+
+def urdf_files():
+    """Every URDF of example-robot-data."""
+    return sorted((SHARE / "example-robot-data" / "robots").rglob("*.urdf"))

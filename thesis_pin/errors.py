@@ -150,9 +150,17 @@ class NonPhysicalInertia(ModelError):
         link: Name of the link.
         eigenvalues: Eigenvalues of the 4×4 pseudo-inertia matrix, ascending.
         principal: Principal moments about the centre of mass [kg·m²], ascending.
+        where: File and line.
     """
 
-    def __init__(self, link: str, eigenvalues: Sequence[float], principal: Sequence[float]) -> None:
+    def __init__(
+        self,
+        link: str,
+        eigenvalues: Sequence[float],
+        principal: Sequence[float],
+        *,
+        where: str = "",
+    ) -> None:
         self.link, self.eigenvalues, self.principal = link, tuple(eigenvalues), tuple(principal)
         moments = ", ".join(f"{value:.6g}" for value in principal)
         if principal[0] <= 0:
@@ -165,7 +173,7 @@ class NonPhysicalInertia(ModelError):
         super().__init__(
             f"the inertia isn't physical: principal moments {moments} kg·m² and {broken} "
             f"(smallest pseudo-inertia eigenvalue {eigenvalues[0]:.3g})",
-            where=f"link {link!r}",
+            where=f"{where}: link {link!r}" if where else f"link {link!r}",
             allowed="positive mass, positive moments, each at most the sum of the other two",
         )
 

@@ -17,6 +17,7 @@ class Tolerances:
         loop_closure: Distance at which a loop counts as closed [m].
         loop_motion: Rate and acceleration of its opening still taken as none,
             relative to 1 + the largest joint rate or acceleration [-].
+        model: Relative difference between Pinocchio's model and our own sums [-].
         rank: Singular value, relative to the largest, below which a matrix has
             lost rank [-].
         stance_drift: How far a foot in support may stray from rest or floor [m].
@@ -32,6 +33,7 @@ class Tolerances:
     reach: float = 1e-12
     loop_closure: float = 1e-9
     loop_motion: float = 1e-7
+    model: float = 1e-9
     rank: float = 1e-9
     stance_drift: float = 1e-6
     joint_limit: float = 1e-9

@@ -29,7 +29,7 @@ import itertools
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
@@ -104,7 +104,7 @@ class PathFile(Strict):
                 )
 
 
-def load_path(file: Any) -> ToolPath:
+def load_path(file: str | Path) -> ToolPath:
     """A path from a CSV or TOML file; see the head of this module."""
     suffix = str(file).rpartition(".")[2].lower()
     if suffix == "csv":

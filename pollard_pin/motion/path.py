@@ -13,7 +13,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -76,7 +76,7 @@ class ToolPath:
     name: str
     duration: float
     function: Callable[[np.ndarray], Triple]
-    parameters: dict[str, Any]
+    parameters: dict[str, object]
 
     def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""

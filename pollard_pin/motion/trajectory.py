@@ -91,7 +91,9 @@ def _solve(
     for part in blocks(len(motion.time)):
         some = motion.part(part)
         posture = Posture.of(robot.geometry, solution.angles[part])
-        v[part], a[part] = motion_rates(posture, some.pose, some.rate, some.acceleration, some.time)
+        v[part], a[part] = motion_rates(
+            posture, some.pose, some.rate, some.acceleration, some.time, part.start
+        )
     return solution, v, a
 
 

@@ -43,9 +43,9 @@ class TrajectoryReport(TrajectoryNumbers):
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
 
-    def assumptions(self) -> list[dict[str, Any]]:
+    def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open and this report rests on, with their reasons."""
-        result: list[dict[str, Any]] = []
+        result: list[dict[str, object]] = []
         entries = self.robot.specification.assumptions.model_dump(mode="json")
         for name, entry in entries.items():
             if name in ("motion", "placement") and self.path.name != "appendix B":
@@ -57,9 +57,23 @@ class TrajectoryReport(TrajectoryNumbers):
                 result.append({"name": name, **entry})
         return result
 
-    def document(self) -> dict[str, Any]:
+    @property
+    def parameters(self) -> dict[str, object]:
+        """What was asked for: robot, motion, samples, choices."""
+        return {
+            "robot": self.robot.specification.name,
+            **self.path.parameters,
+            "branch": str(self.branch),
+            "samples": len(self.joints.time),
+            "inertia": self.robot.inertia,
+            "actuators": self.motors,
+            "condition_length": LENGTH,
+            "thesis_pin": __version__,
+        }
+
+    def document(self) -> dict[str, object]:
         """The report as JSON-ready data; the format is in docs/pollard.md."""
-        document = {
+        document: dict[str, object] = {
             "schema": SCHEMA,
             "version": VERSION,
             "actuators": list(ACTUATOR_NAMES),
@@ -78,16 +92,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "condition": self.holding.condition,
             "determinant": self.holding.base_determinant,
             "margin": self.solutions.margin,
-            "parameters": {
-                "robot": self.robot.specification.name,
-                **self.path.parameters,
-                "branch": str(self.branch),
-                "samples": len(self.joints.time),
-                "inertia": self.robot.inertia,
-                "actuators": self.motors,
-                "condition_length": LENGTH,
-                "thesis_pin": __version__,
-            },
+            "parameters": self.parameters,
             "assumptions": self.assumptions(),
             "summary": self.summary(),
         }

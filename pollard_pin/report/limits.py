@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -70,7 +69,7 @@ class MotorUse:
         """Whether no motor exceeds a limit."""
         return bool(self.torque.max() <= 1.0 and self.speed.max() <= 1.0)
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """JSON-ready."""
         return {
             "actuators": list(ACTUATOR_NAMES),

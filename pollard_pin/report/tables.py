@@ -65,13 +65,13 @@ def print_report(report: TrajectoryReport) -> None:
         "",
         "These numbers rest on assumptions:",
         *(
-            f"- {one['name'].replace('_', ' ')}{_values(one)}: {one['why']}"
+            f"- {str(one['name']).replace('_', ' ')}{_values(one)}: {one['why']}"
             for one in report.assumptions()
         ),
     )
 
 
-def _values(assumption: dict[str, Any]) -> str:
+def _values(assumption: dict[str, object]) -> str:
     """The numbers of an assumption in brackets, if they are few."""
     parts = [
         f"{key.replace('_', ' ')} {value}"

@@ -29,9 +29,8 @@ from thesis_pin.pages.scene import (
     levels,
     thinned,
 )
-from thesis_pin.report.summary import PALETTE
+from thesis_pin.report.curves import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
 
-BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = PALETTE
 YELLOW, BLACK, BASE = "#F0E442", "#1A1A1A", "#5F6B76"
 _CHAIN = {"chain1": ORANGE, "chain2": GREEN, "base": BASE, "tool": BLACK}
 

@@ -6,9 +6,9 @@ import itertools
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.screws import Posture
@@ -69,7 +69,7 @@ class Workspace:
             "determinant": self.determinant.ravel(),
         }
 
-    def summary(self) -> dict[str, Any]:
+    def summary(self) -> dict[str, float | None]:
         """Shares of the grid, and the best and worst conditions."""
         regular = np.isfinite(self.condition)
         inside = self.condition[regular]
@@ -84,7 +84,7 @@ class Workspace:
             "largest_condition": float(inside.max()) if inside.size else None,
         }
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The reachable, regular positions as JSON-ready data; see docs/pollard.md."""
         some = self.reachable & np.isfinite(self.condition)
         return {
@@ -108,9 +108,9 @@ class Workspace:
 
 def evaluate_workspace(
     robot: Pollard,
-    x: Any,
-    y: Any,
-    z: Any,
+    x: ArrayLike,
+    y: ArrayLike,
+    z: ArrayLike,
     orientation: Sequence[float] = (0.0, 0.0, 0.0),
     branch: Branch = DEFAULT_BRANCH,
     *,

@@ -13,15 +13,14 @@ from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.causes import CAUSES
 from pollard_pin.thesis.claims import claims
 from pollard_pin.thesis.effects import Effects
-from pollard_pin.thesis.references import References
+from pollard_pin.thesis.references import LoopReferences, OpenReferences, References
 from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
-from pollard_pin.thesis.symbols.loop import loop_symbols
-from pollard_pin.thesis.symbols.mechanics import Mechanics, driven
 from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.audit.text import ranges
 from thesis_pin.audit.thesis import Ground, Thesis
 from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.evaluation import Environment
 
 NUMBERS = (
     *(f"2.{k}" for k in range(1, 173)),
@@ -49,21 +48,21 @@ class Environments:
     """The references at the audit's states, each worked out when it is asked for."""
 
     @functools.cached_property
-    def open(self) -> References:
+    def open(self) -> OpenReferences:
         """Where nothing of the loops is assumed."""
-        return References(states(closed=False))
+        return OpenReferences(states(closed=False))
 
     @functools.cached_property
-    def closed(self) -> Mechanics:
+    def closed(self) -> References:
         """With closed loops, random bodies, and moved by the three base motors."""
-        return driven(states(closed=True), np.random.default_rng(_SEED))
+        return References.driven(states(closed=True), np.random.default_rng(_SEED))
 
     @functools.cached_property
-    def loops(self) -> References:
+    def loops(self) -> LoopReferences:
         """For appendix A, which names the loops' Jacobians."""
-        return loop_symbols(states(closed=True))
+        return LoopReferences.at(states(closed=True))
 
-    def of(self, equation: Equation) -> References:
+    def of(self, equation: Equation) -> Environment:
         """Where an equation has to hold.
 
         From chapter 3 on the coordinates are the pose's six and the loops are closed.

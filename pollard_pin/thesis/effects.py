@@ -17,7 +17,7 @@ from pollard_pin.motion.path import appendix_b
 from pollard_pin.specification import ACTUATORS
 from pollard_pin.thesis.claims.dynamics import AWAY
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
-from pollard_pin.thesis.symbols.mechanics import Mechanics
+from pollard_pin.thesis.references import References
 from thesis_pin.audit.rows import Effect
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.editions import EditionEnvironment
@@ -36,7 +36,7 @@ class Effects:
         random: Closed states of random robots with random bodies.
     """
 
-    def __init__(self, equations: Catalogue, random: Mechanics) -> None:
+    def __init__(self, equations: Catalogue, random: References) -> None:
         self.equations, self._states = equations, random
 
     @cached_property
@@ -47,7 +47,7 @@ class Effects:
         """
         drive = self._states.drive
         acceleration = np.random.default_rng(_SEED).uniform(-2, 2, drive.acceleration.shape)
-        mechanics = Mechanics(self._states.state, replace(drive, acceleration=acceleration))
+        mechanics = References(self._states.state, replace(drive, acceleration=acceleration))
         return _Model(self.equations, mechanics)
 
     @cached_property
@@ -81,7 +81,7 @@ class Effects:
         return np.linalg.inv(np.swapaxes(rows, -1, -2))
 
 
-def along_path() -> Mechanics:
+def along_path() -> References:
     """The thesis's robot on the default path.
 
     It runs through y = 0, where b_12 and c_22 vanish and the thesis's formulas divide
@@ -95,7 +95,7 @@ def along_path() -> Mechanics:
 class _Model:
     """The corrected model at some states, and what one printed line makes of it."""
 
-    def __init__(self, equations: Catalogue, mechanics: Mechanics) -> None:
+    def __init__(self, equations: Catalogue, mechanics: References) -> None:
         self.mechanics = mechanics
         self.environment = EditionEnvironment(equations, mechanics)
 

@@ -15,19 +15,19 @@ Source: Pollard thesis, 2.5, 2.6, 2.8, 2.9, chapter 3, appendices D and E.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import load
 from pollard_pin.specification import Specification
 from pollard_pin.thesis import margins
 from pollard_pin.thesis.catalogue import catalogue
+from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, ball_angles
 from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.bodies import constants_of
-from pollard_pin.thesis.symbols.mechanics import Mechanics
 from pollard_pin.thesis.symbols.motion import Drive
 from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.equations.catalogue import Edition
@@ -87,7 +87,7 @@ class ExplicitModel:
 
     # -- kinematics --------------------------------------------------------------
 
-    def rows(self, pose: Any) -> np.ndarray:
+    def rows(self, pose: ArrayLike) -> np.ndarray:
         """Joint rates over the pose's, ``(..., 12, 6)``, in the order of JOINT_NAMES.
 
         k_2, k_6, k_7, k_12, k_18, k_25, then k_2i, k_6i, k_7i of either side chain.
@@ -95,7 +95,7 @@ class ExplicitModel:
         """
         return self._batch(lambda model, mechanics: model._rows(mechanics), pose)
 
-    def k(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+    def k(self, number: int, pose: ArrayLike, chain: int | None = None) -> np.ndarray:
         """k_n as the thesis numbers them.
 
         A row of joint rates over the pose's, ``(..., 6)``, for k_2, k_6, k_7, k_12, k_18, k_25
@@ -111,20 +111,20 @@ class ExplicitModel:
         """
         return self._matrix("k", number, 25, 7, pose, chain)
 
-    def J_tau(self, pose: Any) -> np.ndarray:
+    def J_tau(self, pose: ArrayLike) -> np.ndarray:
         """Rows of the three base motors, ``(..., 3, 6)``. Source: (3.151)."""
         return self.rows(pose)[..., [0, 6, 9], :]
 
-    def accelerations(self, pose: Any, v: Any, a: Any) -> np.ndarray:
+    def accelerations(self, pose: ArrayLike, v: ArrayLike, a: ArrayLike) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` [rad/s²], in the order of JOINT_NAMES.
 
         Source: (2.75) … (2.87), (2.159) … (2.171), each joint's first relation. The forms
-        that collect the G of appendix E, (2.77) … (2.172), are lines of the audit.
+        that collect the G of appendix E are lines of the audit.
         """
 
-        def found(model: ExplicitModel, mechanics: Mechanics) -> np.ndarray:
+        def found(model: ExplicitModel, mechanics: References) -> np.ndarray:
             # What stands in for a line, and its shape, come from the exact accelerations.
-            mechanics = Mechanics(accelerating(mechanics.state), mechanics.drive)
+            mechanics = References(accelerating(mechanics.state), mechanics.drive)
             values = [
                 model._number(mechanics, Symbol("theta", name, dots=2), i)
                 for name, i in _angle_names()
@@ -133,7 +133,7 @@ class ExplicitModel:
 
         return self._batch(found, pose, v, a)
 
-    def M(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+    def M(self, number: int, pose: ArrayLike, chain: int | None = None) -> np.ndarray:
         """M_k, ``(..., 3, 6)``: odd, velocity of a centre of gravity; even, angular velocity.
 
         Args:
@@ -145,7 +145,7 @@ class ExplicitModel:
         """
         return self._matrix("M", number, 10, 4, pose, chain)
 
-    def N(self, number: int, pose: Any, chain: int | None = None) -> np.ndarray:
+    def N(self, number: int, pose: ArrayLike, chain: int | None = None) -> np.ndarray:
         """N_k, ``(..., 6, 6)``: a body's share of D.
 
         Args:
@@ -157,7 +157,7 @@ class ExplicitModel:
         """
         return self._matrix("N", number, 5, 2, pose, chain)
 
-    def margin(self, pose: Any) -> np.ndarray:
+    def margin(self, pose: ArrayLike) -> np.ndarray:
         """Smallest sine or cosine that the thesis's formulas divide by, ``(...)``.
 
         Below about 0.05 the explicit model loses digits that nothing else does; what has
@@ -168,32 +168,32 @@ class ExplicitModel:
 
     # -- dynamics ------------------------------------------------------------------
 
-    def D(self, pose: Any) -> np.ndarray:
+    def D(self, pose: ArrayLike) -> np.ndarray:
         """Mass matrix, ``(..., 6, 6)``. Source: (3.153), (3.68) … (3.134)."""
         return self._batch(lambda model, mechanics: model._terms(mechanics, "D")[0], pose)
 
-    def V(self, pose: Any, v: Any) -> np.ndarray:
+    def V(self, pose: ArrayLike, v: ArrayLike) -> np.ndarray:
         """V(q, q̇) = Ṅ − ½ [q̇ᵀ ∂N/∂q_j]_j, ``(..., 6, 6)``; only V q̇ compares.
 
         Source: (3.153), (3.68) … (3.140).
         """
         return self._batch(lambda model, mechanics: model._terms(mechanics, "V")[0], pose, v)
 
-    def C(self, pose: Any) -> np.ndarray:
+    def C(self, pose: ArrayLike) -> np.ndarray:
         """Gravity term [N], [N·m], ``(..., 6)``. Source: (3.153), (3.78) … (3.140)."""
         return self._batch(lambda model, mechanics: model._terms(mechanics, "C")[0], pose)
 
-    def terms(self, pose: Any, v: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def terms(self, pose: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """D, V and C at once: what they share is worked out once."""
 
-        def stacked(model: ExplicitModel, mechanics: Mechanics) -> np.ndarray:
+        def stacked(model: ExplicitModel, mechanics: References) -> np.ndarray:
             mass, velocity, gravity = model._terms(mechanics, "DVC")
             return np.concatenate([mass, velocity, gravity[..., None]], axis=-1)
 
         found = self._batch(stacked, pose, v)
         return found[..., :6], found[..., 6:12], found[..., 12]
 
-    def generalized_force(self, pose: Any, v: Any, a: Any) -> np.ndarray:
+    def generalized_force(self, pose: ArrayLike, v: ArrayLike, a: ArrayLike) -> np.ndarray:
         """Q = D q̈ + V q̇ + C [N], [N·m], ``(..., 6)``. Source: (3.153)."""
         v, a = (finite_array(name, x, 6) for name, x in (("v", v), ("a", a)))
         mass, velocity, gravity = self.terms(pose, v)
@@ -201,7 +201,7 @@ class ExplicitModel:
 
     # -- machinery -------------------------------------------------------------------
 
-    def mechanics(self, pose: np.ndarray, v: np.ndarray, a: np.ndarray) -> Mechanics:
+    def mechanics(self, pose: np.ndarray, v: np.ndarray, a: np.ndarray) -> References:
         """What each symbol must equal at poses ``(n, 6)`` on this model's branch.
 
         Raises:
@@ -220,25 +220,25 @@ class ExplicitModel:
         for i in "12":
             state = state.with_(**ball_angles(state, i))
         still = np.zeros((len(pose), 6))
-        return Mechanics(moving(state), Drive(a, still[:, :3], still))
+        return References(moving(state), Drive(a, still[:, :3], still))
 
     def _angles(self, pose: np.ndarray) -> np.ndarray:
         angles = self.robot.inverse_kinematics(pose, self.branch).require().angles
         margins.require(pose, angles)
         return angles
 
-    def environment(self, mechanics: Mechanics) -> EditionEnvironment:
+    def environment(self, mechanics: References) -> EditionEnvironment:
         """The thesis's symbols at some states, in this edition."""
         return EditionEnvironment(
             catalogue(), mechanics, self.edition, substituted=self.substituted
         )
 
-    def _number(self, mechanics: Mechanics, symbol: Symbol, i: str = "") -> np.ndarray:
+    def _number(self, mechanics: References, symbol: Symbol, i: str = "") -> np.ndarray:
         indices = {"i": i} if i else {}
         value = self.environment(mechanics).lookup(symbol.bound(indices), indices)
         return np.broadcast_to(value.array, (*mechanics.state.shape, *value.tail))
 
-    def _rows(self, mechanics: Mechanics) -> np.ndarray:
+    def _rows(self, mechanics: References) -> np.ndarray:
         environment, found = self.environment(mechanics), []
         names = [(name, "") for name in ROW_NAMES]
         names += [(name, i) for i in "12" for name in SIDE_ROW_NAMES]
@@ -247,7 +247,7 @@ class ExplicitModel:
             found.append(environment.lookup(symbol, {"i": i} if i else {}).array)
         return np.stack(np.broadcast_arrays(*found), axis=-2)
 
-    def _terms(self, mechanics: Mechanics, wanted: str) -> list[np.ndarray]:
+    def _terms(self, mechanics: References, wanted: str) -> list[np.ndarray]:
         environment, found = self.environment(mechanics), []
         for letter in wanted:
             value = environment.lookup(Symbol(letter, "j"), {}).array  # j stands first
@@ -256,7 +256,13 @@ class ExplicitModel:
         return found
 
     def _matrix(
-        self, letter: str, number: int, count: int, side_count: int, pose: Any, chain: int | None
+        self,
+        letter: str,
+        number: int,
+        count: int,
+        side_count: int,
+        pose: ArrayLike,
+        chain: int | None,
     ) -> np.ndarray:
         if chain not in (None, 1, 2):
             raise UnknownName("chain", chain, ("None", "1", "2"))
@@ -269,10 +275,10 @@ class ExplicitModel:
 
     def _batch(
         self,
-        of: Callable[[ExplicitModel, Mechanics], np.ndarray],
-        pose: Any,
-        v: Any = None,
-        a: Any = None,
+        of: Callable[[ExplicitModel, References], np.ndarray],
+        pose: ArrayLike,
+        v: ArrayLike | None = None,
+        a: ArrayLike | None = None,
     ) -> np.ndarray:
         pose = finite_array("pose", pose, 6)
         given = {"v": v, "a": a}

@@ -1,5 +1,9 @@
 """What each symbol of the thesis must equal, computed without its formulas.
 
+Geometry comes from :mod:`pollard_pin.thesis.state`: products of elementary
+transforms, differentiated factor by factor. From these follow, by definition
+and not by the thesis's derivations:
+
 ========================  ====================================================
 symbol                    reference
 ========================  ====================================================
@@ -12,166 +16,69 @@ V                         coefficients of the rates, :mod:`pollard_pin.thesis.sy
 E                         denominators times the closed mechanism's joint rates
 G                         coefficients of the accelerations,
                           :mod:`pollard_pin.thesis.symbols.accelerations`
-a dot                     complex step along the rates
-two dots                  Taylor coefficient along rates and accelerations
+R, r; i, j, k, framed     rotations, differences of origins; columns of a rotation
+v, ω                      their derivatives along the joints' rates
+k_1, k_3 … (vectors)      ∂r_G/∂θ by the one angle they multiply
+k_2, k_6 … (rows)         joint rates of the closed mechanism
+J_n, J'_n of a k_n        its derivatives by the angles of a chain
+M, N, L                   the bodies' Jacobians, inertias and energies
+D, V, C                   :mod:`thesis_pin.equations.lagrangian` on those Jacobians
+Q, q̈                      what the equation of motion leaves; what the three base
+                          motors alone produce, so that Q = J_τᵀ τ as 3.6 supposes
+r_p; r_A … r_L            appendix A: the spray tip; derivatives of the wrist, a rod's
+                          end and its ball joint by one angle
+J_θ, J_q, J_β, J_k        appendix A: the same, all angles of a chain
 ========================  ====================================================
+
+A dot is a complex step along the rates; two dots in chapter 2 a Taylor
+coefficient along rates and accelerations; ∂/∂q_j a complex step along q_j with
+the loops closed, ∂/∂θ one of that angle alone.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
-from pollard_pin.thesis.state import TRANSFORMS, VARIABLES, State
-from pollard_pin.thesis.symbols import accelerations
-from pollard_pin.thesis.symbols.loops import between, element, frame, opening, side
-from pollard_pin.thesis.symbols.rates import coefficient
-from thesis_pin.equations.formula import FormulaError, Node, Symbol
-from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
-
-_LAST = np.array([0.0, 0.0, 0.0, 1.0])
-
-
-class References:
-    """The reference environment: every symbol at a batch of states."""
-
-    columns = 0  # a row that ends in 0 isn't filled up
-
-    def __init__(self, state: State) -> None:
-        self.state = state
-        self._values: dict[tuple[str, int, str], Value] = {}
-
-    def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
-        """Value of a symbol; see :class:`thesis_pin.equations.evaluation.Environment`."""
-        i = indices.get("i", "")
-        key = (symbol.name + "*" * symbol.bold, symbol.dots, i)
-        if key not in self._values:
-            value = self._find(symbol, i)
-            if value is None:
-                dots = "˙" * symbol.dots
-                raise FormulaError(f"the symbol {symbol.name}{dots} isn't defined anywhere")
-            self._values[key] = value
-        return self._values[key]
-
-    def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
-        """The thesis writes no derivative of a formula."""
-        raise FormulaError("a derivative of a formula has no reference")
-
-    def _find(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.dots == 1:
-            return self._rate(symbol, i)
-        if symbol.dots == 2:
-            return self._acceleration(symbol, i)
-        if symbol.dots:
-            return None
-        return both_chains(self.state, symbol.name, i)
-
-    def _rate(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.name in VARIABLES:
-            return scalar(self.state.rates[symbol.name])
-        moved = both_chains(self.state.step(dict(self.state.rates)), symbol.name, i)
-        if moved is None:
-            return None
-        return Value(np.imag(moved.array) / STEP, moved.rank)
-
-    def _acceleration(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.name in VARIABLES:
-            return scalar(self.state.accelerations[symbol.name])
-        if re.match("[VEG]_", symbol.name):  # themselves derivatives
-            return None
-        circle = accelerations.Circle(self.state, i)
-        moved = find(circle.state, symbol.name, i)
-        if moved is None:
-            return None
-        return Value(circle.derivative(moved.array, 2, -1 - moved.rank), moved.rank)
+from pollard_pin.thesis.state import POSE, State
+from pollard_pin.thesis.symbols.accelerations import accelerating
+from pollard_pin.thesis.symbols.appendix_a import AppendixA
+from pollard_pin.thesis.symbols.bodies import random_constants
+from pollard_pin.thesis.symbols.dynamics import MOTORS, Dynamics
+from pollard_pin.thesis.symbols.motion import Drive
+from pollard_pin.thesis.symbols.positions import Positions
+from pollard_pin.thesis.symbols.rates import joint_rates
 
 
-def both_chains(state: State, name: str, i: str) -> Value | None:
-    """Reference of a symbol; where it is a side chain's and none is named, of both.
-
-    V_44 onwards and E_31 onwards carry no i: their values then have a batch axis more.
-    """
-    value = find(state, name, i)
-    if value is not None or i:
-        return value
-    pair = [find(state, name, k) for k in "12"]
-    if pair[0] is None or pair[1] is None:
-        return None
-    return Value(np.stack([pair[0].array, pair[1].array]), pair[0].rank)
+class OpenReferences(Positions):
+    """Chapter 2's symbols, where nothing of the loops is assumed."""
 
 
-def find(state: State, name: str, i: str) -> Value | None:
-    """Reference of an undotted symbol at states, real or complex; None if there is none."""
-    if name == "signo":
-        return scalar(state.constants[f"signo{i}"]) if i else None
-    if name in state.variables or name in state.constants:
-        return scalar(state.number(name))
-    if name == "n":
-        return vector(_LAST)
-    for pattern, answer in _KINDS:
-        match = re.fullmatch(pattern, name)
-        if match:
-            return answer(state, i, *match.groups())
-    return None
+class LoopReferences(AppendixA):
+    """Appendix A's symbols at closed states, which it calls by names of other things."""
+
+    @classmethod
+    def at(cls, state: State) -> LoopReferences:
+        """The symbols at closed states; appendix A has no forces and no accelerations."""
+        (size,) = state.shape
+        return cls(state, Drive(np.zeros((size, 6)), np.zeros((size, 3)), np.zeros((size, 6))))
 
 
-def _transform(state: State, _: str, name: str) -> Value | None:
-    """T by its printed name: a chain's number stands at the end."""
-    if name in TRANSFORMS or name == "T_LD0":
-        return matrix(state.transform(name))
-    made = frame(state, name)
-    if made is not None:
-        return matrix(made)
-    if f"{name[:-1]}i" in TRANSFORMS:
-        return matrix(state.transform(f"{name[:-1]}i", name[-1]))
-    return None
+class References(Dynamics):
+    """All other symbols, at closed states."""
 
-
-def _element(state: State, i: str, letter: str, row: str, column: str) -> Value | None:
-    found = element(state, letter, i, int(row), int(column))
-    return None if found is None else scalar(found)
-
-
-def _fourier(state: State, _: str, letter: str, kind: str) -> Value:
-    """A, B, C with opening = C + A cos θ + B sin θ."""
-    i = "" if kind == "0" else kind
-    at = {
-        turn: opening(state.with_(**{f"theta_21{i}": np.full(state.shape, turn * np.pi / 2)}), i)
-        for turn in (-1, 0, 1, 2)
-    }
-    values = {"A": at[0] - at[2], "B": at[1] - at[-1], "C": at[0] + at[2]}
-    return scalar(values[letter] / 2)
-
-
-def _coordinate(state: State, _: str, letter: str, i: str | None) -> Value:
-    return scalar(side(state, 4 if i else 2, i or "")[..., "XYZ".index(letter)])
-
-
-def _side(state: State, i: str, k: str) -> Value | None:
-    return vector(side(state, int(k), i)) if int(k) < 3 or i else None
-
-
-def _coefficient(state: State, i: str, name: str) -> Value | None:
-    of = accelerations.coefficient if name.startswith("G") else coefficient
-    found = of(state, name, i)
-    return None if found is None else scalar(found)
-
-
-def _radius(state: State, i: str, name: str) -> Value | None:
-    """r_ab of (2.1) and its like: from origin b to origin a, in the base frame."""
-    found = between(state, name, i)
-    return None if found is None else vector(found)
-
-
-_Answer = Callable[..., Value | None]
-_KINDS: tuple[tuple[str, _Answer], ...] = (
-    (r"(T_\w+)", _transform),
-    (r"([a-f])_([1-4])([1-4])", _element),
-    (r"([ABC])_1([012])", _fourier),
-    (r"([XYZ])(?:_([12]))?", _coordinate),
-    (r"Ec_([1-4])", _side),
-    (r"([VEG]_\d+)", _coefficient),
-    (r"r_(\d+)(?:\^0)?", _radius),
-)
+    @classmethod
+    def driven(cls, state: State, generator: np.random.Generator) -> References:
+        """Closed states with random bodies, moved by random torques of the three base motors."""
+        (size,) = state.shape
+        state = replace(state, constants={**state.constants, **random_constants(generator, size)})
+        torque = generator.uniform(-500, 500, (size, 3))
+        virtual = generator.uniform(-1, 1, (size, 6))
+        still = cls(state, Drive(np.zeros((size, 6)), torque, virtual))
+        rows = joint_rates(state)
+        force = sum(torque[:, k, None] * rows[name] for k, name in enumerate(MOTORS))
+        rest = force - still.generalized_force
+        acceleration = np.linalg.solve(still.terms.mass, rest[..., None])[..., 0]
+        bent = replace(state, accelerations=dict(zip(POSE, acceleration.T, strict=True)))
+        return cls(accelerating(bent), Drive(acceleration, torque, virtual))

@@ -19,6 +19,7 @@ from scout_pin.specification import SIDES
 from thesis_pin.contacts.cones import in_sole_axes
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import choice
+from thesis_pin.numeric.trajectory import JointTrajectory
 
 
 @dataclass(frozen=True)
@@ -96,13 +97,22 @@ def touchdown_impact(
     return Impact(t, side, held, rows[side] @ v, after[6:] - v[6:], impulse, lost, fine)
 
 
-def impacts(robot: Scout, gait: Gait, time_unit: float | None = None) -> list[Impact]:
-    """Impacts of every touchdown of a gait, from the planned motion just before it."""
+def impacts(
+    robot: Scout, gait: Gait, joints: JointTrajectory, time_unit: float | None = None
+) -> list[Impact]:
+    """Impacts of every touchdown of a gait, from the planned motion just before it.
+
+    Args:
+        robot: The biped, with a free-flyer root.
+        gait: The gait.
+        joints: Its joint trajectory, sampled; the legs land on the branches it is on.
+        time_unit: Seconds in the gait's unit of t; None for the gait's own.
+    """
     result = []
     for t, side in gait.touchdowns():
-        before = np.array([np.nextafter(t, -np.inf)])
-        motion = gait.sample(before, time_unit)
-        joints = joint_trajectory(robot, motion)
-        q, v, _ = free_flyer_state(motion.torso, joints)
+        motion = gait.sample(np.array([np.nextafter(t, -np.inf)]), time_unit)
+        last = max(int(np.searchsorted(joints.time, motion.time[0], side="right")) - 1, 0)
+        landing = joint_trajectory(robot, motion, reference=joints.q[last])
+        q, v, _ = free_flyer_state(motion.torso, landing)
         result.append(touchdown_impact(robot, q[0], v[0], side, t))
     return result

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,7 +34,13 @@ class TorqueBlock:
 
 
 def torque_blocks(
-    robot: Scout, gait: Gait, t: np.ndarray, time_unit: float | None = None, size: int = BLOCK
+    robot: Scout,
+    gait: Gait,
+    t: np.ndarray,
+    *,
+    time_unit: float | None = None,
+    branch: str | Sequence[str] | None = None,
+    size: int = BLOCK,
 ) -> Iterator[TorqueBlock]:
     """Sample a gait, solve its joints and its torques, block by block.
 
@@ -48,6 +54,7 @@ def torque_blocks(
         gait: The gait.
         t: Times in the gait's unit, in order, shape ``(n,)``; see ``gait.sample_times``.
         time_unit: Seconds in the gait's unit of t; None for the gait's own.
+        branch: As in :func:`scout_pin.joint_trajectory`.
         size: Samples a block.
 
     Yields:
@@ -59,6 +66,6 @@ def torque_blocks(
     t, last = finite_array("t", t, None), None
     for part in blocks(len(t), size):
         motion = gait.sample(t[part], time_unit)
-        joints = joint_trajectory(robot, motion, last)
+        joints = joint_trajectory(robot, motion, branch=branch, reference=last)
         last = joints.q[-1]
         yield TorqueBlock(part.start, motion, joints, inverse_dynamics(robot, motion, joints))

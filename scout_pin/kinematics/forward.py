@@ -10,9 +10,9 @@ Source: Scout thesis, 3.1 (transformations) and the loop equation (3.4).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from scout_pin.kinematics.geometry import LegGeometry
 from thesis_pin.numeric.rotations import transform
@@ -69,7 +69,7 @@ def leg_frames(leg: LegGeometry, theta: np.ndarray) -> LegFrames:
     return LegFrames(axes, points, np.stack([a, j11, k11]), points[5] + leg.y_6 * j11)
 
 
-def leg_forward_kinematics(leg: LegGeometry, theta: Any) -> np.ndarray:
+def leg_forward_kinematics(leg: LegGeometry, theta: ArrayLike) -> np.ndarray:
     """Placement of the sole in the torso frame, equation (3.4).
 
     Args:

@@ -18,6 +18,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from scout_pin.kinematics.closed_form import ClosedForm, Free
 from scout_pin.kinematics.families import axis_bounds, yaw_bounds
@@ -36,7 +37,7 @@ _PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the
 
 
 def leg_inverse_kinematics(
-    leg: LegGeometry, torso_to_foot: Any, reference: Any = None
+    leg: LegGeometry, torso_to_foot: ArrayLike, reference: ArrayLike | None = None
 ) -> LegSolutions:
     """Every set of joint angles that brings a sole to a pose.
 
@@ -176,28 +177,42 @@ def _members(
 
 
 def one_branch(
-    leg: LegGeometry, side: str, target: np.ndarray, reference: np.ndarray | None
+    leg: LegGeometry,
+    side: str,
+    target: np.ndarray,
+    reference: np.ndarray | None,
+    only: int | None = None,
 ) -> np.ndarray:
     """Angles ``(..., 6)`` on one branch a pose, by the rule of ``Scout.inverse_kinematics``.
+
+    ``only`` is the number of the one branch to take; None leaves the choice.
 
     Raises:
         Unreachable: Some pose has no valid branch.
     """
     if target.ndim == 3 and len(target) and (reference is None or reference.ndim == 1):
         entries = target.reshape(-1, 16).T
-        found = follow_branch(leg, len(target), lambda part: entries[:, part].copy(), reference)
+        found = follow_branch(
+            leg, len(target), lambda part: entries[:, part].copy(), reference, only
+        )
         if found is not None:
             return found
-    return choose_branch(every_branch(leg, target, reference), side, reference)
+    return choose_branch(every_branch(leg, target, reference), side, reference, only)
 
 
-def choose_branch(solutions: LegSolutions, side: str, reference: Any = None) -> np.ndarray:
+def choose_branch(
+    solutions: LegSolutions,
+    side: str,
+    reference: ArrayLike | None = None,
+    only: int | None = None,
+) -> np.ndarray:
     """One valid branch a pose, by the rule of ``Scout.inverse_kinematics``.
 
     Args:
         solutions: All branches, of a single pose or a stack.
         side: Name of the leg, for messages.
         reference: Angles [rad], ``(6,)`` or ``(..., 6)``.
+        only: Number of the one branch to take; None leaves the choice.
 
     Returns:
         Angles [rad], shape ``(..., 6)``.
@@ -206,12 +221,14 @@ def choose_branch(solutions: LegSolutions, side: str, reference: Any = None) -> 
         Unreachable: Some pose has no valid branch.
     """
     valid, angles = solutions.valid, solutions.angles
+    if only is not None:
+        valid = valid & (np.arange(8) == only)
     possible = valid.any(axis=-1)
     if not possible.all():
         index = tuple(int(k) for k in np.argwhere(~np.atleast_1d(possible))[0])[: possible.ndim]
         where = f"{side} foot" + (f", sample {index[0]}" if index else "")
         raise Unreachable(
-            solutions.explain(index), where=where, remedy="Move the torso or the foot closer"
+            solutions.explain(index, only), where=where, remedy="Move the torso or the foot closer"
         )
     start = np.zeros(6) if reference is None else np.asarray(reference)
     each = np.ndim(start) > 1
@@ -239,6 +256,7 @@ def follow_branch(
     count: int,
     matrices: Callable[[slice], np.ndarray],
     reference: np.ndarray | None = None,
+    only: int | None = None,
 ) -> np.ndarray | None:
     """One branch along a whole motion, if one is valid throughout: no other is worked out.
 
@@ -251,6 +269,7 @@ def follow_branch(
         matrices: Gives the rows of the rigid placements torso to sole of some
             samples, entries first, shape ``(12 or 16, n)``.
         reference: Angles [rad], ``(6,)``; None for zero.
+        only: Number of the one branch to try; None tries all.
 
     Returns:
         Angles [rad], shape ``(count, 6)``; None if no branch is valid throughout.
@@ -265,7 +284,7 @@ def follow_branch(
         for limit, sign in ((leg.lower, -1), (leg.upper, 1))
     )
     theta = np.empty((count, 6))
-    for k in np.argsort(step, kind="stable"):
+    for k in np.argsort(step, kind="stable") if only is None else (only,):
         for part in blocks(count):
             *gammas, excess = ClosedForm(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
             angles = wrap(np.array(gammas[k % 2]) - leg.beta[:, None])

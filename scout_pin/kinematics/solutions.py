@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,7 +10,8 @@ import numpy as np
 
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
-from thesis_pin.numeric.checks import element
+from thesis_pin.errors import BadInput
+from thesis_pin.numeric.checks import element, shown
 from thesis_pin.report.branches import label
 from thesis_pin.tolerances import TOLERANCES
 
@@ -17,6 +19,38 @@ BRANCHES = tuple((e, two, knee) for e in (1, -1) for two in (1, -1) for knee in 
 """Signs (S_E, S_2, S_K) of the eight branches: direction of e, sign of
 sin γ2, sign of sin γ4. The thesis's gait lies on (1, 1, 1) for the left leg and
 on (−1, 1, −1) for the right."""
+
+_NUMBERS = {label(signs): k for k, signs in enumerate(BRANCHES)}
+
+
+def branch_numbers(branch: str | Sequence[str] | None) -> tuple[int | None, int | None]:
+    """Which of :data:`BRANCHES` each leg is to take; None leaves it open.
+
+    Args:
+        branch: Signs for both legs, as ``"+-+"``; or one label a leg, left then right,
+            as ``("+++", "-+-")`` or ``"+++,-+-"``.
+
+    Raises:
+        BadInput: It is none of these.
+    """
+    if branch is None:
+        return None, None
+    labels = branch.split(",") if isinstance(branch, str) else branch
+    known = isinstance(labels, list | tuple) and all(isinstance(one, str) for one in labels)
+    numbers = [_NUMBERS.get(one) for one in labels] if known else []
+    if len(numbers) not in (1, 2) or None in numbers:
+        raise BadInput(
+            f"branch is {shown(branch)}",
+            allowed='three signs for both legs, as "+-+", or for each, as "+++,-+-"',
+            remedy="scout-pin ik lists the branches of a pose",
+        )
+    return numbers[0], numbers[-1]
+
+
+def branch_label(branch: str | Sequence[str] | None) -> str | None:
+    """The branches of both legs in one string, as ``"+++,-+-"``; None if they are open."""
+    numbers = [k for k in branch_numbers(branch) if k is not None]
+    return ",".join(label(BRANCHES[k]) for k in numbers) or None
 
 
 @dataclass(frozen=True)

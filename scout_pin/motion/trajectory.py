@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from scout_pin.kinematics.rates import leg_rates
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
+from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.trajectory import JointTrajectory
 
@@ -15,13 +19,20 @@ _LEGS = (slice(0, 6), slice(6, 12))  # each leg's joints, in the order of SIDES
 
 
 def joint_trajectory(
-    robot: Scout, motion: GaitMotion, reference: np.ndarray | None = None
+    robot: Scout,
+    motion: GaitMotion,
+    *,
+    branch: str | Sequence[str] | None = None,
+    reference: ArrayLike | None = None,
 ) -> JointTrajectory:
     """Inverse kinematics of a whole motion, rates and accelerations included.
 
     Args:
         robot: The biped.
         motion: The sampled gait.
+        branch: Signs of the branch to take, for both legs or one label a leg, as
+            ``"+-+"`` or ``("+++", "-+-")``; None takes the nearest to the reference of
+            those that are valid throughout.
         reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
 
     Raises:
@@ -30,7 +41,8 @@ def joint_trajectory(
     """
     instance("robot", robot, Scout, "scout_pin.load()")
     instance("motion", motion, GaitMotion, "Gait.sample()")
-    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, reference)
+    start = None if reference is None else vector("reference", reference, 12)
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=branch)
     feet = (motion.left_foot, motion.right_foot)
     v, a = np.empty(q.shape), np.empty(q.shape)
     for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
 from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
+from scout_pin.kinematics.solutions import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
@@ -47,9 +48,9 @@ class GaitReport(GaitNumbers):
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
 
-    def assumptions(self) -> list[dict[str, Any]]:
+    def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open, with their reasons."""
-        result = []
+        result: list[dict[str, object]] = []
         for name in type(self.robot.specification.assumptions).model_fields:
             entry = getattr(self.robot.specification.assumptions, name).model_dump()
             result.append({"name": name, **entry})
@@ -58,7 +59,20 @@ class GaitReport(GaitNumbers):
         )
         return result
 
-    def document(self) -> dict[str, Any]:
+    @property
+    def parameters(self) -> dict[str, object]:
+        """What was asked for: robot, motion, samples, choices."""
+        return {
+            "robot": self.robot.specification.name,
+            "gait": self.gait.name,
+            "time_unit": self.time_unit,
+            "branch": self.branch,
+            "samples": len(self.joints.time),
+            "inertia": self.robot.inertia,
+            "thesis_pin": __version__,
+        }
+
+    def document(self) -> dict[str, object]:
         """The report as JSON-ready data; see docs/scout.md."""
         wrench = self.dynamics.wrench
         return {
@@ -78,21 +92,17 @@ class GaitReport(GaitNumbers):
             "zmp": self.zmp,
             "margin": self.margin,
             "admissible": self.dynamics.admissible,
-            "parameters": {
-                "robot": self.robot.specification.name,
-                "gait": self.gait.name,
-                "time_unit": self.time_unit,
-                "samples": len(self.joints.time),
-                "inertia": self.robot.inertia,
-                "thesis_pin": __version__,
-            },
+            "parameters": self.parameters,
             "assumptions": self.assumptions(),
             "summary": self.summary(),
         }
 
-    def columns(self) -> dict[str, Any]:
+    def columns(self) -> dict[str, np.ndarray | list[str]]:
         """The samples as columns of a table: name with unit → values."""
-        columns: dict[str, Any] = {"time_s": self.joints.time, "phase": self.motion.phase}
+        columns: dict[str, np.ndarray | list[str]] = {
+            "time_s": self.joints.time,
+            "phase": self.motion.phase,
+        }
         for prefix, values, unit in (
             ("theta", self.joints.q, "rad"),
             ("theta_rate", self.joints.v, "rad_s"),
@@ -166,6 +176,7 @@ def gait_report(
     *,
     samples: int = 401,
     time_unit: float | None = None,
+    branch: str | Sequence[str] | None = None,
     progress: Callable[[int, int], None] = silent,
 ) -> GaitReport:
     """Work out a gait: angles, torques, stability, contact, impacts, servo limits.
@@ -175,6 +186,8 @@ def gait_report(
         gait: The gait.
         samples: Number of evenly spaced samples.
         time_unit: Seconds in the gait's unit of t; None for the gait's own.
+        branch: Signs of the branch to take, for both legs or one label a leg, as ``"+-+"``
+            or ``("+++", "-+-")``; None takes one that is valid throughout.
         progress: Called with the steps done and their total.
 
     Raises:
@@ -186,7 +199,7 @@ def gait_report(
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
-    joints = joint_trajectory(robot, motion)
+    joints = joint_trajectory(robot, motion, branch=branch)
     progress(2, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
     progress(3, 4)
@@ -196,13 +209,14 @@ def gait_report(
         robot=robot,
         gait=gait,
         time_unit=unit,
+        branch=branch_label(branch),
         motion=motion,
         joints=joints,
         dynamics=dynamics,
         com=com,
         zmp=zmp,
         margin=support_margin(robot, motion, zmp),
-        impacts=tuple(impacts(robot, gait, unit)),
+        impacts=tuple(impacts(robot, gait, joints, unit)),
     )
     progress(4, 4)
     return report

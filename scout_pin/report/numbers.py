@@ -24,6 +24,7 @@ class GaitNumbers:
     Attributes:
         robot, gait: What was asked about.
         time_unit: Seconds in the gait's unit of t.
+        branch: Labels of the branches asked for, left then right; None left it open.
         motion: Sampled task-space motion.
         joints: Joint trajectory.
         dynamics: Torques and floor wrenches.
@@ -36,6 +37,7 @@ class GaitNumbers:
     robot: Scout
     gait: Gait
     time_unit: float
+    branch: str | None
     motion: GaitMotion
     joints: JointTrajectory
     dynamics: ContactDynamics

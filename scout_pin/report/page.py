@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
-from scout_pin.report.page_plots import report_plots
 from scout_pin.report.view import gait_scene
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.pages.page import Page, Table, Tile, assumptions_table, html, software
+from thesis_pin.pages.scene import thinned
+
+MOST_SAMPLES = 1201
+"""Of a plot."""
 
 
 def gait_page(report: GaitReport) -> bytes:
@@ -26,7 +30,7 @@ def gait_page(report: GaitReport) -> bytes:
             good=report.within_limits,
             verdict=report.verdict(),
             tiles=_tiles(report),
-            plots=report_plots(report),
+            plots=plots(report, thinned(report.joints.time, MOST_SAMPLES)),
             tables=_tables(report),
             scene=gait_scene(report),
         )
@@ -87,7 +91,6 @@ def _tables(report: GaitReport) -> list[Table]:
         ],
         note="'servo' is the worst |τ|/stall + |θ̇|/no-load, at most 100 %.",
     )
-    parameters = report.document()["parameters"]
     return [
         joints,
         *_impacts(report),
@@ -95,7 +98,7 @@ def _tables(report: GaitReport) -> list[Table]:
         Table(
             "Parameters",
             ("parameter", "value"),
-            [(name.replace("_", " "), str(value)) for name, value in parameters.items()],
+            [(name.replace("_", " "), str(value)) for name, value in report.parameters.items()],
             prose=True,
         ),
         software(),

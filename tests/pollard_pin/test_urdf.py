@@ -16,6 +16,7 @@ from thesis_pin.model.loading import model_folder
 SPECIFICATIONS = [None, SKEWED_PATH]
 
 
+@pytest.mark.bytes
 def test_checked_in_files_are_those_the_specifications_give():
     folder = model_folder("pollard")
     generated = {}

@@ -3,10 +3,14 @@
 from pathlib import Path
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 import scout_pin
-from scout_pin.specification import Specification
+from scout_pin.dynamics.inverse import inverse_dynamics
+from scout_pin.motion.files import load_gait
+from scout_pin.motion.trajectory import joint_trajectory
+from scout_pin.specification import SIDES, Specification
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -37,6 +41,12 @@ def rng():
     return np.random.default_rng(20101)
 
 
+def states(rng, count=40):
+    """Random q, v, a in the thesis's coordinates, each ``(count, 18)``."""
+    q = rng.uniform(-1.2, 1.2, (count, 18))
+    return q, *rng.normal(size=(2, count, 18))
+
+
 def random_specification(rng: np.random.Generator) -> Specification:
     """The thesis's robot with random lengths and constant angles, legs unequal."""
     data = Specification.read().model_dump()
@@ -47,3 +57,27 @@ def random_specification(rng: np.random.Generator) -> Specification:
         leg["beta_deg"] = tuple(rng.uniform(-180, 180, 6).tolist())
         leg["beta_7_deg"], leg["beta_8_deg"] = rng.uniform(-180, 180, 2).tolist()
     return Specification.model_validate(data)
+
+
+@pytest.fixture(scope="module", params=["thesis", "walk", "lopsided_walk"])
+def case(request, scout, lopsided):
+    """A robot, a gait on it, and its dynamics at 81 samples."""
+    robot = lopsided if request.param.startswith("lopsided") else scout
+    name = "thesis" if request.param == "thesis" else EXAMPLES / f"{request.param}.toml"
+    gait = load_gait(name)
+    motion = gait.sample(gait.sample_times(81))
+    joints = joint_trajectory(robot, motion)
+    return robot, motion, joints, inverse_dynamics(robot, motion, joints)
+
+
+def sole_jacobians(robot, q):
+    """Jacobians of both soles by Pinocchio, world axes at p_i, ``(2, 6, 18)``."""
+    data = robot.model.createData()
+    return np.stack(
+        [
+            pin.computeFrameJacobian(
+                robot.model, data, q, robot.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
+            )
+            for side in SIDES
+        ]
+    )

@@ -5,13 +5,10 @@ import pinocchio as pin
 import pytest
 
 import scout_pin
-from thesis_pin.errors import BadInput, SingularPose, UnknownName, WrongShape
+from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.numeric.rotations import euler_placement
 
-
-def states(rng, count=40):
-    q = rng.uniform(-1.2, 1.2, (count, 18))
-    return q, *rng.normal(size=(2, count, 18))
+from .conftest import states
 
 
 def symmetric(matrix):
@@ -69,33 +66,21 @@ def test_thesis_root_places_the_torso_by_the_thesis_transformations(scout_thesis
     np.testing.assert_allclose(torso.translation, q[:3], atol=1e-15)
 
 
-def test_coordinates_convert_there_and_back_for_one_state_and_a_batch(scout, rng):
-    q, v, a = states(rng, 60)
-    for part in (slice(None), 7):
-        back = scout.to_thesis(*scout.to_free_flyer(q[part], v[part], a[part]))
-        for ours, given in zip(back, (q, v, a), strict=True):
-            np.testing.assert_allclose(ours, given[part], atol=1e-12)
-    grid = scout.to_free_flyer(q.reshape(3, 20, 18))
-    assert grid[0].shape == (3, 20, 19)
-    assert grid[1] is None
-
-
-def test_free_flyer_velocity_is_pinocchios_difference_of_configurations(scout, rng):
-    q, v, a = states(rng, 5)
-    h = 1e-6
-    position, velocity, acceleration = scout.to_free_flyer(q, v, a)
-    later_q, later_v, _ = scout.to_free_flyer(q + h * v + 0.5 * h * h * a, v + h * a, a)
-    for k in range(5):
-        moved = pin.difference(scout.model, position[k], later_q[k]) / h
-        np.testing.assert_allclose(moved, velocity[k], atol=1e-4)
-    np.testing.assert_allclose((later_v - velocity) / h, acceleration, atol=1e-4)
-
-
-def test_gimbal_lock_is_refused_on_the_way_to_thesis_coordinates(scout):
-    q = np.zeros(18)
-    q[4] = np.pi / 2
-    with pytest.raises(SingularPose, match="φ_B"):
-        scout.to_thesis(scout.to_free_flyer(q)[0])
+@pytest.mark.parametrize("root", ["free_flyer", "thesis"])
+def test_configuration_makes_pinocchio_reach_what_inverse_kinematics_was_asked_for(root, rng):
+    robot = scout_pin.load(root=root)
+    torso = pin.SE3(pin.rpy.rpyToMatrix(0.1, -0.05, 0.2), np.array([0.01, 0.02, 0.3]))
+    feet = robot.forward_kinematics(rng.uniform(-0.4, 0.4, 12), torso)
+    angles = robot.inverse_kinematics(torso, feet["left"], feet["right"])
+    q = robot.configuration(torso, angles)
+    assert q.shape == (robot.model.nq,)
+    pin.framesForwardKinematics(robot.model, robot.data, q)
+    for side in ("left", "right"):
+        reached = robot.data.oMf[robot.sole_frames[side]].homogeneous
+        np.testing.assert_allclose(reached, feet[side], atol=1e-12)
+    stack = robot.configuration(torso, np.stack([angles, np.zeros(12)]))
+    np.testing.assert_allclose(stack[0], q, atol=1e-15)
+    np.testing.assert_array_equal(stack[1, -12:], 0.0)
 
 
 @pytest.mark.parametrize("arguments", [{"root": "fixed"}, {"inertia": "guessed"}])
@@ -109,10 +94,6 @@ def test_wrong_shapes_are_refused(scout):
     stacks = [np.broadcast_to(place, (n, 4, 4)) for place, n in ((np.eye(4), 3), (feet["left"], 2))]
     with pytest.raises(BadInput, match="equal stacks"):
         scout.inverse_kinematics(*stacks, feet["right"])
-    with pytest.raises(BadInput, match="quaternion"):
-        scout.to_thesis(np.zeros(19))
-    with pytest.raises(WrongShape, match="18"):
-        scout.to_free_flyer(np.zeros(19))
     with pytest.raises(UnknownName, match="side"):
         scout.leg_inverse_kinematics("middle", np.eye(4))
 

@@ -14,6 +14,7 @@ from thesis_pin.model.loading import model_folder
 from .conftest import EXAMPLES
 
 
+@pytest.mark.bytes
 def test_checked_in_files_are_those_the_specification_gives():
     folder = model_folder("scout")
     generated = files(Specification.read())

@@ -271,7 +271,7 @@ CALLS = {
     ),
     "load_model": (
         loading.load_model,
-        {"text": SCOUT.urdf.replace("meshes", "."), "root_joint": None},
+        {"urdf": SCOUT.urdf.replace("meshes", "."), "root_joint": None},
     ),
     "frame_id": (loading.frame_id, {"model": SCOUT.model, "name": "left_sole"}),
     "check_physical": (

@@ -355,16 +355,6 @@ def test_texts_of_user_files_are_shown_and_never_run(browser, folder, report):
         assert browser.complaints() == []
 
 
-def test_plots_are_figures_that_plotly_itself_accepts(report):
-    import plotly.graph_objects
-
-    from scout_pin.report.page_plots import report_plots
-
-    for plot in report_plots(report):
-        plotly.graph_objects.Figure(plot.figure)
-        assert set(plot.figure["layout"]["margin"].items()) == set(page.MARGINS.items())
-
-
 def live(*arguments):
     code = "import sys; from scout_pin.cli import main; sys.exit(main())"
     process = subprocess.Popen(

@@ -9,8 +9,9 @@ from chromium import differing, share_drawn
 
 import pollard_pin
 from pollard_pin.motion.path import appendix_b, line
+from pollard_pin.report import curves
 from pollard_pin.report.limits import MARGIN_BOUNDS
-from pollard_pin.report.page import _plots, trajectory_page
+from pollard_pin.report.page import trajectory_page
 from pollard_pin.report.view import path_scene
 from pollard_pin.specification import ACTUATOR_NAMES
 from thesis_pin.pages import player as viewer
@@ -172,23 +173,17 @@ def test_the_tip_warns_as_the_arm_is_stretched(report):
 def test_the_report_page_is_complete_quiet_and_fits_a_phone(browser, report, folder, artefacts):
     file = folder / "report.html"
     file.write_bytes(trajectory_page(report))
+    plots = curves.plots(report, np.arange(2))
     for width, height, mobile in ((1280, 900, False), (390, 844, True)):
         browser.open(file.as_uri(), width, height, mobile)
         browser.until("window.ready && player.framesDrawn > 0")
         assert browser.requests() == [file.as_uri()]
         assert browser.complaints() == []
         drawn = browser.run("document.querySelectorAll('.plot .cartesianlayer').length")
-        assert drawn == len(_plots(report))
+        assert drawn == len(plots)
         assert browser.run("document.documentElement.scrollWidth") <= width
         browser.run("player.pause(); player.time = 3")
         browser.still(artefacts / f"pollard_report_{width}.png")
     text = browser.run("document.querySelector('main').innerText")
     for words in ("Pollard can follow this path", "Motors", "Joint reactions", "Assumptions"):
         assert words in text
-
-
-def test_plots_are_figures_that_plotly_itself_accepts(report):
-    import plotly.graph_objects
-
-    for plot in _plots(report):
-        plotly.graph_objects.Figure(plot.figure)

@@ -12,7 +12,7 @@ SCHEMA, VERSION = "thesis-pin/audit", 2
 
 
 def document(report: AuditReport) -> dict[str, Any]:
-    """The report for :func:`thesis_pin.report.summary.json_bytes`.
+    """The report for :func:`thesis_pin.report.writers.json_bytes`.
 
     A residual of a formula that can't be evaluated is null, and ``reason`` says why.
     """

@@ -30,7 +30,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     from thesis_pin.command.output import print_entries, print_table, print_text
     from thesis_pin.command.progress import track
     from thesis_pin.files import write_file
-    from thesis_pin.report.summary import json_bytes
+    from thesis_pin.report.writers import json_bytes
 
     only = (
         known(arguments.equation, thesis.catalogue(), thesis.robot)

@@ -1,42 +1,118 @@
-"""Tables and paragraphs for people, on standard output."""
+"""Tables and paragraphs for people, on whatever standard output is.
+
+What its encoding can't say is replaced by what it can (:mod:`thesis_pin.command.readable`),
+before the lines are laid out; what doesn't fit its width is wrapped or stacked, so
+that no number is ever cut.
+"""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from thesis_pin.command.readable import readable
+from thesis_pin.errors import CannotWrite
+
+if TYPE_CHECKING:
+    from rich.console import Console, RenderableType
+
+_INDENT = 2
+_UNBOUNDED = 10_000
+_BESIDE = 24
+"""Columns that a text beside a label needs; with less it stands below."""
 
 
 def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: str = "") -> None:
-    """Print a table that fits 80 columns; the first column is text, the rest numbers."""
+    """Print a table; the first column is text, the rest numbers.
+
+    Where it is wider than the terminal, each row becomes a paragraph: its first
+    cell, then each further one with its heading.
+    """
     from rich import box
-    from rich.console import Console
     from rich.table import Table
 
-    table = Table(title=title or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for k, name in enumerate(columns):
-        table.add_column(name, justify="right" if k else "left", no_wrap=True)
-    for row in rows:
+    console = _console()
+    headings = _said(console, columns)
+    cells = [_said(console, row) for row in rows]
+    name = readable(title, console.encoding)
+    table = Table(title=name or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for k, heading in enumerate(headings):
+        table.add_column(heading, justify="right" if k else "left", no_wrap=True)
+    for row in cells:
         table.add_row(*row)
-    Console(highlight=False, markup=False).print(table)
+    unbounded = console.options.update(width=_UNBOUNDED)
+    if console.measure(table, options=unbounded).maximum <= console.width:
+        _print(console, table)
+    else:
+        _stack(console, headings, cells, name)
 
 
 def print_text(*paragraphs: str) -> None:
     """Print paragraphs wrapped to the terminal's width."""
-    from rich.console import Console
-
-    console = Console(highlight=False, markup=False)
-    for paragraph in paragraphs:
-        console.print(paragraph)
+    console = _console()
+    _print(console, *_said(console, paragraphs))
 
 
 def print_entries(entries: Iterable[tuple[str, str]]) -> None:
-    """Print labels with their texts beside them, wrapped to the terminal's width."""
-    from rich.console import Console
+    """Print labels with their texts beside them, or below them on a narrow terminal."""
+    from rich.padding import Padding
     from rich.table import Table
     from rich.text import Text
 
-    table = Table.grid(padding=(0, 2))
+    console = _console()
+    pairs = [_said(console, entry) for entry in entries]
+    widest = max((Text(label).cell_len for label, _ in pairs), default=0)
+    if widest + _INDENT + _BESIDE > console.width:
+        for label, text in pairs:
+            _print(console, label, Padding(Text(text), (0, 0, 0, _INDENT)))
+        return
+    table = Table.grid(padding=(0, _INDENT))
     table.add_column(no_wrap=True)
     table.add_column(overflow="fold")
-    for label, text in entries:
+    for label, text in pairs:
         table.add_row(label, Text(text))
-    Console(highlight=False, markup=False).print(table)
+    _print(console, table)
+
+
+def _console() -> Console:
+    from rich.console import Console
+
+    if sys.stdout is None:
+        raise CannotWrite("standard output is closed")
+
+    class Quiet(Console):
+        def on_broken_pipe(self) -> None:
+            raise BrokenPipeError  # rich would end the process
+
+    return Quiet(highlight=False, markup=False, emoji=False)
+
+
+def _said(console: Console, texts: Iterable[str]) -> list[str]:
+    return [readable(text, console.encoding) for text in texts]
+
+
+def _stack(
+    console: Console, headings: Sequence[str], rows: Iterable[Sequence[str]], title: str
+) -> None:
+    from rich.padding import Padding
+
+    if title:
+        _print(console, title)
+    flat = [" ".join(heading.split()) for heading in headings]
+    for row in rows:
+        _print(console, " ".join(f"{flat[0]} {row[0]}".split()))
+        for heading, cell in zip(flat[1:], row[1:], strict=False):
+            if cell:
+                _print(console, Padding(f"{heading}  {cell}".strip(), (0, 0, 0, _INDENT)))
+    _print(console, "")
+
+
+def _print(console: Console, *things: RenderableType) -> None:
+    try:
+        for thing in things:
+            console.print(thing)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise CannotWrite(f"can't write to standard output: {error.strerror}") from None

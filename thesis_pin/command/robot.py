@@ -40,7 +40,7 @@ class Robot:
     inverse_kinematics: str
     makes_report: str = "verbs:report"
     solves: str = "verbs:ik"
-    figures: str = "report.figures:report_files"
+    figures: str = "report.figures:figures"
     table: str = "report.tables:print_report"
     load: str = "model:load"
     specification: str = "specification:Specification.read"

@@ -15,6 +15,7 @@ from thesis_pin.command.exits import ExitCode
 from thesis_pin.command.messages import say
 from thesis_pin.command.targets import targets
 from thesis_pin.errors import CannotWrite, ThesisPinError
+from thesis_pin.model.engine import require_pinocchio
 
 _FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF}
 """What printing fails with; files report it as :class:`CannotWrite`, standard output can't."""
@@ -40,6 +41,7 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
         except SystemExit:  # help and version have printed, a wrong word has been named
             _flush()
             raise
+        require_pinocchio()
         with targets(parsed):
             code = ExitCode(parsed.run(parsed))
         _flush()
@@ -69,6 +71,10 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
 
 def _end(parser: argparse.ArgumentParser, code: ExitCode, text: str) -> ExitCode:
     say(f"{parser.prog}: {text}")
+    try:
+        _flush()
+    except OSError:
+        _drop_output()
     return code
 
 

@@ -83,6 +83,8 @@ def give(
         what: What is going on meanwhile, for a progress bar.
     """
     with Bar(what):
+        from thesis_pin.report.writers import json_bytes
+
         answer = make()
         content = json_bytes(answer.document()) if arguments.json else b""
     if arguments.json:
@@ -92,42 +94,44 @@ def give(
     return ExitCode.DONE if answer.yes else ExitCode.NO
 
 
-def json_bytes(document: Mapping[str, object]) -> bytes:
-    """A document as JSON; imported late, so that help is quick."""
-    from thesis_pin.report.summary import json_bytes
-
-    return json_bytes(document)
-
-
 def report(robot: Robot, what: str, arguments: argparse.Namespace) -> ExitCode:
     """Report on a motion where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
 
-    Every content exists before the first file is written.
+    Every content exists before the first file is written; but if a figure or the
+    page fails, the data are written all the same.
     """
+    from thesis_pin.report.writers import csv_bytes, json_bytes
+
     files: dict[str, bytes] = {}
-    content = html = b""
+    content = page = b""
     with Bar(what) as bar:
         answer = _report(robot, arguments, lambda _: arguments.samples, bar)
         if arguments.json or arguments.out:
             content = json_bytes(answer.document())
         if arguments.out:
-            from thesis_pin.report.summary import csv_bytes
-
             files = {"report.json": content, "samples.csv": csv_bytes(answer.columns())}
-            files |= _hook(robot, robot.figures)(answer)
-        if arguments.html:
-            html = _hook(robot, robot.page)(answer)
+        try:
+            drawn = _hook(robot, robot.figures)(answer) if arguments.out else {}
+            page = _hook(robot, robot.page)(answer) if arguments.html else b""
+        except Exception:
+            _deliver(arguments, files, content)
+            raise
+    _deliver(arguments, files | drawn, content)
+    if arguments.html:
+        write_file(arguments.html, page)
+    if free(arguments):
+        _hook(robot, robot.table)(answer)
+    refused = arguments.strict and not answer.within_limits
+    return ExitCode.NO if refused else ExitCode.DONE
+
+
+def _deliver(arguments: argparse.Namespace, files: Mapping[str, bytes], content: bytes) -> None:
+    """Write a report's folder and its document."""
     if arguments.out:
         write_folder(arguments.out, files)
         say(f"wrote {arguments.out}")
     if arguments.json:
         write_file(arguments.json, content)
-    if arguments.html:
-        write_file(arguments.html, html)
-    if free(arguments):
-        _hook(robot, robot.table)(answer)
-    refused = arguments.strict and not answer.within_limits
-    return ExitCode.NO if refused else ExitCode.DONE
 
 
 def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
@@ -135,6 +139,7 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
     with Bar("working out the motion") as bar:
         from thesis_pin.pages.scene import frames
+        from thesis_pin.report.writers import json_bytes
 
         scene: Scene = _hook(robot, robot.scene)(_report(robot, arguments, frames, bar))
     shown = {
@@ -191,6 +196,7 @@ def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Print a URDF, or write every generated file into ``--out``."""
     with Bar("generating the files"):
         from thesis_pin.model.loading import check_urdf
+        from thesis_pin.report.writers import json_bytes
 
         specification = _hook(robot, robot.specification)(arguments.specification)
         text: str = _hook(robot, robot.urdf)(specification, arguments.inertia)

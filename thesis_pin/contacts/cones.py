@@ -20,9 +20,9 @@ loaded without it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
@@ -137,7 +137,7 @@ class Contact:
         return np.stack([-wrench[..., 4] / force, wrench[..., 3] / force], axis=-1)
 
 
-def corners(name: str, points: Any) -> np.ndarray:
+def corners(name: str, points: ArrayLike) -> np.ndarray:
     """Corners that span an area, ``(n, 2)`` or ``(n, 3)``; Qhull takes no others."""
     found = finite_array(name, points, None, None)
     flat = found[..., :2]

@@ -5,9 +5,8 @@ Source: Scout thesis, section 6.2, equation (6.1).
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from thesis_pin.contacts.cones import corners
 from thesis_pin.errors import BadInput, NoSupportForce
@@ -74,7 +73,7 @@ def signed_margin(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.where(shapely.contains(shapely.Polygon(polygon), place), distance, -distance)
 
 
-def support_polygon(*soles: Any) -> np.ndarray:
+def support_polygon(*soles: ArrayLike) -> np.ndarray:
     """Convex hull of soles on the floor.
 
     Args:

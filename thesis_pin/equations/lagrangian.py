@@ -17,6 +17,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thesis_pin.equations.values import STEP
+
+GRAVITY = 9.81
+"""Gravitational acceleration of both theses [m/s²]. Source: Scout thesis, 4.1; Pollard, 3.3."""
+
 
 @dataclass(frozen=True)
 class Body:
@@ -39,13 +44,13 @@ class Body:
 
 @dataclass(frozen=True)
 class Terms:
-    """Terms of the equations of motion; the first axis is the state.
+    """Terms of the equations of motion.
 
     Attributes:
-        mass: D, shape ``(N, n, n)``.
-        velocity: V, shape ``(N, n, n)``.
-        gravity: C [N], [N·m], shape ``(N, n)``.
-        rate: Ṅ, the time derivative of D, shape ``(N, n, n)``.
+        mass: D, shape ``(..., n, n)``.
+        velocity: V, shape ``(..., n, n)``.
+        gravity: C [N], [N·m], shape ``(..., n)``.
+        rate: Ṅ, the time derivative of D, shape ``(..., n, n)``.
     """
 
     mass: np.ndarray
@@ -79,33 +84,24 @@ def kinetic_energy(body: Body, rates: np.ndarray) -> np.ndarray:
     return 0.5 * (body.mass * (velocity * velocity).sum(-1) + (omega * spin).sum(-1))
 
 
-def exact_rates(moved: Sequence[Body], step: float) -> np.ndarray:
-    """Derivative of N from bodies moved by an imaginary step of that length."""
-    return np.imag(mass_matrix(moved)) / step
+def exact_rates(moved: Sequence[Body]) -> np.ndarray:
+    """Derivative of N from bodies moved by an imaginary step."""
+    return np.imag(mass_matrix(moved)) / STEP
 
 
 def assemble(
-    bodies: Sequence[Body],
-    rate: np.ndarray,
-    varied: np.ndarray,
-    rates: np.ndarray,
-    gravity: float,
+    bodies: Sequence[Body], rate: np.ndarray, varied: np.ndarray, rates: np.ndarray
 ) -> Terms:
     """D, V and C.
 
     Args:
-        bodies: The bodies, arrays of shape ``(N, 1, ...)``.
-        rate: Ṅ, shape ``(N, 1, n, n)``.
-        varied: ∂N/∂q_j with j along axis 1, shape ``(N, n, n, n)``.
-        rates: q̇, shape ``(N, 1, n)``.
-        gravity: Gravitational acceleration along −z [m/s²].
-
-    Returns:
-        The terms, without axis 1.
+        bodies: The bodies.
+        rate: Ṅ, shape ``(..., n, n)``.
+        varied: ∂N/∂q_j, shape ``(..., n, n, n)`` with j first of the three.
+        rates: q̇, shape ``(..., n)``.
     """
-    mass = mass_matrix(bodies)[:, 0]
-    half = 0.5 * np.einsum("nok,njkl->njl", rates, varied)
+    half = 0.5 * np.einsum("...k,...jkl->...jl", rates, varied)
     weight = sum(
-        gravity * np.asarray(body.mass)[..., None] * body.linear[..., 2, :] for body in bodies
+        GRAVITY * np.asarray(body.mass)[..., None] * body.linear[..., 2, :] for body in bodies
     )
-    return Terms(mass, rate[:, 0] - half, np.asarray(weight)[:, 0], rate[:, 0])
+    return Terms(mass_matrix(bodies), rate - half, np.asarray(weight), rate)

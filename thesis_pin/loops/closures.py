@@ -30,8 +30,8 @@ from thesis_pin.errors import BadInput, ModelError, UnknownName
 from thesis_pin.loops.joint_types import replace_joints
 from thesis_pin.loops.yaml_text import parse_yaml
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.loading import LoadedRobot, check_urdf, frame_id
-from thesis_pin.model.source import read_text
+from thesis_pin.model.loading import LoadedRobot, frame_id
+from thesis_pin.model.source import read_bytes, read_text
 from thesis_pin.model.specification import Key, Strict, validate
 from thesis_pin.numeric.checks import shown
 
@@ -176,15 +176,15 @@ class ClosedRobot(LoadedRobot):
 
     def __init__(
         self,
-        urdf: str,
+        urdf: str | bytes,
         closures: ClosureFile,
         root_joint: Any = None,
         *,
         where: str = FILE_KIND,
-        folder: Path | None = None,
+        source: Path | None = None,
     ) -> None:
-        super().__init__(urdf, {}, root_joint)
-        self._urdf_folder = folder
+        super().__init__(urdf, {}, root_joint, where="URDF" if source is None else str(source))
+        self._urdf_folder = None if source is None else source.resolve().parent
         if closures.joint_name:
             kinds = dict(zip(closures.joint_name, closures.joint_type, strict=True))
             self.model = replace_joints(self.model, kinds, where=where)
@@ -243,11 +243,9 @@ def load(urdf: str | Path, closures: str | Path, root_joint: Any = None) -> Clos
         UnknownName: It names a frame or joint the URDF doesn't have.
         ModelError: The URDF isn't a sound tree, or a motor or loop makes no sense.
     """
-    text = read_text("URDF", urdf)
+    text = read_bytes("URDF", urdf, LIMITS.urdf_bytes)
     content = ClosureFile.read(closures)
-    check_urdf(text, where=str(urdf))  # once more below, but here its messages name the file
-    folder = Path(urdf).resolve().parent
-    return ClosedRobot(text, content, root_joint, where=str(closures), folder=folder)
+    return ClosedRobot(text, content, root_joint, where=str(closures), source=Path(urdf))
 
 
 def _loops(model: pin.Model, closures: ClosureFile, where: str) -> tuple[Loop, ...]:

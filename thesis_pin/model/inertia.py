@@ -77,7 +77,9 @@ def pseudo_inertia(mass: float, com: np.ndarray, centroidal: np.ndarray) -> np.n
     return result
 
 
-def check_physical(link: str, mass: float, com: np.ndarray, centroidal: np.ndarray) -> None:
+def check_physical(
+    link: str, mass: float, com: np.ndarray, centroidal: np.ndarray, *, where: str = ""
+) -> None:
     """Refuse an inertia that no distribution of positive mass can have.
 
     Args:
@@ -85,6 +87,7 @@ def check_physical(link: str, mass: float, com: np.ndarray, centroidal: np.ndarr
         mass: Mass [kg].
         com: Centre of mass [m], shape ``(3,)``.
         centroidal: Tensor about the centre of mass [kg·m²], shape ``(3, 3)``.
+        where: File and line for the message.
 
     Raises:
         NonPhysicalInertia: With eigenvalues and principal moments.
@@ -97,4 +100,4 @@ def check_physical(link: str, mass: float, com: np.ndarray, centroidal: np.ndarr
     if mass > 0 and principal[0] > 0 and principal[0] + principal[1] >= principal[2]:
         return
     eigenvalues = np.linalg.eigvalsh(pseudo_inertia(mass, com, centroidal))
-    raise NonPhysicalInertia(link, eigenvalues.tolist(), principal.tolist())
+    raise NonPhysicalInertia(link, eigenvalues.tolist(), principal.tolist(), where=where)

@@ -1,33 +1,25 @@
-"""URDF text → checked Pinocchio model.
-
-Pinocchio reads a URDF without complaint when its inertias are impossible, its
-names collide or its links form a loop, and answers with a model that is
-silently wrong. :func:`check_urdf` refuses those first.
-"""
+"""URDF → checked Pinocchio model, compared with what was read."""
 
 from __future__ import annotations
 
 import functools
-import math
 import shutil
 import tempfile
 import weakref
-from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from xml.etree import ElementTree
 
 import numpy as np
 import pinocchio as pin
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.model.inertia import check_physical
+from thesis_pin.model.description import Description
+from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.soundness import check_agreement, check_description
 from thesis_pin.numeric.checks import instance, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "floating", "planar")
+    from collections.abc import Mapping, Sequence
 
 
 def model_folder(robot: str) -> Path:
@@ -43,69 +35,57 @@ def model_folder(robot: str) -> Path:
     )
 
 
-def check_urdf(text: str, *, where: str = "URDF") -> None:
+def check_urdf(urdf: str | bytes, *, where: str = "URDF") -> Description:
     """Refuse a URDF that Pinocchio would read into a wrong model.
 
     Args:
-        text: The URDF.
+        urdf: The URDF: text, or bytes in the encoding they declare.
         where: File name for messages.
 
+    Returns:
+        What it describes.
+
     Raises:
-        ModelError: Not XML, duplicate or unknown names, a link with two parents,
-            a loop, more than one root, numbers that aren't finite, impossible
-            limits or axes, a moving link without mass.
+        ModelError: Not XML, a xacro file, duplicate or unknown names, elements given
+            twice, a link with two parents, a loop, more than one root, numbers that
+            aren't finite, impossible limits or axes, a moving link without mass.
         NonPhysicalInertia: With the link, its eigenvalues and by how much.
     """
-    if not isinstance(text, str):
-        raise ModelError(f"the URDF is {shown(text)}", where=where, allowed="its text")
-    try:
-        root = ElementTree.fromstring(text)
-    except ElementTree.ParseError as error:
-        raise ModelError(f"not well-formed XML ({error})", where=where) from None
-    if root.tag != "robot":
-        raise ModelError(f"the root element is <{root.tag}>", where=where, allowed="<robot>")
-    links = _unique_names(root, "link", where)
-    joints = _unique_names(root, "joint", where)
-    if not links:
-        raise ModelError("there is no <link>", where=where)
-    _check_tree(links, joints, where)
-    for name, joint in joints.items():
-        _check_joint(name, joint, where)
-    moving = {
-        _attribute(joint, "child", "link")
-        for joint in joints.values()
-        if joint.get("type") != "fixed"
-    }
-    carried = {_attribute(joint, "parent", "link") for joint in joints.values()}
-    for name, link in links.items():
-        has_mass = _check_inertial(name, link, where)
-        if name in moving - carried and not has_mass:
-            raise ModelError(
-                f"link {name!r} hangs on a moving joint and has no mass",
-                where=where,
-                remedy="Give it an <inertial>, or fix its joint",
-            )
+    description = read_urdf(urdf, where=where)
+    check_description(description, where=where)
+    return description
 
 
-def load_model(text: str, root_joint: Any = None, *, where: str = "URDF") -> pin.Model:
-    """Check a URDF and build its Pinocchio model.
+def load_model(
+    urdf: str | bytes | Description,
+    root_joint: pin.JointModel | Sequence[tuple[str, object]] | None = None,
+    *,
+    where: str = "URDF",
+) -> pin.Model:
+    """Check a URDF, build its Pinocchio model, and compare the two.
 
     Args:
-        text: The URDF.
+        urdf: The URDF: text, bytes in the encoding they declare, or what
+            :func:`check_urdf` made of either.
         root_joint: Joint between world and root link; a list of (name, joint) for
             several in series; ``None`` to fix it.
         where: File name for messages.
 
     Raises:
-        ModelError, NonPhysicalInertia: See :func:`check_urdf`.
+        ModelError, NonPhysicalInertia: See :func:`check_urdf`; or Pinocchio's model
+            isn't what the URDF says.
     """
-    check_urdf(text, where=where)
+    description = urdf if isinstance(urdf, Description) else check_urdf(urdf, where=where)
+    roots = 0
     try:
         if root_joint is None:
-            return pin.buildModelFromXML(text)
-        if isinstance(root_joint, list):
-            return _on_chain(root_joint, pin.buildModelFromXML(text))
-        return pin.buildModelFromXML(text, root_joint)
+            model = pin.buildModelFromXML(description.text)
+        elif isinstance(root_joint, list):
+            roots = len(root_joint)
+            model = _on_chain(root_joint, pin.buildModelFromXML(description.text))
+        else:
+            roots = 1
+            model = pin.buildModelFromXML(description.text, root_joint)
     except (TypeError, IndexError) as error:  # Pinocchio's bindings know the types of joints
         raise ModelError(
             f"root_joint is {shown(root_joint)}",
@@ -114,6 +94,8 @@ def load_model(text: str, root_joint: Any = None, *, where: str = "URDF") -> pin
         ) from error
     except (RuntimeError, ValueError) as error:
         raise ModelError(f"Pinocchio can't read it ({error})", where=where) from None
+    check_agreement(description, model, roots=roots, where=where)
+    return model
 
 
 def _on_chain(joints: list[tuple[str, Any]], model: pin.Model) -> pin.Model:
@@ -159,10 +141,18 @@ class LoadedRobot:
         v0: Zero velocity, shape ``(nv,)``.
     """
 
-    def __init__(self, urdf: str, meshes: Mapping[str, str], root_joint: Any = None) -> None:
-        self.urdf = urdf
+    def __init__(
+        self,
+        urdf: str | bytes,
+        meshes: Mapping[str, str],
+        root_joint: pin.JointModel | Sequence[tuple[str, object]] | None = None,
+        *,
+        where: str = "URDF",
+    ) -> None:
+        description = check_urdf(urdf, where=where)
+        self.urdf = description.text
         self._meshes = dict(meshes)
-        self.model = load_model(urdf, root_joint)
+        self.model = load_model(description, root_joint, where=where)
         self.data = self.model.createData()
         self.q0 = pin.neutral(self.model)
         self.v0 = np.zeros(self.model.nv)
@@ -204,120 +194,3 @@ class LoadedRobot:
     def wrapper(self) -> pin.RobotWrapper:
         """The same robot as a ``pin.RobotWrapper``."""
         return pin.RobotWrapper(self.model, self.collision_model, self.visual_model)
-
-
-def _unique_names(root: ElementTree.Element, tag: str, where: str) -> dict[str, Any]:
-    elements = root.findall(tag)
-    counts = Counter(element.get("name", "") for element in elements)
-    for name, count in counts.items():
-        if not name:
-            raise ModelError(f"a <{tag}> has no name", where=where)
-        if count > 1:
-            raise ModelError(f"{count} {tag}s are called {name!r}", where=where)
-    return {element.get("name", ""): element for element in elements}
-
-
-def _check_tree(links: dict[str, Any], joints: dict[str, Any], where: str) -> None:
-    parent: dict[str, tuple[str, str]] = {}
-    for name, joint in joints.items():
-        ends = [_attribute(joint, end, "link") for end in ("parent", "child")]
-        for end in ends:
-            if end not in links:
-                raise UnknownName("link", end, list(links), where=f"{where}: joint {name!r}")
-        if ends[1] in parent:
-            other = parent[ends[1]][1]
-            raise ModelError(
-                f"link {ends[1]!r} has two parents, through joints {other!r} and {name!r}",
-                where=where,
-                allowed="a tree",
-                remedy="Cut the loop there and describe it in a closure file",
-            )
-        parent[ends[1]] = (ends[0], name)
-    roots = [name for name in links if name not in parent]
-    if len(roots) > 1:
-        raise ModelError(
-            f"{len(roots)} links have no parent: {', '.join(roots)}", where=where, allowed="one"
-        )
-    reached, waiting = set(), list(roots)
-    children: dict[str, list[str]] = {}
-    for child, (above, _) in parent.items():
-        children.setdefault(above, []).append(child)
-    while waiting:
-        reached.add(link := waiting.pop())
-        waiting.extend(children.get(link, []))
-    if lost := [name for name in links if name not in reached]:
-        raise ModelError(
-            f"links {', '.join(lost)} form a loop",
-            where=where,
-            allowed="a tree",
-            remedy="Cut the loop and describe it in a closure file",
-        )
-
-
-def _check_joint(name: str, joint: ElementTree.Element, where: str) -> None:
-    here = f"{where}: joint {name!r}"
-    kind = joint.get("type", "")
-    if kind not in JOINT_TYPES:
-        raise UnknownName("joint type", kind, JOINT_TYPES, where=here)
-    if joint.find("mimic") is not None:
-        raise ModelError(
-            "it mimics another joint, which the model would ignore",
-            where=here,
-            remedy="Remove <mimic>; tie the joints by a loop if they are tied",
-        )
-    for element in (joint.find("origin"), joint.find("axis"), joint.find("limit")):
-        if element is not None:
-            for key in element.attrib:
-                _numbers(element, key, here)
-    if kind in ("revolute", "prismatic"):
-        limit = joint.find("limit")
-        if limit is None:
-            raise ModelError("it has no <limit>", where=here)
-        lower, upper = (float(limit.get(end, "0")) for end in ("lower", "upper"))
-        if lower > upper:
-            raise ModelError(f"its limits are reversed: {lower} > {upper}", where=here)
-    axis = joint.find("axis")
-    if axis is not None and not any(_numbers(axis, "xyz", here)):
-        raise ModelError("its axis is zero", where=here)
-
-
-def _check_inertial(name: str, link: ElementTree.Element, where: str) -> bool:
-    inertial = link.find("inertial")
-    if inertial is None:
-        return False
-    here = f"{where}: link {name!r}"
-    mass_element, inertia_element = inertial.find("mass"), inertial.find("inertia")
-    if mass_element is None or inertia_element is None:
-        raise ModelError("its <inertial> lacks <mass> or <inertia>", where=here)
-    mass = _numbers(mass_element, "value", here)[0]
-    entries = {
-        key: _numbers(inertia_element, key, here)[0]
-        for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-    }
-    origin = inertial.find("origin")
-    com = np.array(_numbers(origin, "xyz", here)) if origin is not None else np.zeros(3)
-    tensor = np.array(
-        [
-            [entries["ixx"], entries["ixy"], entries["ixz"]],
-            [entries["ixy"], entries["iyy"], entries["iyz"]],
-            [entries["ixz"], entries["iyz"], entries["izz"]],
-        ]
-    )
-    check_physical(name, mass, com, tensor)
-    return True
-
-
-def _attribute(element: ElementTree.Element, tag: str, name: str) -> str:
-    child = element.find(tag)
-    return "" if child is None else child.get(name, "")
-
-
-def _numbers(element: ElementTree.Element, key: str, where: str) -> list[float]:
-    text = element.get(key, "0 0 0" if key in ("xyz", "rpy") else "")
-    try:
-        values = [float(part) for part in text.split()]
-    except ValueError:
-        values = []
-    if not values or not all(map(math.isfinite, values)):
-        raise ModelError(f"<{element.tag} {key}={text!r}> isn't a finite number", where=where)
-    return values

@@ -1,14 +1,19 @@
 """Pieces of URDF text, written so that the same numbers give the same bytes.
 
-Numbers are printed with the fewest digits that read back to the same double.
+Numbers are printed with the fewest digits that read back to the same double, and
+nothing but single sums, products and :mod:`thesis_pin.numeric.exact` stands before
+them, so that they are the same on every processor.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+
+from thesis_pin.numeric.exact import atan2, norm
 
 _AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
@@ -93,11 +98,11 @@ def joint(
 def bar(start: Sequence[float], end: Sequence[float], radius: float) -> str:
     """A round bar between two points [m]; nothing if they coincide."""
     direction = np.subtract(end, start)
-    length = math.hypot(*direction)
+    length = norm(*direction)
     if length == 0.0:
         return ""
-    pitch = math.atan2(math.hypot(direction[0], direction[1]), direction[2])
-    yaw = math.atan2(direction[1], direction[0])
+    pitch = atan2(norm(direction[0], direction[1]), direction[2])
+    yaw = atan2(direction[1], direction[0])
     return _geometry(
         f'<cylinder radius="{number(radius)}" length="{number(length)}"/>',
         xyz=(np.add(start, end) / 2).tolist(),
@@ -148,16 +153,15 @@ def extruded_polygon(outline: Sequence[Sequence[float]], height: float) -> str:
     import mapbox_earcut
 
     points = np.asarray(outline, dtype=float)
-    x, y = points.T
-    if np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) < 0:
+    corners = points.tolist()
+    if sum(_turn((0.0, 0.0), a, b) for a, b in itertools.pairwise([*corners, corners[0]])) < 0:
         points = points[::-1]
     count = len(points)
     caps = mapbox_earcut.triangulate_float64(points, np.array([count], dtype=np.uint32))
     lines = ["# generated; see urdf.py"]
     lines += [f"v {numbers((*point, z))}" for z in (0.0, height) for point in points]
     for a, b, c in caps.reshape(-1, 3).astype(int):
-        first, second, third = points[[a, b, c]]
-        if np.linalg.det(np.stack([second - first, third - first])) < 0:
+        if _turn(*points[[a, b, c]].tolist()) < 0:
             b, c = c, b
         lines += [
             f"f {a + 1} {c + 1} {b + 1}",
@@ -167,3 +171,8 @@ def extruded_polygon(outline: Sequence[Sequence[float]], height: float) -> str:
         a, b = k + 1, (k + 1) % count + 1
         lines += [f"f {a} {b} {b + count}", f"f {a} {b + count} {a + count}"]
     return "\n".join(lines) + "\n"
+
+
+def _turn(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> float:
+    """Twice the area of a triangle in the plane, positive if it turns left."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -1,18 +1,7 @@
-"""What the vectors and rows k of chapter 3, and the matrices J of their slopes, must equal.
-
-========================  ====================================================
-symbol                    reference
-========================  ====================================================
-k_1, k_3 … (vectors)      ∂r_G/∂θ by the one angle they multiply
-k_2, k_6 … (rows)         joint rates of the closed mechanism
-J_n, J'_n of a k_n        its derivatives by the angles of a chain
-V, E                      as in 2.5 and 2.8 (:mod:`pollard_pin.thesis.symbols.rates`)
-========================  ====================================================
+"""Vectors and rows k of chapter 3, and the matrices J of their slopes (3.2 to 3.5).
 
 A derivative by one angle, or of k', needs k as a formula in pose *and* angles:
 there the rates are eliminated one joint after the other, as 2.5 and 2.8 do.
-
-Source: Pollard thesis, 3.2 to 3.5.
 """
 
 from __future__ import annotations

@@ -1,17 +1,4 @@
-"""What each symbol of chapter 3's kinematics must equal, on closed states.
-
-========================  ====================================================
-symbol                    reference
-========================  ====================================================
-R, r                      products of transforms; differences of their origins
-v, ω                      their derivatives along the joints' rates
-i, j, k with a frame      columns of that frame's rotation
-a dot, ∂/∂q_j             complex step in time, or along q_j with the loops closed
-∂/∂θ                      complex step of that angle alone
-========================  ====================================================
-
-Source: Pollard thesis, 3.2 to 3.5.
-"""
+"""Frames, points, their velocities and derivatives on closed states (3.2 to 3.5)."""
 
 from __future__ import annotations
 
@@ -23,12 +10,11 @@ from typing import Self
 
 import numpy as np
 
-from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import CHAIN_0, JOINTS, POSE, State, own_name
 from pollard_pin.thesis.symbols.bodies import BODIES, centre, origin, own_frame, spin, turned
 from pollard_pin.thesis.symbols.loops import PATHS, between
+from pollard_pin.thesis.symbols.positions import Positions
 from pollard_pin.thesis.symbols.rates import derivative, explicit_rates, joint_rates, moving
-from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
 
@@ -62,13 +48,12 @@ class Drive:
     virtual: np.ndarray
 
 
-class MotionSymbols(References):
+class MotionSymbols(Positions):
     """Symbols of 3.2 and 3.4 at closed states, and derivatives of any formula."""
 
     def __init__(self, state: State, drive: Drive, *, explicit: bool = False) -> None:
         super().__init__(state)
         self.drive, self.explicit = drive, explicit
-        self._moved: dict[tuple[str | None, bool], Self] = {}
 
     # -- derivatives -----------------------------------------------------------
 
@@ -76,13 +61,9 @@ class MotionSymbols(References):
         numbered = re.fullmatch(r"(\w+)\(([12])\)", symbol.sub)
         if numbered:  # k_{2(1)}: what k_2i is on chain 1
             symbol, i = replace(symbol, sub=f"{numbered[1]}i", kept="i"), numbered[2]
-        handler = getattr(self, "_of_" + symbol.base.replace(":", "_"), None)
-        value: Value | None = handler(symbol, i) if handler else None
+        value = self._answer(symbol, i)
         value = super()._find(symbol, i) if value is None else value
-        if value is None and symbol.dots:
-            below = replace(symbol, dots=symbol.dots - 1)
-            value = self.partial(below, None, {"i": i} if i else {})
-        return value
+        return self._differentiated(symbol, i) if value is None else value
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """Derivative of a formula by a coordinate, an angle, a rate or time."""
@@ -92,30 +73,24 @@ class MotionSymbols(References):
             return vector(unit) if of.dots == by.dots else ZERO
         if isinstance(of, Symbol) and of.base == "k" and of.primes == 1 and by is not None:
             return imaginary(self.moved("pose").lookup(replace(of, primes=0), indices))
-        along, rates = (
-            None if by is None else _COORDINATES.get(by.name, by.name),
-            bool(by and by.dots),
+        by = (
+            replace(by, base=_COORDINATES[by.name], sub="")
+            if by and by.name in _COORDINATES
+            else by
         )
-        return imaginary(evaluate(of, self.moved(along, rates), indices))
+        return super().partial(of, by, indices)
 
-    def moved(self, along: str | None, rates: bool = False) -> Self:
+    def _stepped(self, along: str | None, rates: bool) -> Self:
         """The same symbols one imaginary step away.
 
-        Args:
-            along: "q_j" with the loops closed, j on the first axis; "pose" for the same
-                with all angles held; one angle or coordinate alone; None for time.
-            rates: Step the rate instead.
+        Along "q_j" with the loops closed, j on the first axis; "pose" for the same with
+        all angles held; one angle or coordinate alone; None for time.
         """
-        key = (along, rates)
-        if key not in self._moved:
-            follows = along in (None, "q_j")
-            state = self._stepped(along, rates)
-            self._moved[key] = type(self)(
-                moving(state) if follows else state, self.drive, explicit=not follows
-            )
-        return self._moved[key]
+        follows = along in (None, "q_j")
+        state = self._state(along, rates)
+        return type(self)(moving(state) if follows else state, self.drive, explicit=not follows)
 
-    def _stepped(self, along: str | None, rates: bool) -> State:
+    def _state(self, along: str | None, rates: bool) -> State:
         state = self.state
         unit = dict(zip(POSE, np.eye(6)[:, :, None], strict=True))
         if along is None:

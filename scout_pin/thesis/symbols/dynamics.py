@@ -8,20 +8,18 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.thesis.state import BODIES, coordinate_index, vee
-from scout_pin.thesis.symbols.base import GRAVITY
 from scout_pin.thesis.symbols.motion import component
 from scout_pin.thesis.symbols.vectors import Vectors
 from thesis_pin.equations import lagrangian
 from thesis_pin.equations.formula import Node, Symbol
+from thesis_pin.equations.lagrangian import GRAVITY
 from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
 
 
 class Dynamics(Vectors):
     """What follows from the bodies' Jacobians and masses."""
 
-    def _special_derivative(
-        self, of: Node, by: Symbol | None, indices: dict[str, str]
-    ) -> Value | None:
+    def _special_derivative(self, of: Node, by: Symbol | None) -> Value | None:
         if isinstance(of, Symbol) and of.name == "L" and by is not None and by.dots:
             return self._momentum(by)
         return None
@@ -34,7 +32,7 @@ class Dynamics(Vectors):
             return scalar(momentum[:, 0, :])
         return scalar(momentum[..., coordinate_index(by.name)])
 
-    def _of_T(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_T(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots or symbol.sup:
             return None
         if not symbol.bold and symbol.sub in BODIES:
@@ -51,17 +49,17 @@ class Dynamics(Vectors):
             placement = np.linalg.inv(self.state.frame(first).placement) @ placement
         return matrix(placement)
 
-    def _of_J(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_J(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots or symbol.sup or symbol.sub not in BODIES:
             return None
         return matrix(self.state.centre(symbol.sub)[1])
 
-    def _of_W(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_W(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots or symbol.sup or symbol.sub not in BODIES:
             return None
         return matrix(self.state.angular(symbol.sub))
 
-    def _of_I(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_I(self, symbol: Symbol, i: str) -> Value | None:
         element = re.fullmatch(r"([xyz])([xyz])(B|[1-6][12])", symbol.sub)
         if element and not symbol.dots:
             tensor = self.state.parameters.values[f"I{element[3]}"]
@@ -95,13 +93,13 @@ class Dynamics(Vectors):
         mass = self.state.parameters.values[f"m_{body}"]
         return GRAVITY * mass * self.bodies[body].centre[..., 2]
 
-    def _of_L(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_L(self, symbol: Symbol, i: str) -> Value | None:
         bodies = [symbol.sub] if symbol.sub in BODIES else list(BODIES) if not symbol.sub else []
         if not bodies or symbol.dots or symbol.sup:
             return None
         return scalar(sum(self._kinetic(body) - self._potential(body) for body in bodies))
 
-    def _of_N(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_N(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots or symbol.sup or symbol.sub not in BODIES:
             return None
         return matrix(lagrangian.mass_matrix([self.bodies[symbol.sub]]))
@@ -110,12 +108,12 @@ class Dynamics(Vectors):
         """Row j of a matrix ``(N, 1, 18, 18)``, with j along axis 1."""
         return matrix(array[:, 0, :, None, :])
 
-    def _of_D(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_D(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub[:-1] not in BODIES or symbol.sub[-1:] != "j" or symbol.dots:
             return None
-        return self._row(self.lookup(Symbol("N", symbol.sub[:-1]), indices).array)
+        return self._row(self.lookup(Symbol("N", symbol.sub[:-1]), {}).array)
 
-    def _of_V(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_V(self, symbol: Symbol, i: str) -> Value | None:
         if not symbol.bold and symbol.sub in BODIES:
             return scalar(self._potential(symbol.sub))
         body, j = symbol.sub[:-1], symbol.sub[-1:]
@@ -125,11 +123,11 @@ class Dynamics(Vectors):
             return None
         kind = Symbol("N", body)
         if symbol.primes == 0:
-            return self._row(self.partial(kind, None, indices).array)
-        varied = self.partial(kind, Symbol("q", "j"), indices).array
+            return self._row(self.partial(kind, None, {}).array)
+        varied = self.partial(kind, Symbol("q", "j"), {}).array
         return matrix(0.5 * np.einsum("nok,njkl->njl", self.state.v, varied)[..., None, :])
 
-    def _of_C(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_C(self, symbol: Symbol, i: str) -> Value | None:
         body, j = symbol.sub[:-1], symbol.sub[-1:]
         if body not in BODIES or j != "j" or symbol.primes != 1:
             return None
@@ -139,26 +137,25 @@ class Dynamics(Vectors):
     @cached_property
     def terms(self) -> lagrangian.Terms:
         """D, V and C of the whole robot, shape ``(N, …)``."""
-        moved = self.moved(None, False), self.moved("q_j", False)
-        return lagrangian.assemble(
-            list(self.bodies.values()),
-            lagrangian.exact_rates(list(moved[0].bodies.values()), STEP),
-            lagrangian.exact_rates(list(moved[1].bodies.values()), STEP),
-            self.state.v,
-            GRAVITY,
+        time, varied = (
+            lagrangian.exact_rates(list(self.moved(along).bodies.values()))
+            for along in (None, "q_j")
         )
+        bodies = list(self.bodies.values())
+        terms = lagrangian.assemble(bodies, time, varied[:, None], self.state.v)
+        return lagrangian.Terms(*(x[:, 0] for x in vars(terms).values()))
 
-    def _of_bb_D(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_bb_D(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub == "j":
             return matrix(self.terms.mass[:, :, None, :])
         return None if symbol.sub else matrix(self.terms.mass[:, None])
 
-    def _of_bb_V(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_bb_V(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub == "j":
             return matrix(self.terms.velocity[:, :, None, :])
         return None if symbol.sub else matrix(self.terms.velocity[:, None])
 
-    def _of_bb_C(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_bb_C(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub == "j":
             return scalar(self.terms.gravity)
         return None if symbol.sub else vector(self.terms.gravity[:, None])
@@ -172,12 +169,12 @@ class Dynamics(Vectors):
         ]
         if rates:
             return (jacobian @ state.v[..., joints, None])[..., 0]
-        later = self.moved(None, False).state
+        later = self.moved(None).state
         moved = np.concatenate([later.point(f"7{i}")[1], later.angular(f"7{i}")], axis=-2)
         change = np.imag(moved[..., joints]) / STEP
         return (jacobian @ state.a[..., joints, None] + change @ state.v[..., joints, None])[..., 0]
 
-    def _of_cal_P(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_cal_P(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots or symbol.sub not in ("", "x", "y", "z"):
             return None
         total = sum(
@@ -187,7 +184,7 @@ class Dynamics(Vectors):
         )
         return component(np.asarray(total), symbol.sub)
 
-    def _of_cal_L(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_cal_L(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots or symbol.sub not in ("", "x", "y", "z"):
             return None
         total: np.ndarray | float = 0.0
@@ -199,12 +196,12 @@ class Dynamics(Vectors):
             total = total + np.cross(where, mass * rate) + spin
         return component(np.asarray(total), symbol.sub)
 
-    def _of_ZMP(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_ZMP(self, symbol: Symbol, i: str) -> Value | None:
         """The point of a floor at height 0.01 m where the floor's wrench has no tilting moment."""
         height = 0.01
         if symbol.sub == "z":
             return scalar(height)
-        later = self.moved(None, False)
+        later = self.moved(None)
         force: np.ndarray | float = 0.0
         moment: np.ndarray | float = 0.0
         for body in BODIES:

@@ -27,7 +27,7 @@ def matrix_entry(digits: str) -> tuple[int, int] | None:
 class Forces(Dynamics):
     """A_τ, δW, Q, τ, φ, Φ, λ, Γ."""
 
-    def _of_tau(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_tau(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup == "0" and symbol.sub in BODIES[1:] and not symbol.dots:
             joint = 6 * (int(symbol.sub[1]) - 1) + int(symbol.sub[0])
             axis = self.state.frame(symbol.sub).axis(5 + joint)
@@ -38,7 +38,7 @@ class Forces(Dynamics):
             return vector(self.state.tau)
         return scalar(self.state.tau[..., coordinate_index(f"theta_{symbol.sub}") - 6])
 
-    def _of_A(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_A(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.bold and symbol.sub in ("1", "2"):
             return vector(self._foot_side(int(symbol.sub), rates=False))
         full = np.vstack([np.zeros((6, 12)), np.eye(12)])
@@ -47,36 +47,36 @@ class Forces(Dynamics):
         entry = matrix_entry(symbol.sub)
         return None if entry is None else scalar(full[None, None, entry[0], entry[1]])
 
-    def _of_delta_q(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_delta_q(self, symbol: Symbol, i: str) -> Value | None:
         if not symbol.sub:
             return vector(self.state.virtual)
         if symbol.sub == "j":
             return None
         return scalar(self.state.virtual[..., coordinate_index(f"q_{symbol.sub}")])
 
-    def _of_delta_theta(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_delta_theta(self, symbol: Symbol, i: str) -> Value | None:
         name = f"{symbol.base.removeprefix('delta:')}_{symbol.sub}"
         return scalar(self.state.virtual[..., coordinate_index(name)])
 
     _of_delta_phi = _of_delta_psi = _of_delta_theta
     _of_delta_x = _of_delta_y = _of_delta_z = _of_delta_theta
 
-    def _of_delta_Q(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_delta_Q(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup != "0" or symbol.sub not in BODIES:
             return None
         turned = self.state.angular(symbol.sub) @ self.state.virtual[..., None]
         return vector(turned[..., 0])
 
-    def _of_delta_W(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_delta_W(self, symbol: Symbol, i: str) -> Value | None:
         return scalar((self.state.tau * self.state.virtual[..., 6:]).sum(-1))
 
-    def _of_Q(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_Q(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub or symbol.sup:
             return None
         torso = np.zeros((*self.state.tau.shape[:-1], 6))
         return vector(np.concatenate([torso, self.state.tau], axis=-1))
 
-    def _of_l(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_l(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub not in ("1", "2") or symbol.sup != "0" or symbol.dots:
             return None
         length = self.state.parameters.values[f"b{symbol.sub}_y"][..., None]
@@ -93,7 +93,7 @@ class Forces(Dynamics):
         i, which = (2 if right else 1), (number - 1) % 6 + 1
         if which <= 3:
             component = {1: 2, 2: 1, 3: 0}[which]
-            vector_l = self._of_l(Symbol("l", str(i), "0"), {})
+            vector_l = self._of_l(Symbol("l", str(i), "0"), "")
             assert vector_l
             offset = self.state.parameters.values[f"b{i}_y"] if which == 2 else 0.0
             return np.asarray(vector_l.array[..., component] - offset)
@@ -103,7 +103,7 @@ class Forces(Dynamics):
             return axis[..., {4: 1, 5: 2}[which]]
         return self.state.frame(f"6{i}").rotation[..., 2, 2]
 
-    def _of_varphi(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_varphi(self, symbol: Symbol, i: str) -> Value | None:
         limits = {"1": 6, "2": 12, "3": 6}
         if symbol.dots or symbol.sup not in limits or not symbol.sub.isdigit():
             return None
@@ -121,22 +121,22 @@ class Forces(Dynamics):
             rows += [self.state.point(f"7{i}")[1], self.state.angular(f"7{i}")]
         return np.concatenate(rows, axis=-2)
 
-    def _of_Phi(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_Phi(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub not in ("1", "2", "3"):
             return None
         interval = int(symbol.sub)
         rows = [self.constraint(k, interval) for k in range(1, 13 if interval == 2 else 7)]
         return vector(np.stack(np.broadcast_arrays(*rows), axis=-1))
 
-    def _of_lambda(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_lambda(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots or symbol.sup != "0" or symbol.sub not in ("1", "2", "3"):
             return None
         return vector(self.state.multipliers[..., : 12 if symbol.sub == "2" else 6])
 
-    def _of_Gamma(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_Gamma(self, symbol: Symbol, i: str) -> Value | None:
         """Gradient of λ·Φ: the generalized force that does the constraint's virtual work."""
         if symbol.dots or symbol.sub not in ("1", "2", "3"):
             return None
-        phi = self.partial(Symbol("Phi", symbol.sub, "0"), Symbol("q", "j"), indices).array
-        weight = self.lookup(Symbol("lambda", symbol.sub, "0"), indices).array
+        phi = self.partial(Symbol("Phi", symbol.sub, "0"), Symbol("q", "j"), {}).array
+        weight = self.lookup(Symbol("lambda", symbol.sub, "0"), {}).array
         return vector((phi * weight).sum(-1)[:, None, :])

@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from scout_pin.thesis.state import Frame, vee
-from scout_pin.thesis.symbols.base import Symbols
+from scout_pin.thesis.symbols.coordinates import Coordinates
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
 
@@ -17,7 +17,7 @@ JOINT_AXES = {"k0": 1, "j2": 2, "k4": 3, "k6": 4, "k8": 5, "i10": 6}
 _EULER_AXES = {"itheta": 0, "jphi": 1, "kpsi": 2}
 
 
-class Geometry(Symbols):
+class Geometry(Coordinates):
     """Rotations, transforms, unit vectors, angles."""
 
     def _rate(self, frame: Frame) -> np.ndarray:
@@ -38,13 +38,13 @@ class Geometry(Symbols):
             return None
         return f"{'7' if match[1] == '14' else (int(match[1]) + 1) // 2}{match[2]}"
 
-    def _of_R(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_R(self, symbol: Symbol, i: str) -> Value | None:
         body = self._body(symbol.sub)
         if symbol.sup != "0" or symbol.dots or body is None:
             return None
         return matrix(self.state.frame(body).rotation)
 
-    def _of_i(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_i(self, symbol: Symbol, i: str) -> Value | None:
         letter, sub = symbol.base, symbol.sub
         if symbol.dots and (sub == "0" or not symbol.sup):
             return ZERO
@@ -108,7 +108,7 @@ class Geometry(Symbols):
         omega = vee(self._rate(self.state.legs[i][-1]))
         return scalar(np.linalg.solve(self._foot_axes(i), omega[..., None])[..., k, 0])
 
-    def _of_theta(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_theta(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub in ("1", "2") and not symbol.sup:
             return self._foot_angle(symbol.base, int(symbol.sub), symbol.dots)
         return None if symbol.sup else self._coordinate(symbol.name, symbol.dots)

@@ -12,7 +12,7 @@ from thesis_pin.equations.formula import Symbol
 from thesis_pin.equations.values import STEP, ZERO, Value, scalar, vector
 
 
-class Motion(Geometry):
+class MotionSymbols(Geometry):
     """r, b, v, a, ω, α, and the sums x_i, y_i of (3.18)."""
 
     def _segment(self, sub: str) -> tuple[np.ndarray, np.ndarray] | None:
@@ -33,7 +33,7 @@ class Motion(Geometry):
         (end, J), (begin, K) = state.point(f"{int(link[1]) + 1}{link[2]}"), state.point(start)
         return end - begin, J - K
 
-    def _of_r(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_r(self, symbol: Symbol, i: str) -> Value | None:
         found = self._segment(symbol.sub)
         if found is None or symbol.dots > 1:
             return None
@@ -49,11 +49,11 @@ class Motion(Geometry):
         where, jacobian = found
         return where if dots == 0 else (jacobian @ self.state.v[..., None])[..., 0]
 
-    def _of_b(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_b(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub in ("1y", "2y") and not symbol.sup:
             return ZERO if symbol.dots else self._constant(f"b{symbol.sub[0]}_y")
         if symbol.sub in ("Tx", "Ty", "Tz") and not symbol.dots:
-            centre = self._of_b(Symbol("b", "T", "0"), indices)
+            centre = self._of_b(Symbol("b", "T", "0"), i)
             return None if centre is None else component(centre.array, symbol.sub[-1])
         if symbol.sup != "0" or symbol.dots > 1:
             return None
@@ -66,22 +66,22 @@ class Motion(Geometry):
             return None
         return vector(self._moving(self.state.centre(symbol.sub), symbol.dots))
 
-    def _of_v(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_v(self, symbol: Symbol, i: str) -> Value | None:
         found = self._segment(symbol.sub) if symbol.sup == "0" and not symbol.dots else None
         return None if found is None else vector(self._moving(found, 1))
 
-    def _of_a(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_a(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup != "0" or symbol.dots:
             return None
-        return self.partial(Symbol("v", symbol.sub, "0", bold=True), None, indices)
+        return self.partial(Symbol("v", symbol.sub, "0", bold=True), None, {})
 
-    def _of_omega(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_omega(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup != "0" or symbol.dots:
             return None
         euler = re.fullmatch(r"(theta|phi|psi)(B|1|2)", symbol.sub)
         if euler:
             letter = {"theta": "i", "phi": "j", "psi": "k"}[euler[1]]
-            rate = self.lookup(Symbol(euler[1], euler[2], dots=1), indices)
+            rate = self.lookup(Symbol(euler[1], euler[2], dots=1), {})
             axis = self._axis(letter + symbol.sub)
             return vector(rate.array[..., None] * axis)
         body = "B" if symbol.sub == "B" else None
@@ -91,12 +91,12 @@ class Motion(Geometry):
             body = symbol.sub
         return None if body is None else vector(vee(self._rate(self.state.frame(body))))
 
-    def _of_alpha(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_alpha(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup != "0" or symbol.dots:
             return None
-        return self.partial(Symbol("omega", symbol.sub, "0", bold=True), None, indices)
+        return self.partial(Symbol("omega", symbol.sub, "0", bold=True), None, {})
 
-    def _of_x(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_x(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup == "0":
             return self._acceleration_part(symbol)
         if symbol.sup:
@@ -130,7 +130,7 @@ class Motion(Geometry):
             segment = self._segment(f"{n}{i}")
             assert segment
             if symbol.base == "x":
-                later = self.moved(None, False)
+                later = self.moved(None)
                 rate = np.imag(later._rate(later.state.frame(link))) / STEP
             else:
                 rate = self._rate(self.state.frame(link))
@@ -142,9 +142,8 @@ class Motion(Geometry):
             total = total - first.array
         return vector(np.asarray(total))
 
-    def _of_ai(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_ai(self, symbol: Symbol, i: str) -> Value | None:
         """Coordinates of vertex a of foot i, in the sole's frame or, with 0, in the world."""
-        i = indices.get("i", "")
         if symbol.dots or i not in ("1", "2") or symbol.sub[:1] not in ("x", "y", "z"):
             return None
         local, k = self.state.parameters.values[f"a{i}"], "xyz".index(symbol.sub[0])

@@ -8,7 +8,7 @@ import numpy as np
 
 from scout_pin.thesis.state import COORDINATES
 from scout_pin.thesis.symbols.geometry import JOINT_AXES
-from scout_pin.thesis.symbols.motion import Motion
+from scout_pin.thesis.symbols.motion import MotionSymbols
 from thesis_pin.equations.formula import FormulaError, Symbol
 from thesis_pin.equations.values import Value, vector
 
@@ -23,24 +23,24 @@ def e_column(number: int) -> tuple[int, int]:
     raise FormulaError(f"there is no vector e_{number}")
 
 
-class Vectors(Motion):
+class Vectors(MotionSymbols):
     """u (3.12), s and t (3.21, 3.23), e (4.1)."""
 
-    def _which(self, sub: str, indices: dict[str, str]) -> tuple[int, int] | None:
+    def _which(self, sub: str, i: str) -> tuple[int, int] | None:
         """Coordinate and leg of a vector called by its coordinate ("theta31", "phiB")."""
         name = re.sub(r"^(theta|phi|psi)", r"\1_", sub)
         if name not in COORDINATES:
             return None
-        leg = indices.get("i", "") if sub.endswith("B") else sub[-1]
+        leg = i if sub.endswith("B") else sub[-1]
         return (COORDINATES.index(name), int(leg)) if leg in ("1", "2") else None
 
-    def _of_u(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
-        which = self._which(symbol.sub, indices)
+    def _of_u(self, symbol: Symbol, i: str) -> Value | None:
+        which = self._which(symbol.sub, i)
         if which is None or symbol.sup != "0" or symbol.dots:
             return None
         return vector(self.state.point(f"7{which[1]}")[1][..., which[0]])
 
-    def _of_t(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_t(self, symbol: Symbol, i: str) -> Value | None:
         """t = d/dt axis for a joint; for Euler angles (3.23) splits the same sum otherwise."""
         euler = re.fullmatch(r"(theta|phi|psi)(B|1|2)", symbol.sub)
         if symbol.sup != "0" or symbol.dots:
@@ -49,12 +49,12 @@ class Vectors(Motion):
             return self._axis_rate(symbol.sub)
         after = {"theta": ("phi", "j"), "phi": ("psi", "k"), "psi": ("theta", "k")}[euler[1]]
         by = "theta" if euler[1] == "psi" else euler[1]
-        rate = self.lookup(Symbol(after[0], euler[2], dots=1), indices).array[..., None]
+        rate = self.lookup(Symbol(after[0], euler[2], dots=1), {}).array[..., None]
         if euler[2] == "B":
             vary = self.partial(
                 Symbol(after[1], {"j": "phiB", "k": "psiB"}[after[1]], "0", bold=True),
                 Symbol(by, "B"),
-                indices,
+                {},
             ).array
         else:
             vary = self._foot_axis_derivative(int(euler[2]), "xyz".index("yz"[after[1] == "k"]), by)
@@ -73,27 +73,27 @@ class Vectors(Motion):
         return np.stack(parts, axis=-1)
 
     def _axis_rate(self, sub: str) -> Value | None:
-        which = self._which(sub, {})
+        which = self._which(sub, "")
         if which is None:
             return None
         joint = which[0] - 5 - 6 * (which[1] - 1)
         letter, number = next((k[0], k[1:]) for k, n in JOINT_AXES.items() if n == joint)
         return self.partial(Symbol(letter, f"{number}{which[1]}", "0", bold=True), None, {})
 
-    def _of_s(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_s(self, symbol: Symbol, i: str) -> Value | None:
         """s = d/dt u for a joint; for the torso t × (p_i − p_B) plus axis × its rate."""
-        which = self._which(symbol.sub, indices)
+        which = self._which(symbol.sub, i)
         if which is None or symbol.sup != "0" or symbol.dots:
             return None
         if which[0] >= 6:
-            return self.partial(Symbol("u", symbol.sub, "0", bold=True), None, indices)
+            return self.partial(Symbol("u", symbol.sub, "0", bold=True), None, {})
         (foot, J), (torso, K) = self.state.point(f"7{which[1]}"), self.state.point("B")
         rate = ((J - K) @ self.state.v[..., None])[..., 0]
-        t = self.lookup(Symbol("t", symbol.sub, "0", bold=True), indices).array
+        t = self.lookup(Symbol("t", symbol.sub, "0", bold=True), {}).array
         axis = self.state.torso[-1].axis(which[0])
         return vector(np.cross(t, foot - torso) + np.cross(axis, rate))
 
-    def _of_e(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_e(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup != "0" or symbol.dots:
             return None
         euler = re.fullmatch(r"(theta|phi|psi)B", symbol.sub)

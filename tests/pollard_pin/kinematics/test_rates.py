@@ -6,8 +6,10 @@ import pytest
 
 from pollard_pin import ALL_BRANCHES, USEFUL_BRANCHES
 from pollard_pin.coordinates import angular_rate_matrix
+from pollard_pin.motion.path import ToolMotion
+from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.specification import ACTUATORS
-from thesis_pin.errors import Unreachable
+from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.rotations import euler_placement
@@ -105,3 +107,15 @@ def test_singular_angles_of_the_tool_are_no_singularity_of_the_robot(pollard):
 def test_rates_at_an_unreachable_pose_are_refused(pollard):
     with pytest.raises(Unreachable, match="too far"):
         pollard.rates([2.0, 0, 0, 0, 0, 0], np.ones(6))
+
+
+@pytest.mark.parametrize("bad", [3, 4096, 4500])
+def test_a_singular_sample_is_named_by_its_place_in_the_whole_motion(pollard, bad):
+    """Also beyond the first block of samples."""
+    q = pollard.inverse_kinematics([0.45, 0.05, 0.1, 0.2, -0.1, 0.3]).angles.copy()
+    poses = np.tile(pollard.pose(q), (5000, 1))
+    q[4] = 0.0  # the wrist straight
+    poses[bad] = pollard.pose(q)
+    still, time = np.zeros(poses.shape), np.linspace(0.0, 1.0, 5000)
+    with pytest.raises(SingularPose, match=f"pose {bad} at t = {time[bad]:.6g} s"):
+        joint_trajectory(pollard, ToolMotion(time, poses, still, still))

@@ -11,7 +11,7 @@ from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.motion.path import appendix_b, line
 from pollard_pin.report.document import SCHEMA, VERSION, trajectory_report
 from thesis_pin.errors import SingularPose, UnknownName, Unreachable
-from thesis_pin.report.summary import json_bytes
+from thesis_pin.report.writers import json_bytes
 
 
 @pytest.fixture(scope="module")
@@ -174,15 +174,6 @@ def test_longer_durations_tend_to_the_static_torques(pollard):
     np.testing.assert_allclose(slow.torque, static, atol=1e-4)
     fast = trajectory_report(pollard, appendix_b(duration=20), samples=201)
     assert np.abs(fast.torque - static).max() > 0.1
-
-
-def test_figures_are_drawn_without_a_display(report):
-    from pollard_pin.report.figures import actuators_figure
-
-    figure = actuators_figure(report)
-    assert len(figure.axes) == 6
-    drawn = figure.axes[0].lines[0].get_ydata()
-    assert drawn.min() == pytest.approx(report.torque[:, 0].min(), abs=0.01)
 
 
 def test_the_branch_of_the_report_is_the_one_asked_for(report, printed):

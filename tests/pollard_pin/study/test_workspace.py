@@ -62,7 +62,7 @@ def test_a_slice_is_one_value_on_an_axis(pollard):
 
 
 def test_a_slice_is_drawn_without_a_display(pollard):
-    from pollard_pin.report.figures import workspace_figure
+    from pollard_pin.study.figures import workspace_figure
 
     figure = workspace_figure(evaluate_workspace(pollard, X, 0.0, Z))
     assert "y = 0 m" in figure.axes[0].get_title()

@@ -8,7 +8,7 @@ import pytest
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import states
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
-from pollard_pin.thesis.references import References
+from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.state import POSE
 from pollard_pin.thesis.symbols.accelerations import Circle, accelerating, coefficient
 from pollard_pin.thesis.symbols.loops import side
@@ -24,7 +24,7 @@ def opened():
 
 def value(formula, state, i=""):
     node = catalogue().parse(formula)
-    return evaluate(node, References(state), {"i": i} if i else {}).array
+    return evaluate(node, OpenReferences(state), {"i": i} if i else {}).array
 
 
 def test_derivatives_on_the_circle_are_those_of_calculus(opened):

@@ -7,12 +7,12 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import states
-from pollard_pin.thesis.symbols.loop import loop_symbols
+from pollard_pin.thesis.references import LoopReferences
 from pollard_pin.thesis.symbols.rates import joint_rates
 from thesis_pin.audit.verdicts import judge
 from thesis_pin.equations.evaluation import evaluate
 
-SYMBOLS = loop_symbols(states(closed=True))
+SYMBOLS = LoopReferences.at(states(closed=True))
 EQUATIONS = [equation for equation in catalogue().equations if equation.section == "A"]
 
 

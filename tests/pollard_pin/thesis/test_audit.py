@@ -20,7 +20,7 @@ from pollard_pin.thesis.audit import (
     states,
 )
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
-from pollard_pin.thesis.references import References
+from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.symbols.loops import opening
 from pollard_pin.thesis.symbols.rates import joint_rates
 from thesis_pin.audit import page as audit_page
@@ -265,7 +265,7 @@ def test_the_coefficients_of_theta43_and_theta54_fail_because_220_is_in_the_base
         z = wrist[:, 2] - s.constants["z_10"] + s.constants["x_32"] * np.sin(theta)
         return np.stack([x, wrist[:, 1], z])
 
-    references = References(state)
+    references = OpenReferences(state)
     look = catalogue().notation.symbol
     x, y, _ = (references.lookup(look(name), {}).array for name in "XYZ")
     pitch, yaw = state.variables["theta_43"], state.variables["theta_54"]
@@ -316,6 +316,7 @@ def test_residuals_leave_no_doubt_between_right_and_wrong(report):
     assert any(math.isinf(x) for x in printed)
 
 
+@pytest.mark.bytes
 def test_the_document_is_current(report):
     assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(
         report, THESIS.document_command

@@ -7,17 +7,18 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import states
-from pollard_pin.thesis.references import References
+from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.symbols.loops import frame
 from pollard_pin.thesis.symbols.rates import RATE_EQUATIONS
 from thesis_pin.audit.kinds import of_equation
+from thesis_pin.audit.places import places
 from thesis_pin.audit.verdicts import residual
 from thesis_pin.equations.catalogue import index_values
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.values import STEP
 from thesis_pin.numeric.arrays import wrap
 
-OPEN, CLOSED = (References(states(closed=closed)) for closed in (False, True))
+OPEN, CLOSED = (OpenReferences(states(closed=closed)) for closed in (False, True))
 
 
 def value(text, references, **indices):
@@ -138,7 +139,7 @@ def test_the_loops_without_ball_and_wrist_agree_in_place_and_not_in_orientation(
 def test_only_theta_21_and_theta_21i_are_confused_and_V_59_has_them_right():
     for equation in lines("one-for-i"):
         for printed, mended in texts(equation):
-            for place in catalogue().places(printed, mended):
+            for place in places(printed, mended):
                 assert set(re.findall(r"\\theta_\{\w+\}", place)) == {
                     r"\theta_{21}",
                     r"\theta_{21i}",
@@ -156,7 +157,7 @@ def residual_of(identity):
     return residual(catalogue(), equation, equation.printed, references, equation.left).value
 
 
-class Renumbered(References):
+class Renumbered(OpenReferences):
     """V_15 and what follows read as the next ones; that of θ21 with the other sign."""
 
     def lookup(self, symbol, indices):
@@ -226,5 +227,5 @@ def test_the_axis_is_only_an_index_of_the_angle():
 )
 def test_chapter_3s_causes_name_what_every_one_of_their_lines_needs(cause, pattern):
     for equation in lines(cause):
-        places = [place for pair in texts(equation) for place in catalogue().places(*pair)]
-        assert any(re.search(pattern, place) for place in places), (equation.id, places)
+        found = [place for pair in texts(equation) for place in places(*pair)]
+        assert any(re.search(pattern, place) for place in found), (equation.id, found)

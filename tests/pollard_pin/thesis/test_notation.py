@@ -5,14 +5,14 @@ import pytest
 
 from pollard_pin.thesis.audit import states
 from pollard_pin.thesis.notation import NOTATION
-from pollard_pin.thesis.references import References
+from pollard_pin.thesis.references import OpenReferences
 from thesis_pin.audit.text import ranges
 from thesis_pin.equations.evaluation import evaluate
 
 
 @pytest.fixture(scope="module")
 def read():
-    references = References(states(closed=False))
+    references = OpenReferences(states(closed=False))
 
     def value(formula):
         (node,) = NOTATION.parse(formula)
@@ -46,7 +46,7 @@ def test_an_asterisk_is_a_product(read):
 
 
 def test_a_number_in_upright_letters_has_powers_and_not_labels(read):
-    signs = References(states(closed=False))
+    signs = OpenReferences(states(closed=False))
     (node,) = NOTATION.parse(r"\text{signo}^2")
     np.testing.assert_allclose(evaluate(node, signs, {"i": "1"}).array, 1.0)
 

@@ -43,6 +43,6 @@ def test_a_motion_goes_on_from_the_branch_of_the_angles_given():
     assert len(others) > 1
     for branch in others:
         start = np.concatenate([solutions.angles[0, branch], usual[0, 6:]])
-        followed = scout_pin.joint_trajectory(robot, motion, start).q
+        followed = scout_pin.joint_trajectory(robot, motion, reference=start).q
         np.testing.assert_allclose(followed[:, :6], solutions.angles[:, branch], atol=1e-12)
         np.testing.assert_array_equal(followed[:, 6:], usual[:, 6:])

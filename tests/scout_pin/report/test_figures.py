@@ -5,7 +5,7 @@ import pytest
 
 import scout_pin
 from scout_pin.kinematics.singularity import leg_conditioning
-from scout_pin.report.figures import _skeleton, stick_figures
+from scout_pin.report.figures import skeleton, stick_figures
 from scout_pin.report.page import gait_page
 
 
@@ -45,7 +45,7 @@ def test_a_straight_knee_is_singular(scout):
 
 def test_stick_figures_show_the_motion_of_the_report(report):
     some = np.array([0, 20, 40])
-    lines = _skeleton(report, some)
+    lines = skeleton(report, some)
     for side, foot in (("left", report.motion.left_foot), ("right", report.motion.right_foot)):
         np.testing.assert_allclose(lines[side][:, -1], foot.position[some], atol=1e-12)
         # Six joints, then the sole; neighbours are a link apart at every moment.

@@ -182,6 +182,7 @@ def test_residuals_leave_no_doubt_between_right_and_wrong(report):
     assert any(math.isinf(x) for x in printed)
 
 
+@pytest.mark.bytes
 def test_the_document_is_current(report):
     assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(
         report, THESIS.document_command

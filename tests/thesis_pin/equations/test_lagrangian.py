@@ -22,17 +22,17 @@ def pendulum(q, length=0.7, mass=1.3, inertia=0.02):
 
 
 def test_a_pendulum_has_the_terms_of_the_textbook():
-    q, rate = np.array([[0.4], [2.0]]), np.array([[[1.5]], [[-0.3]]])
+    q, rate = np.array([0.4, 2.0]), np.array([[1.5], [-0.3]])
     bodies = [pendulum(q)]
-    moved = [pendulum(q + 1j * STEP * rate[..., 0])], [pendulum(q + 1j * STEP)]
-    terms = lagrangian.assemble(
-        bodies, *(lagrangian.exact_rates(b, STEP) for b in moved), rate, 9.81
+    time, varied = (
+        lagrangian.exact_rates([pendulum(q + 1j * STEP * step)]) for step in (rate[:, 0], 1.0)
     )
+    terms = lagrangian.assemble(bodies, time, varied[:, None], rate)
     np.testing.assert_allclose(terms.mass[:, 0, 0], 1.3 * 0.7**2 + 0.02)
     np.testing.assert_allclose(terms.velocity, 0, atol=1e-15)
-    np.testing.assert_allclose(terms.gravity[:, 0], 1.3 * 9.81 * 0.7 * np.sin(q[:, 0]))
-    energy = lagrangian.kinetic_energy(bodies[0], rate[:, 0][:, None])
-    np.testing.assert_allclose(energy[:, 0], 0.5 * terms.mass[:, 0, 0] * rate[:, 0, 0] ** 2)
+    np.testing.assert_allclose(terms.gravity[:, 0], 1.3 * 9.81 * 0.7 * np.sin(q))
+    energy = lagrangian.kinetic_energy(bodies[0], rate)
+    np.testing.assert_allclose(energy, 0.5 * terms.mass[:, 0, 0] * rate[:, 0] ** 2)
 
 
 def sliding(q):
@@ -49,13 +49,11 @@ def sliding(q):
 
 
 def test_a_sliding_point_feels_centrifugal_and_coriolis_forces():
-    q, v = np.array([[[0.3, 0.8]]]), np.array([[[1.2, -0.5]]])
-    in_time = [sliding(q + 1j * STEP * v)]
-    each = [sliding(q + 1j * STEP * np.eye(2)[None])]
-    terms = lagrangian.assemble(
-        [sliding(q)], *(lagrangian.exact_rates(b, STEP) for b in (in_time, each)), v, 0.0
-    )
-    force = (terms.velocity @ v[..., 0, :, None])[0, :, 0]
+    q, v = np.array([[0.3, 0.8]]), np.array([[1.2, -0.5]])
+    time = lagrangian.exact_rates([sliding(q + 1j * STEP * v)])
+    varied = lagrangian.exact_rates([sliding(q[:, None] + 1j * STEP * np.eye(2))])
+    terms = lagrangian.assemble([sliding(q)], time, varied, v)
+    force = (terms.velocity @ v[..., None])[0, :, 0]
     expected = [2.0 * 2 * 0.8 * 1.2 * -0.5, -2.0 * 0.8 * 1.2**2]
     np.testing.assert_allclose(force, expected, rtol=1e-12)
     np.testing.assert_allclose(terms.rate[0], np.diag([2.0 * 2 * 0.8 * -0.5, 0.0]), atol=1e-14)

@@ -55,9 +55,15 @@ def test_a_part_of_a_name_stands_for_every_joint_that_has_it(tmp_path):
 
 
 def test_an_exact_name_beats_a_part_of_one(tmp_path):
-    """pin_a is a joint; that pin_a… could be part of others doesn't matter."""
-    text = (DATA / "four_bar.yaml").read_text().replace("'motor'", "[pin_a]")
-    assert with_closures(tmp_path, text, "four_bar").actuators == ("pin_a",)
+    """motor is a joint, and a part of motor_spare too."""
+    tree = (DATA / "four_bar.urdf").read_text().replace('"pin_a"', '"motor_spare"')
+    urdf, closures = tmp_path / "tree.urdf", tmp_path / "loops.yaml"
+    urdf.write_text(tree)
+    text = (DATA / "four_bar.yaml").read_text()
+    closures.write_text(text)
+    assert load(urdf, closures).actuators == ("motor",)
+    closures.write_text(text.replace("'motor'", "'moto'"))
+    assert set(load(urdf, closures).actuators) == {"motor", "motor_spare"}
 
 
 def test_spherical_joints_replace_what_the_urdf_has_and_other_limits_stay():
@@ -180,7 +186,7 @@ def test_a_link_with_two_parents_is_refused_with_both_joints(tmp_path):
         '  <link name="right_tip"/>\n', ""
     )
     (tmp_path / "looped.urdf").write_text(looped)
-    says = r"looped\.urdf: link 'left_tip' has two parents"
+    says = r"looped\.urdf:67: link 'left_tip' has two parents"
     with pytest.raises(ModelError, match=says) as caught:
         load(tmp_path / "looped.urdf", DATA / "five_bar.yaml")
     assert "'left_tip_joint' and 'right_tip_joint'" in str(caught.value)

@@ -10,27 +10,23 @@ Source: Pollard thesis, 3.1, 3.3, 3.5 – 3.7.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
-from pollard_pin.thesis.state import POSE, State
-from pollard_pin.thesis.symbols.accelerations import accelerating
-from pollard_pin.thesis.symbols.bodies import BODIES, bodies, inertia, own_frame, random_constants
+from pollard_pin.thesis.state import POSE
+from pollard_pin.thesis.symbols.bodies import BODIES, bodies, inertia, own_frame
 from pollard_pin.thesis.symbols.k import KSymbols
-from pollard_pin.thesis.symbols.motion import Drive
-from pollard_pin.thesis.symbols.rates import joint_rates
 from thesis_pin.equations import lagrangian
 from thesis_pin.equations.formula import Node, Symbol
-from thesis_pin.equations.values import STEP, ZERO, Value, matrix, scalar, vector
+from thesis_pin.equations.lagrangian import GRAVITY
+from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
 
-GRAVITY = 9.81  # m/s², thesis 3.3
 MOTORS = ("theta_21", "theta_211", "theta_212")
 """Angles the three base motors turn (3.146)."""
 
 
-class Mechanics(KSymbols):
+class Dynamics(KSymbols):
     """All symbols of chapter 3 at closed states."""
 
     @cached_property
@@ -170,15 +166,11 @@ class Mechanics(KSymbols):
     def terms(self) -> lagrangian.Terms:
         """D, V and C of the whole robot."""
         time, varied = (
-            np.imag(lagrangian.mass_matrix(list(self.moved(along).bodies.values()))) / STEP
+            lagrangian.exact_rates(list(self.moved(along).bodies.values()))
             for along in (None, "q_j")
         )
-        half = 0.5 * np.einsum("nk,jnkl->njl", self.pose_rates, varied)
-        weight = sum(
-            GRAVITY * body.mass[..., None] * body.linear[..., 2, :] for body in self.bodies.values()
-        )
-        mass = lagrangian.mass_matrix(list(self.bodies.values()))
-        return lagrangian.Terms(mass, time - half, np.asarray(weight), time)
+        bodies = list(self.bodies.values())
+        return lagrangian.assemble(bodies, time, np.moveaxis(varied, 0, -3), self.pose_rates)
 
     @cached_property
     def generalized_force(self) -> np.ndarray:
@@ -275,17 +267,3 @@ class Mechanics(KSymbols):
     def _of_delta_W(self, symbol: Symbol, i: str) -> Value | None:
         turns = np.stack([self._turn(name) for name in MOTORS], axis=-1)
         return scalar((turns * self.drive.torque).sum(axis=-1))
-
-
-def driven(state: State, generator: np.random.Generator) -> Mechanics:
-    """Closed states with random bodies, moved by random torques of the three base motors."""
-    (size,) = state.shape
-    state = replace(state, constants={**state.constants, **random_constants(generator, size)})
-    torque, virtual = generator.uniform(-500, 500, (size, 3)), generator.uniform(-1, 1, (size, 6))
-    still = Mechanics(state, Drive(np.zeros((size, 6)), torque, virtual))
-    rows = joint_rates(state)
-    force = sum(torque[:, k, None] * rows[name] for k, name in enumerate(MOTORS))
-    rest = force - still.generalized_force
-    acceleration = np.linalg.solve(still.terms.mass, rest[..., None])[..., 0]
-    bent = replace(state, accelerations=dict(zip(POSE, acceleration.T, strict=True)))
-    return Mechanics(accelerating(bent), Drive(acceleration, torque, virtual))

@@ -1,19 +1,4 @@
-"""What the symbols of appendix A must equal: Jacobians of the loop equations.
-
-========================  ====================================================
-symbol                    reference
-========================  ====================================================
-r_p                       place of the spray tip
-r_A … r_C, J_θ            derivatives of the wrist's place by one angle of chain 0
-r_D … r_F, J_q            the same by the pose, from the tip's side
-r_G … r_I, J_β            derivatives of a rod's end by one angle of its chain
-r_J … r_L, J_k            the same point by one angle of chain 0
-========================  ====================================================
-
-The rest is chapter 3's (:mod:`pollard_pin.thesis.symbols.motion`).
-
-Source: Pollard thesis, appendix A.
-"""
+"""Jacobians of the loop equations (appendix A)."""
 
 from __future__ import annotations
 
@@ -23,7 +8,7 @@ import numpy as np
 
 from pollard_pin.thesis.state import CHAIN_0, POSE, Matrices, State, own_name
 from pollard_pin.thesis.symbols.bodies import origin
-from pollard_pin.thesis.symbols.motion import SIDE_I, Drive, MotionSymbols
+from pollard_pin.thesis.symbols.motion import SIDE_I, MotionSymbols
 from pollard_pin.thesis.symbols.rates import derivative
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.equations.values import Value, matrix, vector
@@ -65,7 +50,7 @@ _MATRICES: dict[str, tuple[_Point, Sequence[str]]] = {
 """By subscript; k, being an index elsewhere, arrives as each of its values."""
 
 
-class LoopSymbols(MotionSymbols):
+class AppendixA(MotionSymbols):
     """All symbols of appendix A at closed states."""
 
     def _slope(self, point: _Point, angle: str, i: str) -> np.ndarray:
@@ -90,9 +75,3 @@ class LoopSymbols(MotionSymbols):
 
     def _of_I(self, symbol: Symbol, i: str) -> Value | None:
         return matrix(np.eye(3)) if symbol.sub == "3times3" else None
-
-
-def loop_symbols(state: State) -> LoopSymbols:
-    """Symbols at closed states; appendix A has no forces and no accelerations."""
-    (size,) = state.shape
-    return LoopSymbols(state, Drive(np.zeros((size, 6)), np.zeros((size, 3)), np.zeros((size, 6))))

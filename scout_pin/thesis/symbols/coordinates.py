@@ -1,7 +1,4 @@
-"""What every symbol's reference needs: look-up, constants, exact derivatives.
-
-A symbol with base letter ``e`` is answered by the method ``_of_e`` of one of the
-classes that build on this one; a dot or ∂ that no method knows is a complex step."""
+"""Coordinates, their rates, constants, and what differs in Scout's derivatives (4.1, 4.2)."""
 
 from __future__ import annotations
 
@@ -11,54 +8,33 @@ import numpy as np
 
 from scout_pin.thesis.state import BODIES, COORDINATES, State, coordinate_index
 from thesis_pin.equations.evaluation import evaluate
-from thesis_pin.equations.formula import FormulaError, Node, Symbol
-from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
+from thesis_pin.equations.formula import Node, Symbol
+from thesis_pin.equations.lagrangian import GRAVITY
+from thesis_pin.equations.symbols import Symbols
+from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
 
-GRAVITY = 9.81  # m/s², thesis 4.1
 # Arguments in the definitions of functions, as in T_z1(x): any number will do.
 DUMMIES = {"x": 0.3, "y": -0.7, "z": 1.1, "theta_x": 0.4, "theta_y": -0.9, "theta_z": 1.3}
 DUMMIES |= {"alpha": 0.5, "beta": -1.2, "gamma": 0.8}
 
 
-class Symbols:
-    """Symbols at a batch of states."""
+class Coordinates(Symbols):
+    """Coordinates and constants at a batch of states, and derivatives of any formula."""
 
     columns = 18
 
     def __init__(self, state: State) -> None:
+        super().__init__()
         self.state = state
-        self._values: dict[tuple[str, int, str], Value] = {}
-        self._moved: dict[tuple[str | None, bool], Self] = {}
 
-    def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
-        """Value of a symbol; see :class:`thesis_pin.equations.evaluation.Environment`."""
-        legs = indices.get("i", "") + "/" + indices.get("j", "")
-        key = (symbol.name + "*" * symbol.bold, symbol.dots, legs)
-        if key not in self._values:
-            value = self._find(symbol, indices)
-            if value is None:
-                dots = "˙" * symbol.dots
-                raise FormulaError(f"the symbol {symbol.name}{dots} isn't defined anywhere")
-            self._values[key] = value
-        return self._values[key]
-
-    def _find(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
-        if symbol.name in DUMMIES and not symbol.dots:
-            return scalar(DUMMIES[symbol.name])
-        if symbol.name in DUMMIES and symbol.dots == 1:
-            return scalar(-2.0 * DUMMIES[symbol.name])
-        handler = getattr(self, "_of_" + symbol.base.replace(":", "_"), None)
-        value = handler(symbol, indices) if handler else None
-        if value is None and symbol.dots:
-            below = Symbol(
-                symbol.base, symbol.sub, symbol.sup, symbol.dots - 1, symbol.primes, symbol.bold
-            )
-            value = self.partial(below, None, indices)
-        return value
+    def _find(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.name in DUMMIES and symbol.dots < 2:
+            return scalar(DUMMIES[symbol.name] * (-2.0 if symbol.dots else 1.0))
+        return super()._find(symbol, i)
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """Derivative of a formula by a coordinate, a rate or time."""
-        special = self._special_derivative(of, by, indices)
+        special = self._special_derivative(of, by)
         if special is not None:
             return special
         if isinstance(of, Symbol) and of.name == "q" and by is not None:
@@ -66,14 +42,12 @@ class Symbols:
         if by is not None and by.name == "q":
             columns = self.partial(of, Symbol("q", "j"), indices)
             return matrix(np.swapaxes(columns.array, 1, -1)[:, None])
-        along, rates = None if by is None else by.name, bool(by and by.dots)
         if self.state.perturbed:
+            along, rates = None if by is None else by.name, bool(by and by.dots)
             return self._difference(of, along, rates, indices)
-        return imaginary(evaluate(of, self.moved(along, rates), indices))
+        return super().partial(of, by, indices)
 
-    def _special_derivative(
-        self, of: Node, by: Symbol | None, indices: dict[str, str]
-    ) -> Value | None:
+    def _special_derivative(self, of: Node, by: Symbol | None) -> Value | None:
         """A derivative that is known without a step."""
         return None
 
@@ -95,12 +69,8 @@ class Symbols:
             return vector(np.eye(18)[None])
         return vector(np.eye(18)[coordinate_index(by.name)][None, None])
 
-    def moved(self, along: str | None, rates: bool) -> Self:
-        """The same symbols one imaginary step away."""
-        key = (along, rates)
-        if key not in self._moved:
-            self._moved[key] = type(self)(self.state.step(*key))
-        return self._moved[key]
+    def _stepped(self, along: str | None, rates: bool) -> Self:
+        return type(self)(self.state.step(along, rates))
 
     def _coordinate(self, name: str, dots: int) -> Value | None:
         if dots > 2 or name not in COORDINATES:
@@ -112,7 +82,7 @@ class Symbols:
         found = self.state.parameters.values.get(name)
         return None if found is None else Value(found, found.ndim - 2)
 
-    def _of_q(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_q(self, symbol: Symbol, i: str) -> Value | None:
         s = self.state
         series = (s.q, s.v, s.a)[symbol.dots] if symbol.dots < 3 else None
         if series is None or symbol.sup:
@@ -123,22 +93,22 @@ class Symbols:
             return scalar(series if series.shape[1] == 1 else np.einsum("njj->nj", series))
         return scalar(series[..., coordinate_index(f"q_{symbol.sub}")])
 
-    def _of_beta(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_beta(self, symbol: Symbol, i: str) -> Value | None:
         return ZERO if symbol.dots else self._constant(symbol.name)
 
-    def _of_m(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_m(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots:
             return None
         if symbol.sub == "T":
             return scalar(sum(self.state.parameters.values[f"m_{body}"] for body in BODIES))
         return self._constant(symbol.name)
 
-    def _of_b1(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_b1(self, symbol: Symbol, i: str) -> Value | None:
         return ZERO if symbol.dots else self._constant(symbol.name)
 
     _of_b2 = _of_b1
 
-    def _of_g(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+    def _of_g(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub or symbol.sup or symbol.dots:
             return None
         return vector(np.array([[[0, 0, -GRAVITY]]])) if symbol.bold else scalar(GRAVITY)

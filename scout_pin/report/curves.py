@@ -1,0 +1,287 @@
+"""What a gait report's figures and page draw, as data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scout_pin.dynamics.stability import polygons
+from scout_pin.kinematics.singularity import leg_conditioning
+from scout_pin.report.document import GaitReport
+from scout_pin.specification import SIDES
+from thesis_pin.report.curves import (
+    BLACK,
+    BLUE,
+    ORANGE,
+    PALETTE,
+    SKY,
+    VERMILLION,
+    Area,
+    Band,
+    Curve,
+    Dash,
+    Limit,
+    Plot,
+    both_signs,
+)
+
+NAMES = ("yaw", "roll", "pitch", "knee", "ankle pitch", "ankle roll")
+SIDE_COLOURS = {"left": SKY, "right": ORANGE}
+_FEET: tuple[tuple[str, str, Dash], ...] = (
+    ("left", SKY, "solid"),
+    ("right", ORANGE, "dash"),
+)
+
+Samples = NDArray[np.intp]
+
+
+def plots(report: GaitReport, keep: Samples) -> list[Plot]:
+    """Every plot of a report's page.
+
+    Args:
+        report: The report.
+        keep: Indices of the samples that are drawn.
+    """
+    return [
+        plan(report, keep),
+        stability_margin(report, keep),
+        *_floor(report, keep),
+        torques(report, keep),
+        *_servos(report, keep),
+        *_energy(report, keep),
+        joint_angles(report, keep),
+        _conditioning(report, keep),
+    ]
+
+
+def feet_and_torso(report: GaitReport, keep: Samples) -> Plot:
+    """Torso and feet over time: figure 5.1 of the thesis."""
+    motion = report.motion
+    curves = (
+        ("torso y", motion.torso, 1),
+        ("left foot y", motion.left_foot, 1),
+        ("left foot z", motion.left_foot, 2),
+        ("right foot y", motion.right_foot, 1),
+        ("right foot z", motion.right_foot, 2),
+    )
+    return Plot(
+        f"Gait {report.gait.name!r}",
+        "Origins of the torso and the soles.",
+        "[mm]",
+        [
+            Curve(name, body.position[keep, axis] * 1e3, colour)
+            for colour, (name, body, axis) in zip(PALETTE, curves, strict=False)
+        ],
+        motion.time[keep],
+    )
+
+
+def plan(report: GaitReport, keep: Samples) -> Plot:
+    """Support polygons, zero-moment point and centre of mass from above."""
+    feet = {"left": report.motion.left_foot.placement, "right": report.motion.right_foot.placement}
+    areas = []
+    for samples, corners in polygons(report.robot, report.motion, feet):
+        phase = report.motion.phase[samples[0]]
+        colour = SIDE_COLOURS.get(phase, "#777777")
+        areas.append(Area(f"{phase} support", corners * 1e3, colour, phase in SIDE_COLOURS))
+    zmp, com = report.zmp[keep] * 1e3, report.com[keep] * 1e3
+    inside = report.margin[keep] > 0
+    x, y = zmp.T
+    curves = [
+        Curve("zero-moment point inside", y[inside], BLUE, marks="dot", x=x[inside]),
+        Curve("zero-moment point outside", y[~inside], VERMILLION, marks="cross", x=x[~inside]),
+        Curve("centre of mass", com[:, 1], BLACK, x=com[:, 0]),
+    ]
+    return Plot(
+        "From above",
+        "Support polygons, zero-moment point and centre of mass. The robot tips when the "
+        "zero-moment point leaves the polygon of its moment.",
+        "y, forward [mm]",
+        curves,
+        across="x, to the right [mm]",
+        areas=areas,
+    )
+
+
+def stability_margin(report: GaitReport, keep: Samples) -> Plot:
+    """How far the zero-moment point is inside the support polygon."""
+    return _over_time(
+        report,
+        keep,
+        "Stability margin",
+        "Distance of the zero-moment point inside the support polygon; negative: the robot "
+        "tips. Shaded: one foot stands (blue left, orange right).",
+        "margin [mm]",
+        [Curve("margin", report.margin[keep] * 1e3, BLUE)],
+        [Limit("tips below", 0.0)],
+    )
+
+
+def _floor(report: GaitReport, keep: Samples) -> list[Plot]:
+    forces, used = report.dynamics.wrench[keep, :, 2], report.dynamics.friction_used[keep]
+    return [
+        _over_time(
+            report,
+            keep,
+            "Load on each foot",
+            "Vertical force of the floor. In double support it is shared as the least torques "
+            "want it.",
+            "force [N]",
+            [Curve(f"{n} foot", forces[:, k], c, d) for k, (n, c, d) in enumerate(_FEET)],
+        ),
+        _over_time(
+            report,
+            keep,
+            "Friction in use",
+            "Tangential force as a share of what friction allows.",
+            "share [%]",
+            [Curve(f"{n} foot", used[:, k] * 100, c, d) for k, (n, c, d) in enumerate(_FEET)],
+            [Limit("slips above", 100.0)],
+        ),
+    ]
+
+
+def torques(report: GaitReport, keep: Samples, side: str = "") -> Plot:
+    """Joint torques against the servos' stall torque, of one leg or of both."""
+    stall = report.robot.stall_torque[_columns(side)]
+    return _over_time(
+        report,
+        keep,
+        f"Joint torques{_of(side)}",
+        f"Against the servos' stall torque.{_reading(side)}",
+        "torque [N·m]",
+        _joints(report.dynamics.torque[keep], side),
+        both_signs("stall torque", stall),
+    )
+
+
+def _servos(report: GaitReport, keep: Samples) -> list[Plot]:
+    torque, speed = report.dynamics.torque[keep], report.joints.v[keep]
+    no_load = report.robot.no_load_speed
+    use = np.abs(torque) / report.robot.stall_torque + np.abs(speed) / no_load
+    return [
+        _over_time(
+            report,
+            keep,
+            "Joint speeds",
+            f"Against the servos' no-load speed.{_reading('')}",
+            "speed [rad/s]",
+            _joints(speed),
+            both_signs("no-load speed", no_load),
+        ),
+        _over_time(
+            report,
+            keep,
+            "Use of the torque-speed line",
+            f"|τ|/stall + |θ̇|/no-load of each servo.{_reading('')}",
+            "use [%]",
+            _joints(use * 100),
+            [Limit("limit", 100.0)],
+        ),
+    ]
+
+
+def _energy(report: GaitReport, keep: Samples) -> list[Plot]:
+    power = report.dynamics.torque * report.joints.v
+    step = np.diff(report.joints.time)[:, None] * (power[1:] + power[:-1]) / 2
+    work = np.concatenate([np.zeros((1, 12)), np.cumsum(step, axis=0)])
+    parts: tuple[tuple[str, str, Dash], ...] = (("left", SKY, "dash"), ("right", ORANGE, "dot"))
+
+    def curves(values: NDArray[np.float64]) -> list[Curve]:
+        legs = [
+            Curve(f"{side} leg", values[keep, _columns(side)].sum(axis=1), colour, dash)
+            for side, colour, dash in parts
+        ]
+        return [Curve("both", values[keep].sum(axis=1), BLACK), *legs]
+
+    return [
+        _over_time(
+            report,
+            keep,
+            "Mechanical power",
+            "What the servos give to the robot; negative: they brake it.",
+            "power [W]",
+            curves(power),
+        ),
+        _over_time(
+            report,
+            keep,
+            "Work done so far",
+            "Integral of the power since the start.",
+            "work [mJ]",
+            curves(work * 1e3),
+        ),
+    ]
+
+
+def joint_angles(report: GaitReport, keep: Samples, side: str = "") -> Plot:
+    """Joint angles over time, of one leg or of both: figure 5.2 of the thesis."""
+    return _over_time(
+        report,
+        keep,
+        f"Joint angles{_of(side)}",
+        f"From the servos' neutral pose.{_reading(side)}",
+        "angle [°]",
+        _joints(np.degrees(report.joints.q[keep]), side),
+    )
+
+
+def _conditioning(report: GaitReport, keep: Samples) -> Plot:
+    good = leg_conditioning(report.robot, report.joints.q[keep])
+    return _over_time(
+        report,
+        keep,
+        "Conditioning of the legs",
+        "Smallest over largest singular value of each leg's Jacobian (lengths divided by "
+        "the stretched leg's); 0 is singular.",
+        "reciprocal condition [-]",
+        [Curve(f"{n} leg", good[:, k], c, d) for k, (n, c, d) in enumerate(_FEET)],
+    )
+
+
+def _over_time(
+    report: GaitReport,
+    keep: Samples,
+    title: str,
+    text: str,
+    label: str,
+    curves: Sequence[Curve],
+    limits: Sequence[Limit] = (),
+) -> Plot:
+    """A plot over time, tinted where one foot stands."""
+    bands = [
+        Band(
+            f"{phase.support} foot stands",
+            phase.start * report.time_unit,
+            phase.end * report.time_unit,
+            SIDE_COLOURS[phase.support],
+        )
+        for phase in report.gait.phases
+        if phase.support in SIDE_COLOURS and phase.end > phase.start
+    ]
+    return Plot(title, text, label, curves, report.joints.time[keep], limits=limits, bands=bands)
+
+
+def _joints(values: NDArray[np.float64], side: str = "") -> list[Curve]:
+    """A curve for each joint: of one leg, or of both with the right one dotted."""
+    dashes: tuple[Dash, ...] = ("solid", "solid" if side else "dot")
+    return [
+        Curve(name if side else f"{leg} {name}", values[:, 6 * k + joint], colour, dash)
+        for k, (leg, dash) in enumerate(zip(SIDES, dashes, strict=True))
+        if side in ("", leg)
+        for joint, (colour, name) in enumerate(zip(PALETTE, NAMES, strict=True))
+    ]
+
+
+def _columns(side: str) -> slice:
+    return {"left": slice(6), "right": slice(6, 12)}.get(side, slice(12))
+
+
+def _of(side: str) -> str:
+    return f", {side} leg" if side else ""
+
+
+def _reading(side: str) -> str:
+    return "" if side else " Left leg solid, right leg dotted."

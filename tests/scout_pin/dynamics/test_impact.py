@@ -1,0 +1,67 @@
+"""Landings: momentum, energy, and what the floor can give."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from corner_forces import linear_programme_admits
+
+from scout_pin.coordinates import free_flyer_state
+from scout_pin.dynamics.impact import impacts, touchdown_impact
+from scout_pin.motion.files import load_gait
+from scout_pin.motion.trajectory import joint_trajectory
+from scout_pin.specification import SIDES
+
+from ..conftest import EXAMPLES, sole_jacobians
+
+
+def test_impact_stops_the_landing_foot_and_keeps_momentum(scout):
+    """Momentum changes by the impulses; the held soles are at rest afterwards."""
+    gait = load_gait()
+    for t, side in gait.touchdowns():
+        motion = gait.sample(np.array([np.nextafter(t, -np.inf)]))
+        joints = joint_trajectory(scout, motion)
+        q, v, _ = (part[0] for part in free_flyer_state(motion.torso, joints))
+        impact = touchdown_impact(scout, q, v, side, t)
+        jacobians = dict(zip(SIDES, sole_jacobians(scout, q), strict=True))
+        mass = pin.crba(scout.model, scout.data, q)
+        mass = np.triu(mass) + np.triu(mass, 1).T
+        impulse = sum(jacobians[s].T @ p for s, p in zip(impact.held, impact.impulse, strict=True))
+        after = v + np.linalg.solve(mass, impulse)
+        np.testing.assert_allclose(after[6:] - v[6:], impact.velocity_jump, atol=1e-10)
+        for held in impact.held:
+            np.testing.assert_allclose(jacobians[held] @ after, 0.0, atol=1e-10)
+        lost = 0.5 * (v @ mass @ v - after @ mass @ after)
+        assert impact.energy_lost == pytest.approx(lost, abs=1e-12)
+        assert impact.energy_lost > 0
+        assert (impact.impulse[:, 2] > 0).all()
+        # The foot that was let go leaves the floor, it isn't pressed into it.
+        for other in set(SIDES) - set(impact.held):
+            assert (jacobians[other] @ after)[2] >= 0
+
+
+def test_a_landing_at_rest_costs_nothing(scout):
+    gait = load_gait(EXAMPLES / "walk.toml")
+    joints = joint_trajectory(scout, gait.sample(gait.sample_times(41)))
+    found = impacts(scout, gait, joints)
+    assert [impact.side for impact in found] == ["right", "left"]
+    for impact in found:
+        assert np.abs(impact.impulse).max() < 1e-9
+        assert impact.energy_lost < 1e-12
+        assert impact.admissible
+
+
+def test_an_impact_the_floor_cannot_give_is_called_so(scout, lopsided):
+    """A foot that lands sliding sideways needs more friction than there is."""
+    for robot in (scout, lopsided):
+        q = robot.q0.copy()
+        falling, sliding = np.zeros((2, 18))
+        falling[2] = sliding[2] = -0.1
+        sliding[0] = 5.0
+        assert not touchdown_impact(robot, q, sliding, "left").admissible
+        straight = touchdown_impact(robot, q, falling, "left")
+        # The soles are level in the neutral pose, so world axes are theirs.
+        by_hand = [
+            linear_programme_admits(robot.contacts[SIDES.index(side)], impulse)
+            for side, impulse in zip(straight.held, straight.impulse, strict=True)
+        ]
+        assert straight.admissible == all(by_hand)

@@ -1,0 +1,90 @@
+"""A gait's plots show what the report says, in the units they name."""
+
+from pathlib import Path
+
+import numpy as np
+import plotly.graph_objects
+import pytest
+import shapely
+
+import scout_pin
+from scout_pin.report import curves
+from scout_pin.report.figures import figures
+from thesis_pin.pages.plots import figure
+
+WALK = Path(__file__).parents[3] / "examples" / "walk.toml"
+
+
+@pytest.fixture(scope="module")
+def report():
+    return scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait(WALK), samples=81)
+
+
+@pytest.fixture(scope="module")
+def plots(report):
+    every = np.arange(len(report.joints.time))
+    return {plot.title: plot for plot in curves.plots(report, every)}
+
+
+def test_plots_are_figures_that_plotly_itself_accepts(plots):
+    for plot in plots.values():
+        plotly.graph_objects.Figure(figure(plot))
+
+
+def test_both_legs_have_every_joint_and_one_leg_its_own(report):
+    every = np.arange(len(report.joints.time))
+    for draw, values in (
+        (curves.torques, report.dynamics.torque),
+        (curves.joint_angles, np.degrees(report.joints.q)),
+    ):
+        both = draw(report, every).curves
+        np.testing.assert_array_equal(np.stack([curve.y for curve in both], axis=1), values)
+        for k, side in enumerate(("left", "right")):
+            leg = draw(report, every, side).curves
+            assert [f"{side} {curve.name}" for curve in leg] == [c.name for c in both][6 * k :][:6]
+            found = np.stack([curve.y for curve in leg], axis=1)
+            np.testing.assert_array_equal(found, values[:, 6 * k : 6 * k + 6])
+
+
+def test_the_power_of_both_legs_is_torque_times_speed_and_work_its_integral(report, plots):
+    both, left, right = plots["Mechanical power"].curves
+    power = np.einsum("nk,nk->n", report.dynamics.torque, report.joints.v)
+    np.testing.assert_allclose(both.y, power, atol=1e-12)
+    np.testing.assert_allclose(left.y + right.y, power, atol=1e-12)
+    done = plots["Work done so far"].curves[0].y
+    # [mJ]
+    assert done[-1] == pytest.approx(np.trapezoid(power, report.joints.time) * 1e3, abs=1e-9)
+
+
+def test_points_are_marked_outside_where_no_polygon_of_their_moment_holds_them(report):
+    thesis = scout_pin.gait_report(report.robot, scout_pin.load_gait(), samples=41)
+    for one, tips in ((report, False), (thesis, True)):
+        every = np.arange(len(one.joints.time))
+        plot = curves.plan(one, every)
+        inside, outside, _ = plot.curves
+        assert len(inside.y) + len(outside.y) == len(every)
+        assert (len(outside.y) > 0) is tips
+        hulls = [shapely.Polygon(area.corners) for area in plot.areas]
+        for x, y in zip(inside.x, inside.y, strict=True):
+            assert min(hull.distance(shapely.Point(x, y)) for hull in hulls) < 1e-9
+
+
+def test_bands_are_the_times_on_one_foot(report, plots):
+    bands = plots["Stability margin"].bands
+    for band in bands:
+        within = (report.joints.time > band.start) & (report.joints.time < band.end)
+        stands = report.motion.support[within]
+        foot = ("left", "right").index(band.name.split()[0])
+        assert stands[:, foot].all()
+        assert not stands[:, 1 - foot].any()
+    total = sum(band.end - band.start for band in bands)
+    alone = np.trapezoid(1.0 - report.motion.support.all(axis=1), report.joints.time)
+    assert total == pytest.approx(alone, abs=2 * np.diff(report.joints.time).max())
+
+
+def test_every_figure_comes_as_png_and_svg(report):
+    names = ("feet_and_torso", "joint_angles", "stick_figures", "torques", "stability")
+    files = figures(report)
+    assert set(files) == {f"{name}.{kind}" for name in names for kind in ("png", "svg")}
+    for name, content in files.items():
+        assert content.startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")

@@ -1,0 +1,1 @@
+"""Formats of models: text → :class:`thesis_pin.model.description.Description`."""
