@@ -195,16 +195,16 @@ class Pollard(ClosedRobot):
         self, posture: Posture, pose: ArrayLike, rate: ArrayLike, acceleration: ArrayLike | None
     ) -> tuple[np.ndarray, np.ndarray]:
         shape = posture.shape
-        given = {
-            "pose": pose,
-            "rate": rate,
-            "acceleration": np.zeros(6) if acceleration is None else acceleration,
-        }
-        flat = [
+        still = np.zeros(6)
+        tool, first, second = (
             spread(name, finite_array(name, value, 6), shape).reshape(-1, 6)
-            for name, value in given.items()
-        ]
-        v, a = rates.motion_rates(posture, *flat)
+            for name, value in (
+                ("pose", pose),
+                ("rate", rate),
+                ("acceleration", still if acceleration is None else acceleration),
+            )
+        )
+        v, a = rates.motion_rates(posture, tool, first, second)
         return v.reshape(*shape, 12), a.reshape(*shape, 12)
 
     def rate_jacobian(self, q: ArrayLike) -> np.ndarray:

@@ -19,6 +19,7 @@ from scout_pin.kinematics.solutions import branch_numbers
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact as Contact
+from thesis_pin.contacts.feet import sole_corners
 from thesis_pin.errors import BadInput
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
@@ -296,8 +297,7 @@ class Scout(LoadedRobot):
         """
         placement = pose_array("foot", foot)
         outline = np.array(self.specification.leg(choice("side", side, SIDES)).sole)
-        turned = np.einsum("...ij,kj->...ki", placement[..., :3, :2], outline)
-        return turned + placement[..., None, :3, 3]
+        return sole_corners(outline, placement)
 
     def neutral_feet(self) -> dict[str, np.ndarray]:
         """Soles in the torso frame with all servos neutral, by side."""

@@ -69,6 +69,7 @@ def motion_rates(
     rate: np.ndarray,
     acceleration: np.ndarray,
     time: np.ndarray | None = None,
+    *,
     first: int = 0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rates and accelerations of the twelve joints of a motion of the tool.

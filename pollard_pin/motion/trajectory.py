@@ -92,7 +92,7 @@ def _solve(
         some = motion.part(part)
         posture = Posture.of(robot.geometry, solution.angles[part])
         v[part], a[part] = motion_rates(
-            posture, some.pose, some.rate, some.acceleration, some.time, part.start
+            posture, some.pose, some.rate, some.acceleration, some.time, first=part.start
         )
     return solution, v, a
 

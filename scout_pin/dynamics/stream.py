@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics
+from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
+from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.elementwise import BLOCK, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory

@@ -80,9 +80,8 @@ def feet_and_torso(report: GaitReport, keep: Samples) -> Plot:
 
 def plan(report: GaitReport, keep: Samples) -> Plot:
     """Support polygons, zero-moment point and centre of mass from above."""
-    feet = {"left": report.motion.left_foot.placement, "right": report.motion.right_foot.placement}
     areas = []
-    for samples, corners in polygons(report.robot, report.motion, feet):
+    for samples, corners in polygons(report.robot, report.motion):
         phase = report.motion.phase[samples[0]]
         colour = SIDE_COLOURS.get(phase, "#777777")
         areas.append(Area(f"{phase} support", corners * 1e3, colour, phase in SIDE_COLOURS))

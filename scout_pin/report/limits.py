@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics, joint_friction
+from scout_pin.dynamics.inverse import inverse_dynamics, joint_friction
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
+from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 _TRIED = 32  # samples of double support added at a time to those it is bisected on

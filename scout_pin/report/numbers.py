@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.dynamics.impact import Impact
-from scout_pin.dynamics.inverse import ContactDynamics
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion, RateJump
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, SIDES
+from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
 

@@ -123,9 +123,8 @@ def _body(report: GaitReport, q: np.ndarray) -> list[Item]:
 def _balance(report: GaitReport, keep: np.ndarray, zone: np.ndarray, size: float) -> list[Item]:
     com, floor = report.com[keep], report.com[keep] * (1.0, 1.0, 0.0)
     zmp = np.column_stack([report.zmp[keep], np.zeros(len(keep))])
-    feet = {"left": report.motion.left_foot.placement, "right": report.motion.right_foot.placement}
     which, outlines = np.full(len(report.margin), -1.0), []
-    for k, (samples, corners) in enumerate(polygons(report.robot, report.motion, feet)):
+    for k, (samples, corners) in enumerate(polygons(report.robot, report.motion)):
         which[samples] = k
         outlines.append(np.column_stack([corners, np.zeros(len(corners))]))
     return [

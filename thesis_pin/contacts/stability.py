@@ -6,10 +6,12 @@ Source: Scout thesis, section 6.2, equation (6.1).
 from __future__ import annotations
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from thesis_pin.contacts.cones import corners
 from thesis_pin.errors import BadInput, NoSupportForce
+from thesis_pin.model.loading import LoadedRobot
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import real
 
@@ -56,6 +58,54 @@ def zero_moment_point(
     x = (weight * com[..., 0] + ground_height * rate[..., 0] - rate[..., 4]) / normal
     y = (weight * com[..., 1] + ground_height * rate[..., 1] + rate[..., 3]) / normal
     return np.stack([x, y], axis=-1)
+
+
+def pressure_point(feet: ArrayLike, wrench: ArrayLike) -> np.ndarray:
+    """Centre of pressure of all floor wrenches together: the ZMP by another route.
+
+    Args:
+        feet: Origins of the soles in the world [m], shape ``(n, feet, 3)``.
+        wrench: Floor's wrench on each foot, world axes, about its origin, ``(n, feet, 6)``.
+
+    Returns:
+        Point on the floor [m], shape ``(n, 2)``.
+
+    Raises:
+        NoSupportForce: The floor doesn't push at some sample.
+    """
+    load = finite_array("wrench", wrench, None, None, 6)
+    places = finite_array("feet", feet, *load.shape[:2], 3)
+    force = load[..., :3].sum(axis=1)
+    moment = (load[..., 3:] + np.cross(places, load[..., :3])).sum(axis=1)
+    if (force[:, 2] <= 0).any():
+        k = int(np.argmax(force[:, 2] <= 0))
+        raise NoSupportForce("the floor doesn't push", where=f"sample {k}")
+    return np.asarray(np.stack([-moment[:, 1], moment[:, 0]], axis=1) / force[:, 2:])
+
+
+def momentum(
+    robot: LoadedRobot, q: np.ndarray, v: np.ndarray, a: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Centre of mass and momentum rate about the world origin, by Pinocchio.
+
+    Args:
+        robot: Any robot, its base included.
+        q: Configurations, shape ``(n, nq)``.
+        v: Velocities, shape ``(n, nv)``.
+        a: Accelerations, shape ``(n, nv)``.
+
+    Returns:
+        Centre of mass [m] ``(n, 3)`` and rate of linear, then angular momentum
+        about the world origin ``(n, 6)``.
+    """
+    model, data = robot.model, robot.model.createData()
+    com, rate = np.empty((len(q), 3)), np.empty((len(q), 6))
+    for k in range(len(q)):
+        pin.computeCentroidalMomentumTimeVariation(model, data, q[k], v[k], a[k])
+        com[k] = data.com[0]
+        rate[k] = data.dhg.vector
+    rate[:, 3:] += np.cross(com, rate[:, :3])
+    return com, rate
 
 
 def signed_margin(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:

@@ -5,10 +5,11 @@ import pytest
 from scipy.optimize import nnls
 
 from scout_pin.coordinates import free_flyer_state
-from scout_pin.dynamics.inverse import ContactDynamics, inverse_dynamics, joint_friction
+from scout_pin.dynamics.inverse import inverse_dynamics, joint_friction
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
+from thesis_pin.contacts.dynamics import ContactDynamics
 
 from ..conftest import EXAMPLES, sole_jacobians
 

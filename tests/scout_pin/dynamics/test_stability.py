@@ -68,9 +68,9 @@ def test_margins_are_distances_to_the_soles_corners_by_hand(scout):
 def test_every_sample_has_one_polygon_and_its_corners_are_the_soles(case):
     robot, motion, *_ = case
     feet = {"left": motion.left_foot.placement, "right": motion.right_foot.placement}
-    seen = np.concatenate([samples for samples, _ in polygons(robot, motion, feet)])
+    seen = np.concatenate([samples for samples, _ in polygons(robot, motion)])
     np.testing.assert_array_equal(np.sort(seen), np.arange(len(motion.t)))
-    for samples, polygon in polygons(robot, motion, feet):
+    for samples, polygon in polygons(robot, motion):
         k = samples[0]
         corners = np.concatenate(
             [
