@@ -15,7 +15,7 @@ from thesis_pin.command.values import count, number
 
 
 def _which_path(words: argparse.ArgumentParser) -> None:
-    _branch(words)
+    _branch(words, default="this one")
     words.add_argument(
         "--path", metavar="FILE", help=".csv or .toml path (default: the curve of appendix B)"
     )
@@ -46,7 +46,7 @@ def _which_path(words: argparse.ArgumentParser) -> None:
 
 
 def _which_pose(words: argparse.ArgumentParser) -> None:
-    _branch(words)
+    _branch(words, default="all 16 with f0 f1 f2 at +")
     words.add_argument(
         "pose",
         nargs=6,
@@ -72,6 +72,7 @@ def _which_motors(words: argparse.ArgumentParser) -> None:
 
 
 def _which_grid(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="this one")
     for axis, default in (("x", [0.1, 0.8]), ("y", [0.0]), ("z", [-0.5, 0.5])):
         words.add_argument(
             f"--{axis}",
@@ -103,7 +104,8 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
 
 
 _branch = partial(
-    add_branch, signs="seven signs e0 f0 w e1 f1 e2 f2, written --branch=-++-+++ (the default)"
+    add_branch,
+    signs="seven signs e0 f0 w e1 f1 e2 f2, written --branch=-++-+++",
 )
 _robot = partial(add_robot, another="another three-chain robot")
 
@@ -160,7 +162,7 @@ COMMAND = Command(
             "workspace --x 0.1 0.8 --y 0 --z -0.5 0.5 --out slice",
             "pollard_pin.study.workspace:evaluate_workspace",
             "pollard_pin.verbs:workspace",
-            (_robot, _branch, _which_grid, partial(add_json, what="the reachable positions")),
+            (_robot, _which_grid, partial(add_json, what="the reachable positions")),
         ),
         common.info_verb(ROBOT, "info --inertia printed"),
         common.urdf_verb(

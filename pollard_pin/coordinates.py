@@ -16,7 +16,7 @@ def pose_rotation(pose: np.ndarray) -> np.ndarray:
     Source: Pollard thesis, 2.4, T_LD0.
     """
     turns = (rotation("x", pose[..., 4]), rotation("y", pose[..., 3]), rotation("z", pose[..., 5]))
-    return turns[0] @ turns[1] @ turns[2]
+    return np.asarray(turns[0] @ turns[1] @ turns[2])
 
 
 def pose_from_placement(position: np.ndarray, matrix: np.ndarray) -> np.ndarray:

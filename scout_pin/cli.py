@@ -4,15 +4,24 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from functools import partial
 
 from thesis_pin.command import common
+from thesis_pin.command.options import add_branch
 from thesis_pin.command.parser import Parser
 from thesis_pin.command.registry import Command
 from thesis_pin.command.robot import Robot
 from thesis_pin.command.values import number
 
+_branch = partial(
+    add_branch,
+    signs="three signs S_E S_2 S_K for both legs, written --branch=+-+, or for left and right, "
+    "--branch=+++,-+-",
+)
+
 
 def _which_gait(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="the nearest to zero angles that is valid throughout")
     words.add_argument(
         "--gait",
         metavar="NAME|FILE",
@@ -33,6 +42,7 @@ def _which_gait(words: argparse.ArgumentParser) -> None:
 
 
 def _which_pose(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="all")
     words.add_argument("side", choices=("left", "right"))
     words.add_argument(
         "--position",

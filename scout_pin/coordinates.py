@@ -132,4 +132,4 @@ def _rotation_matrix(quaternion: np.ndarray) -> np.ndarray:
     from scipy.spatial.transform import Rotation
 
     flat = Rotation.from_quat(quaternion.reshape(-1, 4)).as_matrix()
-    return flat.reshape(*quaternion.shape[:-1], 3, 3)
+    return np.asarray(flat.reshape(*quaternion.shape[:-1], 3, 3))

@@ -184,9 +184,27 @@ class Specification(Strict):
         return self.legs.left if side == "left" else self.legs.right
 
     @property
+    def links(self) -> dict[str, Link]:
+        """The thirteen bodies by name."""
+        return {"torso": self.torso} | {
+            f"{side}_{name}": link
+            for side in SIDES
+            for name, link in zip(LINK_NAMES, self.leg(side).links, strict=True)
+        }
+
+    @property
     def mass(self) -> float:
         """Mass of the whole robot [kg]."""
         return self.torso.mass + sum(link.mass for side in SIDES for link in self.leg(side).links)
+
+    def span(self, link: str) -> float:
+        """Distance from a body's joint to its far end [m], to judge its inertia by."""
+        if link == "torso":
+            return self.legs.left.x_0 + self.legs.right.x_0
+        side, name = link.split("_", 1)
+        leg = self.leg(side)
+        lengths = (leg.z_1, leg.x_2, leg.x_3, leg.x_4, leg.x_5, leg.y_6)
+        return lengths[LINK_NAMES.index(choice("link", name, LINK_NAMES))]
 
     def servo_limits(self) -> tuple[np.ndarray, np.ndarray]:
         """Stall torque [N·m] and no-load speed [rad/s] per joint, each ``(12,)``."""

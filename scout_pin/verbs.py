@@ -28,20 +28,25 @@ def report(
         gait,
         samples=samples((gait.end - gait.start) * unit),
         time_unit=unit,
+        branch=arguments.branch,
         progress=progress,
     )
 
 
 def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:
     """The branches of the foot pose that the arguments ask for."""
+    from scout_pin.kinematics.solutions import branch_numbers
     from scout_pin.report.tables import ik_document, print_solutions
     from thesis_pin.numeric.rotations import euler_placement, transform
 
     pose, zero = np.concatenate([arguments.position, np.radians(arguments.rotation)]), np.zeros(3)
     rotation = euler_placement("xyz", pose[3:], zero, zero)[0]
     solutions = robot.leg_inverse_kinematics(arguments.side, transform(rotation, pose[:3]))
+    numbers = branch_numbers(arguments.branch)
+    only = numbers[0 if arguments.side == "left" else 1]
+    reached = solutions.reachable if only is None else solutions.reachable[only]
     return Answer(
-        lambda: ik_document(robot, solutions, pose),
-        lambda: print_solutions(solutions),
-        yes=bool(solutions.reachable.any()),
+        lambda: ik_document(robot, solutions, pose, only),
+        lambda: print_solutions(solutions, only),
+        yes=bool(reached.any()),
     )

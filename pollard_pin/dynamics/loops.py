@@ -73,7 +73,7 @@ class _Swing:
         omega = _along(1, k[0] + k[1]) + k[2] * self.turn_axis
         turn = _along(2, k_21) + k_65 * self.pitch + k_76 * self.yaw
         tip = cross(_along(2, k_21), posture.arms[i]) + cross(turn, posture.rods[i])
-        return elbow + cross(omega, posture.levers[i]) - tip
+        return np.asarray(elbow + cross(omega, posture.levers[i]) - tip)
 
     def gap_acceleration(self, a: np.ndarray) -> Vector:
         """Acceleration of the one relative to the other [m/s²], ``(3, n)``."""
@@ -86,7 +86,7 @@ class _Swing:
         omega_u = self.omega_b + k_76 * self.yaw
         bend_u = k_65 * cross(_along(2, k_21), self.pitch) + k_76 * cross(self.omega_b, self.yaw)
         tip = cross(bend_u, posture.rods[i]) + cross(omega_u, cross(omega_u, posture.rods[i]))
-        return self._gap(a) + anchor - (tip - k_21**2 * posture.arms[i])
+        return np.asarray(self._gap(a) + anchor - (tip - k_21**2 * posture.arms[i]))
 
 
 def _along(axis: int, values: np.ndarray) -> Vector:

@@ -25,6 +25,7 @@ from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.workers import silent
+from thesis_pin.report.info import assumptions
 from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/trajectory-report"
@@ -45,16 +46,15 @@ class TrajectoryReport(TrajectoryNumbers):
 
     def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open and this report rests on, with their reasons."""
-        result: list[dict[str, object]] = []
-        entries = self.robot.specification.assumptions.model_dump(mode="json")
-        for name, entry in entries.items():
-            if name in ("motion", "placement") and self.path.name != "appendix B":
+        result = []
+        for one in assumptions(self.robot.specification.assumptions):
+            if one["name"] in ("motion", "placement") and self.path.name != "appendix B":
                 continue  # a path of one's own has its own time and place
-            if name == "replaced_inertias":
-                if self.robot.inertia == "physical":
-                    result += [{"name": f"inertia of {e['link']}", **e} for e in entry]
-            else:
-                result.append({"name": name, **entry})
+            if one["name"] == "replaced_inertias":
+                if self.robot.inertia != "physical":
+                    continue
+                one["name"] = f"inertia of {one['link']}"
+            result.append(one)
         return result
 
     @property

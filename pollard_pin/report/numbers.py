@@ -72,7 +72,7 @@ class TrajectoryNumbers:
     @cached_property
     def power(self) -> np.ndarray:
         """Motor power [W], shape ``(n, 6)``."""
-        return self.torque * self.speed
+        return np.asarray(self.torque * self.speed)
 
     @cached_property
     def actuators(self) -> ActuatorSummary:
@@ -122,7 +122,7 @@ class TrajectoryNumbers:
     @cached_property
     def loop_force_size(self) -> np.ndarray:
         """Size of the two ball-joint forces [N], shape ``(n, 2)``."""
-        return np.linalg.norm(self.dynamics.loop_force, axis=-1)
+        return np.asarray(np.linalg.norm(self.dynamics.loop_force, axis=-1))
 
     @cached_property
     def peak_reactions(self) -> tuple[np.ndarray, np.ndarray]:

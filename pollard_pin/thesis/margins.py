@@ -30,7 +30,7 @@ def divisors(angles: np.ndarray) -> np.ndarray:
     """
     cosines = np.cos(angles[..., list(_COSINES.values())])
     sines = np.sin(angles[..., list(_SINES.values())])
-    return np.abs(np.concatenate([cosines, sines], axis=-1))
+    return np.asarray(np.abs(np.concatenate([cosines, sines], axis=-1)))
 
 
 def require(pose: np.ndarray, angles: np.ndarray) -> None:

@@ -265,4 +265,4 @@ def _times(t: Any) -> np.ndarray:
     t = finite_array("t", t, None)
     if t.ndim != 1 or not t.size:
         raise WrongShape("t", t.shape, "(n,), n at least 1")
-    return t
+    return np.asarray(t)

@@ -20,6 +20,7 @@ from scout_pin.report.numbers import GaitNumbers
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.workers import silent
+from thesis_pin.report.info import assumptions
 from thesis_pin.version import __version__
 
 SCHEMA = "scout-pin/gait-report"
@@ -50,14 +51,9 @@ class GaitReport(GaitNumbers):
 
     def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open, with their reasons."""
-        result: list[dict[str, object]] = []
-        for name in type(self.robot.specification.assumptions).model_fields:
-            entry = getattr(self.robot.specification.assumptions, name).model_dump()
-            result.append({"name": name, **entry})
-        result.append(
-            {"name": "time_unit", "seconds": self.time_unit, "why": "the thesis leaves it open"}
-        )
-        return result
+        assumed = assumptions(self.robot.specification.assumptions)
+        why = "the thesis leaves it open"
+        return [*assumed, {"name": "time_unit", "seconds": self.time_unit, "why": why}]
 
     @property
     def parameters(self) -> dict[str, object]:

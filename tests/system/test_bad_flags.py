@@ -99,9 +99,9 @@ FILES = {
 }
 
 CONTRADICTIONS = {
-    "scout-pin gait": [["--json", "-", "--html", "-"]],
-    "scout-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"]],
-    "scout-pin ik": [],
+    "scout-pin gait": [["--json", "-", "--html", "-"], ["--branch=+-"]],
+    "scout-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--branch=+-"]],
+    "scout-pin ik": [["--branch=+-"]],
     "scout-pin info": [],
     "scout-pin urdf": [],
     "scout-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],

@@ -319,3 +319,15 @@ def test_angles_of_a_leg_and_the_robots_numbers_need_neither_scipy_nor_matplotli
     leg = ("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")
     for words in (("info",), leg, (*leg, "--json", "-")):
         assert scout_pin(*words, code=probe).stderr.strip() == "[]"
+
+
+def test_a_gait_takes_the_branch_it_is_told():
+    def theta(*words):
+        done = scout_pin("gait", "--samples", "11", "--json", "-", *words)
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)["theta"]
+
+    assert theta() == theta("--branch=+++,-+-")
+    other = scout_pin("gait", "--samples", "11", "--branch=+++,-++")
+    assert other.returncode == 2
+    assert "right foot, sample 0: branch -++ is outside the limits" in other.stderr

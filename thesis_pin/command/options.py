@@ -23,9 +23,9 @@ def add_robot(words: Words, another: str) -> None:
     )
 
 
-def add_branch(words: Words, signs: str) -> None:
+def add_branch(words: Words, signs: str, default: str) -> None:
     """Which solution of inverse kinematics; ``signs`` says what its signs mean."""
-    words.add_argument("--branch", metavar="SIGNS", help=signs)
+    words.add_argument("--branch", metavar="SIGNS", help=f"{signs} (default: {default})")
 
 
 def add_json(words: Words, what: str) -> None:

@@ -14,6 +14,7 @@ from pathlib import Path
 from thesis_pin.command.exits import ExitCode
 from thesis_pin.command.messages import say
 from thesis_pin.command.targets import targets
+from thesis_pin.command.termination import tidy_end
 from thesis_pin.errors import CannotWrite, ThesisPinError
 from thesis_pin.model.engine import require_pinocchio
 
@@ -21,6 +22,7 @@ _FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF}
 """What printing fails with; files report it as :class:`CannotWrite`, standard output can't."""
 
 
+@tidy_end()
 def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None) -> int:
     """Parse a command line and run its verb.
 

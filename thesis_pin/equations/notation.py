@@ -206,9 +206,9 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return Quotient(above, below)
 
     def scripted(self, parts: list[Any]) -> Node:
-        node, scripts = parts[0], [str(part) for part in parts[1:]]
-        for script in scripts:
-            node = self._with_script(node, script)
+        node: Node = parts[0]
+        for script in parts[1:]:
+            node = self._with_script(node, str(script))
         return node
 
     def _with_script(self, node: Node, script: str) -> Node:
@@ -329,12 +329,11 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return Dot(_open(parts[0]), _open(parts[2]))
 
     def first_term(self, parts: list[Any]) -> Node:
-        if len(parts) == 1:
-            return parts[0]
-        return Sum(((str(parts[0]), _open(parts[1])),))
+        first: Node = parts[0]
+        return first if len(parts) == 1 else Sum(((str(first), _open(parts[1])),))
 
     def sum(self, parts: list[Any]) -> Node:
-        first = parts[0]
+        first: Node = parts[0]
         if len(parts) == 1:
             return first
         terms = list(first.terms) if isinstance(first, Sum) else [("+", _open(first))]

@@ -153,9 +153,11 @@ class ForwardDynamics:
         """Accelerations ``(nv,)`` of one state under motor torques ``(motors,)``."""
         tau = np.zeros(self.robot.model.nv)
         tau[self.robot.actuated] = torque
-        return pin.constraintDynamics(
-            self.robot.model, self.data, q, v, tau, self.models, self.datas, self.settings
-        ).copy()
+        return np.asarray(
+            pin.constraintDynamics(
+                self.robot.model, self.data, q, v, tau, self.models, self.datas, self.settings
+            ).copy()
+        )
 
 
 def simulate(

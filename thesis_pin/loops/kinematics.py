@@ -297,4 +297,4 @@ def project_rates(robot: ClosedRobot, data: pin.Data, q: np.ndarray, v: np.ndarr
     mass = pin.crba(robot.model, data, q)
     mass = np.triu(mass) + np.triu(mass, 1).T
     spread = np.linalg.solve(mass, matrix.T)
-    return v - spread @ np.linalg.lstsq(matrix @ spread, matrix @ v, rcond=1e-10)[0]
+    return np.asarray(v - spread @ np.linalg.lstsq(matrix @ spread, matrix @ v, rcond=1e-10)[0])

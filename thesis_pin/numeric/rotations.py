@@ -145,7 +145,7 @@ def quaternions(matrix: np.ndarray) -> np.ndarray:
         from scipy.spatial.transform import Rotation
 
         flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
-        return flat.reshape(*matrix.shape[:-2], 4)
+        return np.asarray(flat.reshape(*matrix.shape[:-2], 4))
     # No turn beyond 120°, the usual case: w is at least 1/2, and the rest follow from it.
     w = np.sqrt(1.0 + trace) / 2
     x, y, z = np.stack([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]]) / (4 * w)

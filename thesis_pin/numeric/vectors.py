@@ -24,7 +24,8 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 def dot(a: Vector, b: Vector) -> np.ndarray:
     """a · b of vectors with components first."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    product: Vector = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return product
 
 
 def rows(stack: np.ndarray) -> np.ndarray:
@@ -47,4 +48,5 @@ def into(rotation: np.ndarray, vector: Vector) -> np.ndarray:
     """
     if vector.ndim == 3:
         rotation = rotation[:, :, None]
-    return rotation[0] * vector[0] + rotation[1] * vector[1] + rotation[2] * vector[2]
+    turned: Vector = rotation[0] * vector[0] + rotation[1] * vector[1] + rotation[2] * vector[2]
+    return turned

@@ -9,10 +9,11 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from thesis_pin.errors import BadInput, NotFinite, WrongShape
 from thesis_pin.numeric.rotations import quaternions
-from thesis_pin.pages.scene import Arrow, Ball, Body, Item
+from thesis_pin.pages.scene import Arrow, Ball, Item, Shape
 
 if TYPE_CHECKING:
     import pinocchio as pin
@@ -21,7 +22,7 @@ OPEN, CLOSED = "#D55E00", "#CC79A7"
 """Colours of a loop's opening and of its joint."""
 
 
-def placements(se3: Any) -> np.ndarray:
+def placements(se3: ArrayLike) -> np.ndarray:
     """Positions and quaternions (x, y, z, w) of transforms: ``(..., 4, 4)`` → ``(..., 7)``."""
     matrices = np.asarray(se3, dtype=float)
     turned = quaternions(matrices[..., :3, :3])
@@ -123,7 +124,7 @@ def robot_items(
     *,
     group: str | Callable[[str], str] = "robot",
     colour: Callable[[str], str | None] | None = None,
-) -> list[Body]:
+) -> list[Shape]:
     """The visual geometry of any Pinocchio model along a motion.
 
     Args:
@@ -143,7 +144,7 @@ def robot_items(
         red, green, blue, alpha = np.clip(shape.meshColor, 0.0, 1.0)
         own = "#" + "".join(f"{round(255 * part):02x}" for part in (red, green, blue))
         items.append(
-            Body(
+            Shape(
                 name=shape.name,
                 group=group if isinstance(group, str) else group(shape.name),
                 geometry=_geometry(shape.geometry, shape.name),
@@ -156,7 +157,7 @@ def robot_items(
     return items
 
 
-def _geometry(shape: Any, name: str) -> dict[str, Any]:
+def _geometry(shape: Any, name: str) -> dict[str, object]:
     """A collision library's shape as plain data; its cylinders and the like lie along z."""
     kind = type(shape).__name__
     if kind == "Sphere":

@@ -11,7 +11,6 @@ import platform
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any
 
 from thesis_pin.pages import player as viewer
 from thesis_pin.pages.plots import MARGINS, figure
@@ -104,7 +103,7 @@ def software() -> Table:
     return Table("Software", ("package", "version"), rows, prose=True)
 
 
-def assumptions_table(assumptions: Iterable[Mapping[str, Any]]) -> Table:
+def assumptions_table(assumptions: Iterable[Mapping[str, object]]) -> Table:
     """Numbers a thesis leaves open: dictionaries with ``name``, ``why`` and values."""
     rows = [
         (
@@ -121,5 +120,5 @@ def assumptions_table(assumptions: Iterable[Mapping[str, Any]]) -> Table:
     return Table("Assumptions", ("what", "value", "why"), rows, prose=True)
 
 
-def _json(document: Any) -> bytes:
+def _json(document: object) -> bytes:
     return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()

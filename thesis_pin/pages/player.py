@@ -26,7 +26,6 @@ import struct
 from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -64,7 +63,7 @@ def write_html(scene: Scene, target: str | Path, *, speed: float = 1.0) -> None:
     write_file(target, html(scene, speed=speed))
 
 
-def player_parts(scene: Scene) -> dict[str, Any]:
+def player_parts(scene: Scene) -> dict[str, str]:
     """What a template needs to embed a player: packed scene, libraries, style."""
     return {
         "meshcat": packed(_meshcat_bundle()),
@@ -76,7 +75,7 @@ def player_parts(scene: Scene) -> dict[str, Any]:
     }
 
 
-def render(template: str, **values: Any) -> bytes:
+def render(template: str, **values: object) -> bytes:
     """A page from a template of ``thesis_pin/pages/web``; every value is escaped by default."""
     import jinja2
 
@@ -125,10 +124,10 @@ def encode(scene: Scene) -> bytes:
     of the floats. Arrays that several items share are stored once.
     """
     blob: list[np.ndarray] = []
-    known: dict[bytes, dict[str, Any]] = {}
+    known: dict[bytes, dict[str, object]] = {}
     size = 0
 
-    def store(value: Any) -> Any:
+    def store(value: object) -> object:
         nonlocal size
         if isinstance(value, dict):
             return {key: store(entry) for key, entry in value.items()}
@@ -160,7 +159,7 @@ def encode(scene: Scene) -> bytes:
     return struct.pack("<I", len(text)) + text + b"".join(part.tobytes() for part in blob)
 
 
-def _item(item: Item) -> dict[str, Any]:
+def _item(item: Item) -> dict[str, object]:
     sampled = {name: np.asarray(values) for name, (values, _) in item.arrays().items()}
     kind = type(item).__name__.lower()
     return {

@@ -8,15 +8,17 @@ the item there. Lengths in metres, world frame.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
 
 GREY = "#9AA0A6"
+
+Sampled = dict[str, tuple[np.ndarray, tuple[int, ...]]]
+"""Name → array and its shape, in which -1 stands for the scene's samples."""
 
 
 @dataclass(frozen=True)
@@ -48,17 +50,17 @@ class Item:
     name: str
     group: str
 
-    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
-        """Sampled arrays: name → values and shape, in which -1 stands for the scene's samples."""
+    def arrays(self) -> Sampled:
+        """What changes over time."""
         raise NotImplementedError
 
-    def constants(self) -> dict[str, Any]:
+    def constants(self) -> dict[str, object]:
         """What doesn't change, JSON-ready or arrays."""
         raise NotImplementedError
 
 
 @dataclass(frozen=True)
-class Body(Item):
+class Shape(Item):
     """A rigid shape.
 
     Attributes:
@@ -71,16 +73,16 @@ class Body(Item):
         opacity: 0 to 1.
     """
 
-    geometry: dict[str, Any]
+    geometry: Mapping[str, object]
     placement: np.ndarray
     local: np.ndarray
     colour: str = GREY
     opacity: float = 1.0
 
-    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+    def arrays(self) -> Sampled:
         return {"placement": (self.placement, (-1, 7))}
 
-    def constants(self) -> dict[str, Any]:
+    def constants(self) -> dict[str, object]:
         return {
             "geometry": self.geometry,
             "local": self.local,
@@ -105,10 +107,10 @@ class Ball(Item):
     colours: tuple[str, ...]
     level: np.ndarray | None = None
 
-    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+    def arrays(self) -> Sampled:
         return {"position": (self.position, (-1, 3)), **_level(self.level)}
 
-    def constants(self) -> dict[str, Any]:
+    def constants(self) -> dict[str, object]:
         return {"radius": self.radius, "colours": list(self.colours)}
 
 
@@ -132,10 +134,10 @@ class Arrow(Item):
     colour: str
     head: bool = True
 
-    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+    def arrays(self) -> Sampled:
         return {"origin": (self.origin, (-1, 3)), "vector": (self.vector, (-1, 3))}
 
-    def constants(self) -> dict[str, Any]:
+    def constants(self) -> dict[str, object]:
         return {
             "scale": self.scale,
             "radius": self.radius,
@@ -158,10 +160,10 @@ class Trace(Item):
     radius: float
     colour: str
 
-    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+    def arrays(self) -> Sampled:
         return {"points": (self.points, (-1, 3))}
 
-    def constants(self) -> dict[str, Any]:
+    def constants(self) -> dict[str, object]:
         return {"radius": self.radius, "colour": self.colour}
 
 
@@ -181,10 +183,10 @@ class Polygon(Item):
     colour: str
     width: float
 
-    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+    def arrays(self) -> Sampled:
         return {"which": (self.which, (-1,))}
 
-    def constants(self) -> dict[str, Any]:
+    def constants(self) -> dict[str, object]:
         return {
             "outlines": [np.asarray(outline, dtype=float) for outline in self.outlines],
             "colour": self.colour,
@@ -210,14 +212,14 @@ class Arc(Item):
     colours: tuple[str, ...]
     level: np.ndarray | None = None
 
-    def arrays(self) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+    def arrays(self) -> Sampled:
         return {
             "placement": (self.placement, (-1, 7)),
             "angle": (self.angle, (-1,)),
             **_level(self.level),
         }
 
-    def constants(self) -> dict[str, Any]:
+    def constants(self) -> dict[str, object]:
         return {"radius": self.radius, "colours": list(self.colours)}
 
 
@@ -326,5 +328,5 @@ def levels(values: np.ndarray, bounds: Sequence[float]) -> np.ndarray:
     return np.digitize(values, bounds).astype(float)
 
 
-def _level(level: np.ndarray | None) -> dict[str, tuple[Any, tuple[int | None, ...]]]:
+def _level(level: np.ndarray | None) -> Sampled:
     return {} if level is None else {"level": (level, (-1,))}

@@ -15,6 +15,9 @@ from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from thesis_pin.errors import BadInput
 from thesis_pin.report.curves import BLACK, Plot
 
@@ -112,7 +115,9 @@ def _draw(axis: Axes, plot: Plot) -> None:
         )
 
 
-def new_figure(width: float, height: float, rows: int = 1, columns: int = 1) -> tuple[Figure, Any]:
+def new_figure(
+    width: float, height: float, rows: int = 1, columns: int = 1
+) -> tuple[Figure, NDArray[np.object_]]:
     """A Matplotlib figure and its axes, drawn without a display or global state.
 
     Args:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -28,7 +27,7 @@ def json_bytes(document: object) -> bytes:
     return orjson.dumps(document, option=options, default=lambda value: value.tolist())
 
 
-def _values(document: object) -> list[Any]:
+def _values(document: object) -> list[object]:
     return list(document.values()) if isinstance(document, Mapping) else []
 
 

@@ -29,7 +29,7 @@ function makers(THREE) {
     object.quaternion.fromArray(array, a + 3).slerp(second.fromArray(array, b + 3), f);
   }
 
-  function shape(g) {
+  function surface(g) {
     if (g.type === "box") return new THREE.BoxGeometry(...g.size);
     if (g.type === "ellipsoid") return new THREE.SphereGeometry(1, 32, 20).scale(...g.radii);
     if (g.type === "mesh") {
@@ -52,12 +52,12 @@ function makers(THREE) {
     return upright(new THREE.LatheGeometry(profile, 32));
   }
 
-  function body(item) {
+  function shape(item) {
     const material = paint(item.colour, {
       ...(item.geometry.type === "mesh" ? { flatShading: true, shininess: 5 } : {}),
       transparent: item.opacity < 1, opacity: item.opacity, depthWrite: item.opacity === 1,
     });
-    const mesh = new THREE.Mesh(shape(item.geometry), material);
+    const mesh = new THREE.Mesh(surface(item.geometry), material);
     mesh.castShadow = mesh.receiveShadow = true;
     mesh.matrixAutoUpdate = false;
     mesh.matrix.fromArray(item.local).transpose();  // sent by rows
@@ -213,5 +213,5 @@ function makers(THREE) {
     };
   }
 
-  return { body, ball, arrow, trace, polygon, arc };
+  return { shape, ball, arrow, trace, polygon, arc };
 }

@@ -54,7 +54,7 @@ function makePlayer(root, scene, options = {}) {
   const items = scene.items.map((item) => ({ ...item, ...maker[item.kind](item) }));
   for (const item of items) {
     groups.get(item.group).object.add(item.object);
-    if (item.kind === "body") continue;
+    if (item.kind === "shape") continue;
     item.object.traverse((part) => {  // after translucent bodies, whose tint would change colours
       part.renderOrder = 1;
       if (part.material) part.material.transparent = true;
@@ -213,7 +213,7 @@ function makePlayer(root, scene, options = {}) {
   for (const t of [start, (start + end) / 2, end]) {
     apply(t);
     stage.world.updateMatrixWorld(true);
-    for (const item of items) if (item.kind === "body") box.expandByObject(item.object);
+    for (const item of items) if (item.kind === "shape") box.expandByObject(item.object);
   }
   if (box.isEmpty()) box.setFromObject(stage.world);
   stage.frame(box);

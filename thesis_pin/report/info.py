@@ -1,0 +1,144 @@
+"""What a specification describes: the one JSON schema of all robots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, TypedDict
+
+import numpy as np
+
+from thesis_pin.version import __version__
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+VERSION = 2
+"""Of the schema ``…/info``; docs/conventions.md describes it."""
+
+
+class JointEntry(TypedDict):
+    """A joint: angles [rad], effort [N·m], velocity [rad/s]; a passive one has no motor."""
+
+    name: str
+    symbol: str
+    axis: str
+    motor: bool
+    lower: float
+    upper: float
+    effort: float | None
+    velocity: float | None
+
+
+class BodyEntry(TypedDict):
+    """A body in its joint's frame: [kg], [m], [kg·m²] about the centre of mass."""
+
+    name: str
+    mass: float
+    com: np.ndarray
+    inertia: np.ndarray
+    principal_moments: np.ndarray
+    radius_of_gyration: float
+    span: float
+
+
+class Freedom(TypedDict):
+    """Degrees of freedom: by counting, and by rank at a pose (None: at every one)."""
+
+    counted: int
+    by_rank: int | None
+    at_pose: np.ndarray | None
+
+
+class Info(TypedDict):
+    """The document."""
+
+    schema: str
+    version: int
+    robot: str
+    source: str
+    inertia: str
+    mass: float
+    joints: list[JointEntry]
+    bodies: list[BodyEntry]
+    loops: list[dict[str, object]]
+    freedom: Freedom
+    neutral: dict[str, np.ndarray]
+    assumptions: list[dict[str, object]]
+    thesis_pin: str
+
+
+def body(name: str, mass: float, com: np.ndarray, inertia: np.ndarray, span: float) -> BodyEntry:
+    """A body's entry.
+
+    Args:
+        name: Its name.
+        mass: [kg].
+        com: Centre of mass in the joint's frame [m], shape ``(3,)``.
+        inertia: About the centre of mass [kg·m²], shape ``(3, 3)``.
+        span: From its joint to its far end [m], to judge the inertia by.
+    """
+    moments = np.linalg.eigvalsh(inertia)
+    return {
+        "name": name,
+        "mass": mass,
+        "com": com,
+        "inertia": inertia,
+        "principal_moments": moments,
+        "radius_of_gyration": float(np.sqrt(moments[-1] / mass)),
+        "span": span,
+    }
+
+
+def assumptions(stated: BaseModel) -> list[dict[str, object]]:
+    """What a specification assumes, one entry an assumption: ``name``, values, ``why``."""
+    return [
+        {"name": name, **one}
+        for name, entry in stated.model_dump(mode="json").items()
+        for one in (entry if isinstance(entry, list) else [entry])
+    ]
+
+
+def document(
+    command: str,
+    robot: str,
+    *,
+    source: str,
+    inertia: str,
+    mass: float,
+    joints: Sequence[JointEntry],
+    bodies: Sequence[BodyEntry],
+    loops: Sequence[dict[str, object]] = (),
+    freedom: Freedom,
+    neutral: Mapping[str, np.ndarray],
+    stated: BaseModel,
+) -> Info:
+    """A robot's joints, bodies, loops, freedom and assumptions, JSON-ready.
+
+    Args:
+        command: The command that writes it.
+        robot: Name of the specification.
+        source: Where its numbers come from.
+        inertia: Reading of the printed inertias.
+        mass: Of everything that moves [kg].
+        joints: In the order of joint vectors.
+        bodies: From :func:`body`.
+        loops: Name and frames of each closure.
+        freedom: Degrees of freedom.
+        neutral: Where each end is in the neutral or usual pose [m], ``(3,)`` each.
+        stated: The specification's assumptions.
+    """
+    return {
+        "schema": f"{command}/info",
+        "version": VERSION,
+        "robot": robot,
+        "source": source,
+        "inertia": inertia,
+        "mass": mass,
+        "joints": list(joints),
+        "bodies": list(bodies),
+        "loops": list(loops),
+        "freedom": freedom,
+        "neutral": dict(neutral),
+        "assumptions": assumptions(stated),
+        "thesis_pin": __version__,
+    }
