@@ -43,6 +43,18 @@ def escaped(text: str, most: int = LONGEST, *, keep: str = "\n") -> str:
 class ThesisPinError(Exception):
     """Base class: catching it catches everything these packages raise on purpose."""
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """Errors of other processes arrive with their words and values."""
+        return _arrived, (type(self), self.args, vars(self))
+
+
+def _arrived(
+    kind: type[ThesisPinError], args: tuple[object, ...], values: dict[str, object]
+) -> ThesisPinError:
+    error = kind.__new__(kind, *args)
+    vars(error).update(values)
+    return error
+
 
 class BadInput(ThesisPinError, ValueError):
     """What the caller gave can't be used.

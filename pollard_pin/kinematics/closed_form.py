@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from pollard_pin.kinematics.geometry import Branch, Geometry
-from thesis_pin.numeric.elementwise import Elementwise
+from thesis_pin.numeric.elementwise import Elementwise, Number, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -24,7 +24,7 @@ class ClosedForm:
     θ21 or θ43 was one of them, so that other values may close the side chains.
     """
 
-    def __init__(self, xp: Elementwise, geometry: Geometry, pose: Any, free: Any) -> None:
+    def __init__(self, xp: Elementwise, geometry: Geometry, pose: Numbers, free: Numbers) -> None:
         self.xp, self.geometry, self.free, self.loose = xp, geometry, free, False
         self.memo: dict[tuple[Any, ...], Any] = {}
         x, y, z, psi, theta, phi = pose
@@ -38,7 +38,7 @@ class ClosedForm:
         tip = geometry.x_1918
         self.W = tuple(p - tip * row[0] for p, row in zip((x, y, z), self.R, strict=True))
 
-    def solve(self, branch: Branch) -> tuple[list[Any], list[Any]]:
+    def solve(self, branch: Branch) -> tuple[list[Number], list[Number]]:
         """Twelve angles, and the cosines of the three chains."""
         first, cosine = self._memo(self._shoulder, branch.e0)[:2]
         elbow = self._memo(self._forearm, branch.e0, branch.f0)[:2]

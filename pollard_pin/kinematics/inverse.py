@@ -24,7 +24,7 @@ from pollard_pin.kinematics.closed_form import ClosedForm
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.solutions import Solutions
 from thesis_pin.numeric.arrays import finite_array, spread, wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, blocks
+from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Number, blocks
 from thesis_pin.tolerances import TOLERANCES
 
 _TRIED = 720
@@ -96,7 +96,7 @@ def _few(
     geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray
 ) -> _Solved:
     """A few poses, by floats."""
-    numbers: list[float] = []  # one list for all: an array costs more to begin than to fill
+    numbers: list[Number] = []  # one list for all: an array costs more to begin than to fill
     loose: list[int] = []
     for k, (pose, one) in enumerate(zip(poses.tolist(), free.tolist(), strict=True)):
         chunk = ClosedForm(FLOATS, geometry, pose, one)

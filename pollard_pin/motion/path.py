@@ -13,6 +13,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal, get_args
 
 import numpy as np
@@ -139,6 +140,12 @@ def along(curve: Callable[[np.ndarray], Triple], law: Triple) -> Triple:
     )
 
 
+def _driven(
+    curve: Callable[[np.ndarray], Triple], timing: str, duration: float, time: np.ndarray
+) -> Triple:
+    return along(curve, timing_law(timing, duration, time))
+
+
 def appendix_b(
     specification: Specification | None = None,
     *,
@@ -175,20 +182,11 @@ def appendix_b(
     law = assumed.motion.timing if timing is None else timing
     timing_law(law, seconds, np.zeros(1))
 
-    def curve(s: np.ndarray) -> Triple:
-        u, span = _REACH * (2 * s - 1), 2 * _REACH
-        value, first, second = np.zeros((3, len(s), 6))
-        value[:, 0], value[:, 1] = -0.001 * u**2, u
-        value[:, 2] = 100 * np.sin(0.3 * u)
-        first[:, 0], first[:, 1], first[:, 2] = -0.002 * u, 1.0, 30 * np.cos(0.3 * u)
-        second[:, 0], second[:, 2] = -0.002, -9 * np.sin(0.3 * u)
-        value = value * _MM + np.concatenate([place, tool])
-        return value, first * (_MM * span), second * (_MM * span**2)
-
+    curve = partial(_appendix_b_curve, np.concatenate([place, tool]))
     return ToolPath(
         "appendix B",
         seconds,
-        lambda time: along(curve, timing_law(law, seconds, time)),
+        partial(_driven, curve, law, seconds),
         {
             "path": "appendix B",
             "placement": place.tolist(),
@@ -199,17 +197,27 @@ def appendix_b(
     )
 
 
+def _appendix_b_curve(origin: np.ndarray, s: np.ndarray) -> Triple:
+    u, span = _REACH * (2 * s - 1), 2 * _REACH
+    value, first, second = np.zeros((3, len(s), 6))
+    value[:, 0], value[:, 1] = -0.001 * u**2, u
+    value[:, 2] = 100 * np.sin(0.3 * u)
+    first[:, 0], first[:, 1], first[:, 2] = -0.002 * u, 1.0, 30 * np.cos(0.3 * u)
+    second[:, 0], second[:, 2] = -0.002, -9 * np.sin(0.3 * u)
+    return value * _MM + origin, first * (_MM * span), second * (_MM * span**2)
+
+
 def line(
     start: ArrayLike, end: ArrayLike, duration: float, timing: str = "rest-to-rest"
 ) -> ToolPath:
     """A straight line between two poses (x, y, z, ψ, θ, φ)."""
     first, last = vector("start", start, 6), vector("end", end, 6)
+    return _single("line", partial(_line_curve, first, last), duration, timing)
 
-    def curve(s: np.ndarray) -> Triple:
-        step = np.broadcast_to(last - first, (len(s), 6))
-        return first + s[:, None] * step, step, np.zeros_like(step)
 
-    return _single("line", curve, duration, timing)
+def _line_curve(first: np.ndarray, last: np.ndarray, s: np.ndarray) -> Triple:
+    step = np.broadcast_to(last - first, (len(s), 6))
+    return first + s[:, None] * step, step, np.zeros_like(step)
 
 
 def arc(
@@ -248,18 +256,27 @@ def arc(
     side = np.cross(normal, radius)
     gap = last[:3] - centre
     angle = math.atan2(float(gap @ side), float(gap @ radius)) % (2 * math.pi)
-
-    def curve(s: np.ndarray) -> Triple:
-        value = first + s[:, None] * (last - first)
-        slope = np.broadcast_to(last - first, value.shape).copy()
-        bend = np.zeros_like(value)
-        c, sn = np.cos(angle * s)[:, None], np.sin(angle * s)[:, None]
-        value[:, :3] = centre + c * radius + sn * side
-        slope[:, :3] = angle * (c * side - sn * radius)
-        bend[:, :3] = -(angle**2) * (c * radius + sn * side)
-        return value, slope, bend
-
+    curve = partial(_arc_curve, first, last, centre, radius, side, angle)
     return _single("arc", curve, duration, timing)
+
+
+def _arc_curve(
+    first: np.ndarray,
+    last: np.ndarray,
+    centre: np.ndarray,
+    radius: np.ndarray,
+    side: np.ndarray,
+    angle: float,
+    s: np.ndarray,
+) -> Triple:
+    value = first + s[:, None] * (last - first)
+    slope = np.broadcast_to(last - first, value.shape).copy()
+    bend = np.zeros_like(value)
+    c, sn = np.cos(angle * s)[:, None], np.sin(angle * s)[:, None]
+    value[:, :3] = centre + c * radius + sn * side
+    slope[:, :3] = angle * (c * side - sn * radius)
+    bend[:, :3] = -(angle**2) * (c * radius + sn * side)
+    return value, slope, bend
 
 
 def _single(
@@ -270,7 +287,7 @@ def _single(
     return ToolPath(
         name,
         duration,
-        lambda time: along(curve, timing_law(timing, duration, time)),
+        partial(_driven, curve, timing, duration),
         {"path": name, "duration": float(duration), "timing": timing},
     )
 
@@ -297,14 +314,15 @@ def through(
         raise TrajectoryError(f"{len(time)} times and {len(poses)} poses", allowed="as many")
     begin = time[0] if len(time) else 0.0
     curves = [interpolate(time - begin, column, method) for column in poses.T]
-
-    def function(at: np.ndarray) -> Triple:
-        rows = [np.stack([curve(at, order) for curve in curves], axis=-1) for order in (0, 1, 2)]
-        return rows[0], rows[1], rows[2]
-
+    function = partial(_through, curves)
     parameters = {"path": name, "nodes": len(time), "interpolation": method}
     duration = float(time[-1] - begin)
     return ToolPath(name, duration, function, {**parameters, "duration": duration})
+
+
+def _through(curves: Sequence[Callable[[np.ndarray, int], np.ndarray]], at: np.ndarray) -> Triple:
+    rows = [np.stack([curve(at, order) for curve in curves], axis=-1) for order in (0, 1, 2)]
+    return rows[0], rows[1], rows[2]
 
 
 def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
@@ -333,15 +351,16 @@ def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
                     remedy="Let the segments meet, and use rest-to-rest timing around corners",
                 )
     ends = np.cumsum([path.duration for path in paths])
-
-    def function(at: np.ndarray) -> Triple:
-        which = np.minimum(np.searchsorted(ends, at, side="right"), len(paths) - 1)
-        rows = np.empty((3, len(at), 6))
-        for k, path in enumerate(paths):
-            some = which == k
-            local = np.clip(at[some] - (ends[k] - path.duration), 0.0, path.duration)
-            rows[:, some] = path.function(local)
-        return rows[0], rows[1], rows[2]
-
+    function = partial(_joined, tuple(paths), ends)
     parameters = {"path": name, "segments": [path.parameters for path in paths]}
     return ToolPath(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})
+
+
+def _joined(paths: Sequence[ToolPath], ends: np.ndarray, at: np.ndarray) -> Triple:
+    which = np.minimum(np.searchsorted(ends, at, side="right"), len(paths) - 1)
+    rows = np.empty((3, len(at), 6))
+    for k, path in enumerate(paths):
+        some = which == k
+        local = np.clip(at[some] - (ends[k] - path.duration), 0.0, path.duration)
+        rows[:, some] = path.function(local)
+    return rows[0], rows[1], rows[2]

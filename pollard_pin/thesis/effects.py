@@ -47,8 +47,8 @@ class Effects:
         """
         drive = self._states.drive
         acceleration = np.random.default_rng(_SEED).uniform(-2, 2, drive.acceleration.shape)
-        mechanics = References(self._states.state, replace(drive, acceleration=acceleration))
-        return _Model(self.equations, mechanics)
+        references = References(self._states.state, replace(drive, acceleration=acceleration))
+        return _Model(self.equations, references)
 
     @cached_property
     def path(self) -> _Model:
@@ -76,7 +76,7 @@ class Effects:
     @cached_property
     def _torque_map(self) -> np.ndarray:
         """Generalized force → six motor torques along the path, ``(samples, 6, 6)``."""
-        rates = self.path.mechanics.rows
+        rates = self.path.references.rows
         rows = np.stack([rates[ANGLES[joint]] for joint in ACTUATORS], axis=-2)
         return np.linalg.inv(np.swapaxes(rows, -1, -2))
 
@@ -89,15 +89,15 @@ def along_path() -> References:
     """
     model, path = ExplicitModel(), appendix_b().sample(_PATH)
     regular = model.margin(path.pose) > AWAY
-    return model.mechanics(*(x[regular] for x in (path.pose, path.rate, path.acceleration)))
+    return model.references(*(x[regular] for x in (path.pose, path.rate, path.acceleration)))
 
 
 class _Model:
     """The corrected model at some states, and what one printed line makes of it."""
 
-    def __init__(self, equations: Catalogue, mechanics: References) -> None:
-        self.mechanics = mechanics
-        self.environment = EditionEnvironment(equations, mechanics)
+    def __init__(self, equations: Catalogue, references: References) -> None:
+        self.references = references
+        self.environment = EditionEnvironment(equations, references)
 
     @cached_property
     def force(self) -> np.ndarray:
@@ -117,6 +117,6 @@ class _Model:
         mass, velocity, gravity = (
             environment.lookup(Symbol(letter, "j"), {}).array for letter in "DVC"
         )
-        total = mass[..., 0, :] * self.mechanics.drive.acceleration
-        total = (total + velocity[..., 0, :] * self.mechanics.pose_rates).sum(axis=-1) + gravity
+        total = mass[..., 0, :] * self.references.drive.acceleration
+        total = (total + velocity[..., 0, :] * self.references.pose_rates).sum(axis=-1) + gravity
         return np.asarray(np.moveaxis(total, 0, -1))

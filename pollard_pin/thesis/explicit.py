@@ -14,8 +14,6 @@ Source: Pollard thesis, 2.5, 2.6, 2.8, 2.9, chapter 3, appendices D and E.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -32,8 +30,9 @@ from pollard_pin.thesis.symbols.motion import Drive
 from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.equations.catalogue import Edition
 from thesis_pin.equations.editions import EditionEnvironment
+from thesis_pin.equations.explicit import ExplicitTerms
 from thesis_pin.equations.formula import Symbol
-from thesis_pin.errors import UnknownName, WrongShape
+from thesis_pin.errors import UnknownName
 from thesis_pin.model.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array
 
@@ -47,10 +46,8 @@ _SIDE_ANGLES = SIDE[:3]  # those behind them are a ball joint's
 ANGLES = (*CHAIN_0, *(f"{name}{i}" for i in "12" for name in _SIDE_ANGLES))
 """The thesis's symbols in the order of :data:`pollard_pin.specification.JOINT_NAMES`."""
 
-_CHUNK = 128  # states whose ∂N/∂q_j stay below a few hundred MB
 
-
-class ExplicitModel:
+class ExplicitModel(ExplicitTerms[References]):
     """The terms of (3.153) for one pose or a batch.
 
     Poses, rates and accelerations have shape ``(..., 6)``: (x, y, z, ψ, θ, φ) [m], [rad].
@@ -69,6 +66,8 @@ class ExplicitModel:
             those that it met.
     """
 
+    columns, coordinates, chunk = 6, "pose", 128
+
     def __init__(
         self,
         specification: Specification | None = None,
@@ -77,13 +76,11 @@ class ExplicitModel:
         edition: Edition = "corrected",
         branch: Branch | str = DEFAULT_BRANCH,
     ) -> None:
-        if edition not in ("corrected", "printed"):
-            raise UnknownName("edition", edition, ("corrected", "printed"))
+        super().__init__(catalogue(), edition, inertia)
         self.robot = load(specification, inertia=inertia)
-        self.edition: Edition = edition
         self.branch = Branch.parse(branch) if isinstance(branch, str) else branch
         self.constants = constants_of(self.robot.specification, inertia)
-        self.substituted: dict[str, str] = lost_coefficients()
+        self.substituted |= lost_coefficients()
 
     # -- kinematics --------------------------------------------------------------
 
@@ -93,7 +90,7 @@ class ExplicitModel:
         k_2, k_6, k_7, k_12, k_18, k_25, then k_2i, k_6i, k_7i of either side chain.
         Source: (3.8), (3.17), (3.25), (3.33), (3.41), (3.112), (3.120).
         """
-        return self._batch(lambda model, mechanics: model._rows(mechanics), pose)
+        return self._batch(self._rows, pose)
 
     def k(self, number: int, pose: ArrayLike, chain: int | None = None) -> np.ndarray:
         """k_n as the thesis numbers them.
@@ -122,11 +119,11 @@ class ExplicitModel:
         that collect the G of appendix E are lines of the audit.
         """
 
-        def found(model: ExplicitModel, mechanics: References) -> np.ndarray:
+        def found(references: References) -> np.ndarray:
             # What stands in for a line, and its shape, come from the exact accelerations.
-            mechanics = References(accelerating(mechanics.state), mechanics.drive)
+            references = References(accelerating(references.state), references.drive)
             values = [
-                model._number(mechanics, Symbol("theta", name, dots=2), i)
+                self._number(references, Symbol("theta", name, dots=2), i)
                 for name, i in _angle_names()
             ]
             return np.stack(values, axis=-1)
@@ -166,60 +163,27 @@ class ExplicitModel:
         found = self.robot.inverse_kinematics(finite_array("pose", pose, 6), self.branch).require()
         return np.asarray(margins.divisors(found.angles).min(axis=-1))
 
-    # -- dynamics ------------------------------------------------------------------
-
-    def D(self, pose: ArrayLike) -> np.ndarray:
-        """Mass matrix, ``(..., 6, 6)``. Source: (3.153), (3.68) … (3.134)."""
-        return self._batch(lambda model, mechanics: model._terms(mechanics, "D")[0], pose)
-
-    def V(self, pose: ArrayLike, v: ArrayLike) -> np.ndarray:
-        """V(q, q̇) = Ṅ − ½ [q̇ᵀ ∂N/∂q_j]_j, ``(..., 6, 6)``; only V q̇ compares.
-
-        Source: (3.153), (3.68) … (3.140).
-        """
-        return self._batch(lambda model, mechanics: model._terms(mechanics, "V")[0], pose, v)
-
-    def C(self, pose: ArrayLike) -> np.ndarray:
-        """Gravity term [N], [N·m], ``(..., 6)``. Source: (3.153), (3.78) … (3.140)."""
-        return self._batch(lambda model, mechanics: model._terms(mechanics, "C")[0], pose)
-
-    def terms(self, pose: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """D, V and C at once: what they share is worked out once."""
-
-        def stacked(model: ExplicitModel, mechanics: References) -> np.ndarray:
-            mass, velocity, gravity = model._terms(mechanics, "DVC")
-            return np.concatenate([mass, velocity, gravity[..., None]], axis=-1)
-
-        found = self._batch(stacked, pose, v)
-        return found[..., :6], found[..., 6:12], found[..., 12]
-
-    def generalized_force(self, pose: ArrayLike, v: ArrayLike, a: ArrayLike) -> np.ndarray:
-        """Q = D q̈ + V q̇ + C [N], [N·m], ``(..., 6)``. Source: (3.153)."""
-        v, a = (finite_array(name, x, 6) for name, x in (("v", v), ("a", a)))
-        mass, velocity, gravity = self.terms(pose, v)
-        return np.asarray((mass @ a[..., None] + velocity @ v[..., None])[..., 0] + gravity)
-
     # -- machinery -------------------------------------------------------------------
 
-    def mechanics(self, pose: np.ndarray, v: np.ndarray, a: np.ndarray) -> References:
-        """What each symbol must equal at poses ``(n, 6)`` on this model's branch.
+    def references(self, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> References:
+        """What each symbol must equal at poses q ``(n, 6)`` on this model's branch.
 
         Raises:
             Unreachable: A pose has no solution on the branch.
             SingularPose: The thesis's formulas divide by zero at a pose.
         """
-        angles = self._angles(pose)
-        variables = dict(zip(POSE, pose.T, strict=True))
+        angles = self._angles(q)
+        variables = dict(zip(POSE, q.T, strict=True))
         variables |= dict(zip(CHAIN_0, angles[:, :6].T, strict=True))
         for i, start in (("1", 6), ("2", 9)):
             names = [name + i for name in _SIDE_ANGLES]
             variables |= dict(zip(names, angles[:, start : start + 3].T, strict=True))
         rates, accelerations = (dict(zip(POSE, x.T, strict=True)) for x in (v, a))
-        constants = {k: np.repeat(x, len(pose), axis=0) for k, x in self.constants.items()}
+        constants = {k: np.repeat(x, len(q), axis=0) for k, x in self.constants.items()}
         state = State(constants, variables, rates, accelerations)
         for i in "12":
             state = state.with_(**ball_angles(state, i))
-        still = np.zeros((len(pose), 6))
+        still = np.zeros((len(q), 6))
         return References(moving(state), Drive(a, still[:, :3], still))
 
     def _angles(self, pose: np.ndarray) -> np.ndarray:
@@ -227,33 +191,27 @@ class ExplicitModel:
         margins.require(pose, angles)
         return angles
 
-    def environment(self, mechanics: References) -> EditionEnvironment:
-        """The thesis's symbols at some states, in this edition."""
-        return EditionEnvironment(
-            catalogue(), mechanics, self.edition, substituted=self.substituted
-        )
+    def _check(self, q: np.ndarray) -> None:
+        self._angles(q)  # an impossible pose is named by its place in the whole batch
 
-    def _number(self, mechanics: References, symbol: Symbol, i: str = "") -> np.ndarray:
+    def _term(self, environment: EditionEnvironment, letter: str) -> np.ndarray:
+        """Rows of (3.153); j stands first."""
+        value = environment.lookup(Symbol(letter, "j"), {}).array
+        return np.moveaxis(value if letter == "C" else value[..., 0, :], 0, 1)
+
+    def _number(self, references: References, symbol: Symbol, i: str = "") -> np.ndarray:
         indices = {"i": i} if i else {}
-        value = self.environment(mechanics).lookup(symbol.bound(indices), indices)
-        return np.broadcast_to(value.array, (*mechanics.state.shape, *value.tail))
+        value = self.environment(references).lookup(symbol.bound(indices), indices)
+        return np.broadcast_to(value.array, (*references.state.shape, *value.tail))
 
-    def _rows(self, mechanics: References) -> np.ndarray:
-        environment, found = self.environment(mechanics), []
+    def _rows(self, references: References) -> np.ndarray:
+        environment, found = self.environment(references), []
         names = [(name, "") for name in ROW_NAMES]
         names += [(name, i) for i in "12" for name in SIDE_ROW_NAMES]
         for name, i in names:
             symbol = Symbol("k", name.removeprefix("k_"), kept="i")
             found.append(environment.lookup(symbol, {"i": i} if i else {}).array)
         return np.stack(np.broadcast_arrays(*found), axis=-2)
-
-    def _terms(self, mechanics: References, wanted: str) -> list[np.ndarray]:
-        environment, found = self.environment(mechanics), []
-        for letter in wanted:
-            value = environment.lookup(Symbol(letter, "j"), {}).array  # j stands first
-            rows = value[..., 0, :] if letter != "C" else value
-            found.append(np.moveaxis(rows, 0, 1))
-        return found
 
     def _matrix(
         self,
@@ -271,30 +229,7 @@ class ExplicitModel:
             raise UnknownName("number", number, [str(k) for k in range(1, last + 1)])
         symbol = Symbol(letter, f"{int(number)}i" if chain else f"{int(number)}", kept="i")
         i = str(chain or "")
-        return self._batch(lambda model, mechanics: model._number(mechanics, symbol, i), pose)
-
-    def _batch(
-        self,
-        of: Callable[[ExplicitModel, References], np.ndarray],
-        pose: ArrayLike,
-        v: ArrayLike | None = None,
-        a: ArrayLike | None = None,
-    ) -> np.ndarray:
-        pose = finite_array("pose", pose, 6)
-        given = {"v": v, "a": a}
-        flat = [pose.reshape(-1, 6)]
-        for name, value in given.items():
-            array = np.zeros(pose.shape) if value is None else finite_array(name, value, 6)
-            if array.shape != pose.shape:
-                raise WrongShape(name, array.shape, f"that of the pose, {pose.shape}")
-            flat.append(array.reshape(-1, 6))
-        self._angles(flat[0])  # an impossible pose is named by its place in the whole batch
-        parts = [
-            of(self, self.mechanics(*(x[start : start + _CHUNK] for x in flat)))
-            for start in range(0, max(len(flat[0]), 1), _CHUNK)
-        ]
-        result = np.concatenate(parts)
-        return result.reshape(*pose.shape[:-1], *result.shape[1:])
+        return self._batch(lambda references: self._number(references, symbol, i), pose)
 
 
 def _angle_names() -> list[tuple[str, str]]:

@@ -13,19 +13,18 @@ Source: Pollard thesis, 2.4 and 2.7 (transformations).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from pollard_pin.coordinates import pose_from_placement
-from thesis_pin.equations.dual import Dual
+from thesis_pin.equations.dual import dual, times_elementary
 from thesis_pin.equations.values import STEP
-from thesis_pin.numeric.rotations import rotation, rotation_derivative, transform
 
 Matrices = Any
-"""An array, or a :class:`Dual` where the state has a direction."""
+"""An array, or a :class:`~thesis_pin.equations.dual.Dual` where the state has directions."""
 
 POSE = ("x", "y", "z", "psi", "theta", "phi")
 """Task coordinates (2.3)."""
@@ -38,7 +37,6 @@ VARIABLES = (*POSE, *JOINTS)
 LENGTHS_0 = ("z_10", "x_32", "x_65", "x_1514", "x_1918")
 CONSTANTS_I = ("y_10", "z_32", "x_43", "x_87", "x_1211", "z_1312", "beta_54", "beta_1413")
 
-_AXES = {"x": 0, "y": 1, "z": 2}
 # Factors of each transform: elementary move, sign, what it moves by.
 _FACTORS: dict[str, tuple[tuple[str, int, str], ...]] = {
     "T_03": (("z", 1, "z_10"), ("Ry", 1, "theta_21"), ("x", 1, "x_32")),
@@ -85,15 +83,16 @@ class State:
         variables: :data:`VARIABLES`.
         rates: Their time derivatives.
         accelerations: Their second time derivatives.
-        along: A direction in the space of variables: transforms then are
-            :class:`Dual` and carry their derivative along it. None: plain arrays.
+        along: Directions in the space of variables: transforms then are
+            :class:`~thesis_pin.equations.dual.Dual` and carry their derivatives along
+            them. None: plain arrays.
     """
 
     constants: dict[str, np.ndarray]
     variables: dict[str, np.ndarray]
     rates: dict[str, np.ndarray]
     accelerations: dict[str, np.ndarray] = field(default_factory=dict)
-    along: Mapping[str, float | np.ndarray] | None = None
+    along: Mapping[Hashable, Mapping[str, float | np.ndarray]] | None = None
 
     def with_(self, **changed: np.ndarray) -> State:
         """The same states with other values of some variables."""
@@ -114,22 +113,24 @@ class State:
             return self.constants[f"signo{name[-1]}"] * self.constants[f"y_10{name[-1]}"]
         return self.variables[name] if name in self.variables else self.constants[name]
 
-    def elementary(self, move: str, by: str, i: str = "", sign: int = 1) -> Matrices:
-        """A translation or rotation by ``sign`` times a constant or variable."""
+    def after(
+        self, placement: Matrices, move: str, by: str, i: str = "", sign: int = 1
+    ) -> Matrices:
+        """A placement times a translation or rotation by ``sign`` times a constant or variable."""
         value = sign * self.number(by, i)
         if self.along is None:
-            return elementary(move, value)
-        speed = sign * np.asarray(self.along.get(own_name(by, i), 0.0))
-        return Dual(elementary(move, value), slope(move, value) * speed[..., None, None])
+            return times_elementary(placement, move, value)
+        name = own_name(by, i)
+        speeds = {k: sign * np.asarray(to[name]) for k, to in self.along.items() if name in to}
+        return dual(placement).then(move, value, speeds)
 
     def transform(self, name: str, i: str = "") -> Matrices:
         """A homogeneous transform of the thesis, shape ``(..., 4, 4)``."""
         if name == "T_LD0":
             return self.transform("pose") @ self.transform("nozzle")
-        factors = [self.elementary(move, by, i, sign) for move, sign, by in _FACTORS[name]]
-        result = factors[0]
-        for factor in factors[1:]:
-            result = result @ factor
+        result: Matrices = np.eye(4)
+        for move, sign, by in _FACTORS[name]:
+            result = self.after(result, move, by, i, sign)
         return result
 
     @property
@@ -141,34 +142,6 @@ class State:
     def size(self) -> int:
         """Number of states."""
         return self.shape[-1]
-
-
-def elementary(move: str, value: np.ndarray) -> np.ndarray:
-    """A translation "x", "y", "z" or rotation "Rx", "Ry", "Rz", shape ``(..., 4, 4)``."""
-    if move[0] == "R":
-        return transform(rotation(move[1], value), np.zeros(3))
-    shift = np.zeros((*value.shape, 3), dtype=value.dtype)
-    shift[..., _AXES[move]] = value
-    return transform(np.eye(3), shift)
-
-
-def slope(move: str, value: np.ndarray) -> np.ndarray:
-    """Derivative of :func:`elementary` by its value, shape ``(..., 4, 4)``."""
-    result = np.zeros((*value.shape, 4, 4), dtype=value.dtype)
-    if move[0] == "R":
-        result[..., :3, :3] = rotation_derivative(move[1], value)
-    else:
-        result[..., _AXES[move], 3] = 1.0
-    return result
-
-
-def inverse(matrix: Matrices) -> Matrices:
-    """Inverse of rigid placements, complex ones included."""
-    if isinstance(matrix, Dual):
-        turned = inverse(matrix.value)
-        return Dual(turned, -(turned @ matrix.slope @ turned))
-    turned = np.swapaxes(matrix[..., :3, :3], -1, -2)
-    return transform(turned, -(turned @ matrix[..., :3, 3:])[..., 0])
 
 
 def random_state(generator: np.random.Generator, size: int, *, closed: bool) -> State:
@@ -209,7 +182,7 @@ def _closed(state: State) -> State:
     constants = dict(state.constants)
     for i in "12":
         goal = state.transform("T_03") @ state.transform("T_311i", i)
-        turned = elementary("Rz", state.number("theta_21i", i))
+        turned = times_elementary(np.eye(4), "Rz", state.number("theta_21i", i))
         rod = (turned @ state.transform("T_48i", i))[:, :3, 3]
         gap = goal[:, :3, 3] - rod
         # gap = (x_43 c θ21i, signo y_10 + x_43 s θ21i, −z_32)

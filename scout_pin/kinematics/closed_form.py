@@ -12,10 +12,10 @@ import math
 from typing import Any
 
 from scout_pin.kinematics.geometry import LegGeometry
-from thesis_pin.numeric.elementwise import Elementwise
+from thesis_pin.numeric.elementwise import Elementwise, Number, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
-Free = tuple[Any, tuple[Any, Any, Any]]
+Free = tuple[Number, tuple[Number, Number, Number]]
 """γ1 and the direction of e that a singular pose leaves free."""
 
 
@@ -26,7 +26,7 @@ class ClosedForm:
     entry by entry.
     """
 
-    def __init__(self, xp: Elementwise, leg: LegGeometry, m: Any, free: Free) -> None:
+    def __init__(self, xp: Elementwise, leg: LegGeometry, m: Numbers, free: Free) -> None:
         self.xp, self.leg = xp, leg
         self.planes: dict[int, tuple[Any, ...]] = {}
         (f_ax, f_ay, f_az), (f_jx, f_jy, f_jz) = leg.foot_rows
@@ -62,7 +62,7 @@ class ClosedForm:
             jx * (ey * az - ez * ay) + jy * (ez * ax - ex * az) + jz * (ex * ay - ey * ax),
         )
 
-    def _axis(self, free: Any) -> tuple[Any, Any, Any]:
+    def _axis(self, free: tuple[Number, Number, Number]) -> tuple[Number, Number, Number]:
         """e, perpendicular to v and a; where v is along a, the free axis, perpendicular to a."""
         xp, (vx, vy, vz), (ax, ay, az) = self.xp, self.reach, self.a
         ex, ey, ez = vy * az - vz * ay, vz * ax - vx * az, vx * ay - vy * ax
@@ -80,7 +80,7 @@ class ClosedForm:
         size = xp.sqrt(ex * ex + ey * ey + ez * ez)
         return ex / size, ey / size, ez / size
 
-    def solve(self, axis: int, two: int) -> tuple[list[Any], list[Any], Any]:
+    def solve(self, axis: int, two: int) -> tuple[list[Number], list[Number], Number]:
         """γ of the two branches with S_E = axis and S_2 = two, knee one way and the other.
 
         Last is by how much their hip-to-ankle distance misses [m].

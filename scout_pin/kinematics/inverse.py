@@ -27,7 +27,7 @@ from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
 from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
 from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, blocks
+from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, Number, blocks
 from thesis_pin.tolerances import TOLERANCES
 
 _FREE_POSES = 64
@@ -100,11 +100,11 @@ _Solved = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 def _few(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -> _Solved:
     """All branches of a few poses, by floats."""
-    numbers: list[float] = []  # one list for all: an array costs more to begin than to fill
+    numbers: list[Number] = []  # one list for all: an array costs more to begin than to fill
     for k, matrix in enumerate(matrices.tolist()):
         free = _free(leg, FLOATS, None if reference is None else (reference[k] + leg.beta).tolist())
         chunk = ClosedForm(FLOATS, leg, matrix, free)
-        excesses: list[float] = []
+        excesses: list[Number] = []
         for axis, two in _PAIRS:
             one, other, excess = chunk.solve(axis, two)
             numbers += one
@@ -145,9 +145,9 @@ def _members(
     given = ClosedForm(ARRAYS, leg, columns, (gamma_1, axis))
     v, a, j = (np.stack(vector) for vector in (given.reach, given.a, given.j))
     level = np.array([0.0, 0.0, 1.0])[:, None]
-    yaws = np.concatenate([gamma_1[None], yaw_bounds(leg, v, a)])
+    yaws = np.concatenate([np.array(gamma_1)[None], yaw_bounds(leg, v, a)])
     axes = np.stack([np.stack(axis), *np.broadcast_to(level, (len(yaws) - 1, 3, count))])
-    if (given.sine_axis < TOLERANCES.singular).any():
+    if np.any(given.sine_axis < TOLERANCES.singular):
         more = axis_bounds(leg, v, a, j)
         axes = np.concatenate([axes, more])
         yaws = np.concatenate([yaws, np.broadcast_to(gamma_1, (len(more), count))])
@@ -289,7 +289,7 @@ def follow_branch(
             *gammas, excess = ClosedForm(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
             angles = wrap(np.array(gammas[k % 2]) - leg.beta[:, None])
             if not (
-                (excess <= TOLERANCES.reach).all()
+                np.all(excess <= TOLERANCES.reach)
                 and (angles >= lower).all()
                 and (angles <= upper).all()
             ):

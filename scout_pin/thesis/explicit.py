@@ -11,7 +11,6 @@ The equations are in the TOML files beside this module.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -26,15 +25,15 @@ from scout_pin.thesis.symbols.forces import matrix_entry
 from thesis_pin.equations.catalogue import Edition
 from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.explicit import ExplicitTerms
 from thesis_pin.equations.formula import Symbol
-from thesis_pin.errors import NoSolution, UnknownName, WrongShape
+from thesis_pin.errors import NoSolution, UnknownName
 from thesis_pin.model.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array
 
 Interval = Literal[1, 2, 3]
 """T_1: left foot bears the robot; T_2: both; T_3: right foot (4.6)."""
 
-_CHUNK = 64  # states whose ∂N/∂q_j stay below a few hundred MB
 _UNBALANCED = 1e-8  # N, N·m: above rounding, below anything physical
 
 
@@ -52,7 +51,7 @@ class Solution:
     multipliers: np.ndarray
 
 
-class ExplicitModel:
+class ExplicitModel(ExplicitTerms[References]):
     """The terms of (4.23) for one state or a batch.
 
     q, v, a have shape ``(..., 18)``: coordinates (4.2) [m], [rad] and their rates.
@@ -69,6 +68,8 @@ class ExplicitModel:
             can't be evaluated as printed, with the reason.
     """
 
+    columns, chunk = 18, 64
+
     def __init__(
         self,
         specification: Specification | None = None,
@@ -76,46 +77,8 @@ class ExplicitModel:
         inertia: Reading = "physical",
         edition: Edition = "corrected",
     ) -> None:
-        if edition not in ("corrected", "printed"):
-            raise UnknownName("edition", edition, ("corrected", "printed"))
-        if inertia not in ("physical", "printed"):
-            raise UnknownName("inertia", inertia, ("physical", "printed"))
-        self.edition: Edition = edition
+        super().__init__(catalogue(), edition, inertia)
         self.parameters = Parameters.of(specification or Specification.read(), inertia)
-        self.substituted: dict[str, str] = {}
-
-    # -- left side -------------------------------------------------------------
-
-    def D(self, q: ArrayLike) -> np.ndarray:
-        """Mass matrix, shape ``(..., 18, 18)``. Source: 4.7, (4.8), 4.2."""
-        return self._batch(lambda references: self._terms(references, "D")[0], q)
-
-    def V(self, q: ArrayLike, v: ArrayLike) -> np.ndarray:
-        """V(q, q̇) = Ṅ − ½ [q̇ᵀ ∂N/∂q_j]_j, shape ``(..., 18, 18)``.
-
-        Only V q̇ compares with a Coriolis term. Source: 4.7, (4.8), (4.10).
-        """
-        return self._batch(lambda references: self._terms(references, "V")[0], q, v)
-
-    def C(self, q: ArrayLike) -> np.ndarray:
-        """Gravity term [N], [N·m], shape ``(..., 18)``. Source: 4.7, (4.10)."""
-        return self._batch(lambda references: self._terms(references, "C")[0], q)
-
-    def terms(self, q: ArrayLike, v: ArrayLike) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """D, V and C at once: what they share is worked out once."""
-
-        def stacked(references: References) -> np.ndarray:
-            mass, velocity, gravity = self._terms(references, "DVC")
-            return np.concatenate([mass, velocity, gravity[..., None]], axis=-1)
-
-        found = self._batch(stacked, q, v)
-        return found[..., :18], found[..., 18:36], found[..., 36]
-
-    def generalized_force(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> np.ndarray:
-        """D q̈ + V q̇ + C, the left side of (4.23) [N], [N·m], shape ``(..., 18)``."""
-        q, v, a = (finite_array(name, x, 18) for name, x in zip("qva", (q, v, a), strict=True))
-        mass, velocity, gravity = self.terms(q, v)
-        return (mass @ a[..., None] + velocity @ v[..., None])[..., 0] + gravity
 
     # -- right side ------------------------------------------------------------
 
@@ -146,7 +109,7 @@ class ExplicitModel:
                 target = np.eye(4) if placements is None else np.asarray(placements)[k]
                 if placements is None:
                     target[0, 3] = (-1) ** i * 44.54e-3
-                rows.append(_pose_error(references.state.frame(f"7{i}").placement[:, 0], target))
+                rows.append(_pose_error(references.state.frame(f"7{i}").value[:, 0], target))
             return np.concatenate(rows, axis=-1)
 
         def printed(references: References) -> np.ndarray:
@@ -202,21 +165,17 @@ class ExplicitModel:
 
     # -- machinery ---------------------------------------------------------------
 
-    def environment(self, references: References) -> EditionEnvironment:
-        """The thesis's symbols at some states, in this edition."""
-        return EditionEnvironment(
-            catalogue(), references, self.edition, substituted=self.substituted
-        )
+    def references(self, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> References:
+        """What each symbol must equal at states, each argument ``(N, 18)``."""
+        return References(resting(self.parameters, q, v, a))
 
-    def _terms(self, references: References, wanted: str) -> list[np.ndarray]:
-        """Some of D, V and C, from rows 𝔻_j, 𝕍_j, ℂ_j of 4.7."""
-        environment, found = self.environment(references), []
-        for letter in wanted:
-            value = environment.lookup(Symbol(f"bb:{letter}", "j"), {})
-            array = value.array[..., 0, :] if value.rank == 2 else value.array
-            tail = (18, 18) if value.rank == 2 else (18,)
-            found.append(np.broadcast_to(array, (len(references.state.q), *tail)))
-        return found
+    def _term(self, environment: EditionEnvironment, letter: str) -> np.ndarray:
+        """Rows 𝔻_j, 𝕍_j, ℂ_j of 4.7."""
+        value = environment.lookup(Symbol(f"bb:{letter}", "j"), {})
+        array = value.array[..., 0, :] if value.rank == 2 else value.array
+        return np.broadcast_to(
+            array, (len(array), *(18,) * (array.ndim - 1))
+        )  # printed rows repeat
 
     def _actuation(self, references: References) -> np.ndarray:
         result = np.zeros((len(references.state.q), 18, 12))
@@ -244,25 +203,6 @@ class ExplicitModel:
             value = evaluate(node, environment, {"i": str(i)}).array
             blocks.append(np.broadcast_to(value, (count, 1, 6, 18))[:, 0])
         return np.concatenate(blocks, axis=-2)
-
-    def _batch(
-        self, of: Callable[[References], np.ndarray], q: ArrayLike, v: ArrayLike | None = None
-    ) -> np.ndarray:
-        q = finite_array("q", q, 18)
-        v = np.zeros(q.shape) if v is None else finite_array("v", v, 18)
-        if q.shape != v.shape:
-            raise WrongShape("v", v.shape, f"that of q, {q.shape}")
-        flat_q, flat_v = q.reshape(-1, 18), v.reshape(-1, 18)
-        parts = []
-        for start in range(0, max(len(flat_q), 1), _CHUNK):
-            rows = slice(start, start + _CHUNK)
-            parts.append(of(References(self.state(flat_q[rows], flat_v[rows]))))
-        result = np.concatenate(parts)
-        return result.reshape(*q.shape[:-1], *result.shape[1:])
-
-    def state(self, q: np.ndarray, v: np.ndarray, a: np.ndarray | None = None) -> State:
-        """States of this model's robot; each argument ``(N, 18)``."""
-        return resting(self.parameters, q, v, np.zeros(q.shape) if a is None else a)
 
 
 _FEET: dict[int, tuple[int, ...]] = {1: (1,), 2: (1, 2), 3: (2,)}

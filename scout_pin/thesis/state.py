@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.specification import SIDES, Specification
+from thesis_pin.equations.dual import Dual
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.values import STEP
 from thesis_pin.model.inertia import Reading
@@ -25,7 +26,6 @@ COORDINATES = (
 )
 """Names of q_1 … q_18 (4.2)."""
 
-_PLANES = {"Rx": (1, 2), "Ry": (2, 0), "Rz": (0, 1)}
 LENGTHS = ("x_0", "z_1", "x_2", "x_3", "x_4", "x_5", "y_6")
 BODIES = ("B", *(f"{n}{i}" for i in (1, 2) for n in range(1, 7)))
 """Torso, then links 1 to 6 of the left and of the right leg."""
@@ -107,55 +107,6 @@ class Parameters:
 
 
 @dataclass(frozen=True)
-class Frame:
-    """A placement and its derivatives.
-
-    Attributes:
-        placement: Homogeneous matrices, shape ``(N, J, 4, 4)``.
-        derivatives: Derivative by each coordinate it depends on, by index.
-    """
-
-    placement: np.ndarray
-    derivatives: dict[int, np.ndarray]
-
-    def then(self, move: str, value: np.ndarray, coordinate: int | None = None) -> Frame:
-        """Multiply by an elementary transform that may depend on one coordinate.
-
-        Args:
-            move: "x", "y", "z" to translate, "Rx", "Ry", "Rz" to rotate.
-            value: Distance [m] or angle [rad], shape ``(N, J)``.
-            coordinate: Index of the coordinate ``value`` moves with, if any.
-        """
-        after = {k: times_elementary(d, move, value) for k, d in self.derivatives.items()}
-        if coordinate is not None:
-            after[coordinate] = times_elementary(self.placement, move, value, derivative=True)
-        return Frame(times_elementary(self.placement, move, value), after)
-
-    @property
-    def rotation(self) -> np.ndarray:
-        """Axes in the world, shape ``(N, J, 3, 3)``."""
-        return self.placement[..., :3, :3]
-
-    @property
-    def origin(self) -> np.ndarray:
-        """Origin in the world [m], shape ``(N, J, 3)``."""
-        return self.placement[..., :3, 3]
-
-    def spin(self, coordinate: int) -> np.ndarray:
-        """∂R/∂q Rᵀ, the skew matrix of the axis a coordinate turns the frame about."""
-        return self.derivatives[coordinate][..., :3, :3] @ np.swapaxes(self.rotation, -1, -2)
-
-    def axis(self, coordinate: int) -> np.ndarray:
-        """The axis a coordinate turns the frame about, shape ``(N, J, 3)``."""
-        return vee(self.spin(coordinate))
-
-
-def vee(skew: np.ndarray) -> np.ndarray:
-    """Vector of a skew matrix: ``(..., 3, 3)`` → ``(..., 3)``."""
-    return np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
-
-
-@dataclass(frozen=True)
 class State:
     """States of one or many robots, with virtual displacements and torques.
 
@@ -204,36 +155,37 @@ class State:
         return replace(self, q=self.q + size * direction, perturbed=True)
 
     @cached_property
-    def torso(self) -> list[Frame]:
+    def torso(self) -> list[Dual]:
         """Frames after each elementary factor of T_{0,B}; the last is the torso's."""
-        frame = Frame(np.broadcast_to(np.eye(4), (1, 1, 4, 4)), {})
+        frame = Dual(np.broadcast_to(np.eye(4), (1, 1, 4, 4)), {})
         frames = []
         for k, move in enumerate(("x", "y", "z", "Rx", "Ry", "Rz")):
-            frame = frame.then(move, self.q[..., k], k)
+            frame = frame.then(move, self.q[..., k], {k: 1.0})
             frames.append(frame)
         return frames
 
     @cached_property
-    def legs(self) -> dict[int, list[Frame]]:
+    def legs(self) -> dict[int, list[Dual]]:
         """Frames of each leg: link 1 to 6, then the sole."""
         return {i: self._leg(i) for i in (1, 2)}
 
-    def _leg(self, i: int) -> list[Frame]:
+    def _leg(self, i: int) -> list[Dual]:
         frame, frames = self.torso[-1], []
         constants = self.parameters.values
         for move, what in _LEG:
             if isinstance(what, int):
                 k = 5 + 6 * (i - 1) + what
-                frame = frame.then(move, self.q[..., k] + constants[f"beta_{what}{i}"], k)
+                angle = self.q[..., k] + constants[f"beta_{what}{i}"]
+                frame = frame.then(move, angle, {k: 1.0})
                 frames.append(frame)
                 continue
             sign = -1 if what == "z_1" or (what == "x_0" and i == 1) else 1
             value = constants[what if what.startswith("beta") else f"{what}{i}"]
-            frame = frame.then(move, sign * value)
+            frame = frame.then(move, sign * value, {})
         frames.append(frame)
         return frames
 
-    def frame(self, body: str) -> Frame:
+    def frame(self, body: str) -> Dual:
         """Frame of a link: "B" or "31" for link 3 of the left leg; "71" is its sole."""
         return self.torso[-1] if body == "B" else self.legs[int(body[-1])][int(body[:-1]) - 1]
 
@@ -243,11 +195,8 @@ class State:
         if local is None:
             local = np.zeros((1, 1, 3))
         homogeneous = np.concatenate([local, np.ones((*local.shape[:-1], 1))], axis=-1)[..., None]
-        where = (frame.placement @ homogeneous)[..., :3, 0]
-        jacobian = np.zeros((*where.shape, 18), dtype=where.dtype)
-        for k, derivative in frame.derivatives.items():
-            jacobian[..., k] = (derivative @ homogeneous)[..., :3, 0]
-        return where, jacobian
+        point = (frame @ homogeneous)[..., :3, 0]
+        return point.value, np.stack([point.along(k) for k in range(18)], axis=-1)
 
     def centre(self, body: str) -> tuple[np.ndarray, np.ndarray]:
         """Centre of mass of a link and its Jacobian J."""
@@ -256,47 +205,12 @@ class State:
     def angular(self, body: str) -> np.ndarray:
         """Jacobian W of a link's angular velocity, shape ``(N, J, 3, 18)``."""
         frame = self.frame(body)
-        jacobian = np.zeros((*frame.origin.shape, 18), dtype=frame.placement.dtype)
-        for k in frame.derivatives:
-            jacobian[..., k] = frame.axis(k)
-        return jacobian
+        return np.stack([frame.axis(k) for k in range(18)], axis=-1)
 
     def inertia(self, body: str) -> np.ndarray:
         """Centroidal inertia of a link in world axes, shape ``(N, J, 3, 3)``."""
         turned = self.frame(body).rotation
         return turned @ self.parameters.values[f"I{body}"] @ np.swapaxes(turned, -1, -2)
-
-
-def times_elementary(
-    matrix: np.ndarray, move: str, value: np.ndarray, *, derivative: bool = False
-) -> np.ndarray:
-    """``matrix @ T`` for an elementary transform T, or for its derivative.
-
-    A translation changes the last column and a rotation mixes two, so no product
-    of 4×4 matrices is formed.
-
-    Args:
-        matrix: Shape ``(N, J, 4, 4)``.
-        move: "x", "y", "z", "Rx", "Ry" or "Rz".
-        value: Distance or angle, shape ``(N, J)``.
-        derivative: Take ∂T/∂value instead of T.
-    """
-    shape = np.broadcast_shapes(matrix.shape[:-2], value.shape)
-    result = np.zeros((*shape, 4, 4), dtype=np.result_type(matrix, value))
-    if not derivative:
-        result[...] = matrix
-    if move[0] != "R":
-        along = matrix[..., "xyz".index(move)]
-        result[..., 3] += along if derivative else along * value[..., None]
-        return result
-    first, second = _PLANES[move]
-    one, other = matrix[..., first], matrix[..., second]
-    cosine, sine = np.cos(value)[..., None], np.sin(value)[..., None]
-    if derivative:
-        cosine, sine = -sine, cosine
-    result[..., first] = one * cosine + other * sine
-    result[..., second] = other * cosine - one * sine
-    return result
 
 
 def coordinate_index(name: str) -> int:

@@ -90,6 +90,12 @@ def difference(left: Value, right: Value) -> float:
     return gap / max(float(np.abs(left.array).max()), float(np.abs(right.array).max()), _FLOOR)
 
 
+def largest_relative(found: np.ndarray, truth: np.ndarray) -> float:
+    """Largest error of a state, relative to that state's largest entry; states come first."""
+    axes = tuple(range(1, truth.ndim))
+    return float((np.abs(found - truth).max(axis=axes) / np.abs(truth).max(axis=axes)).max())
+
+
 def residual(
     catalogue: Catalogue,
     equation: Equation,

@@ -206,6 +206,15 @@ class ClosedRobot(LoadedRobot):
         self.passive = np.setdiff1d(np.arange(self.model.nv), self.actuated)
         self.constraint_models = [loop.constraint_model(self.model) for loop in self.loops]
 
+    def __getstate__(self) -> dict[str, object]:
+        state = super().__getstate__()
+        del state["constraint_models"]  # Pinocchio's, which can't travel
+        return state
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        super().__setstate__(state)
+        self.constraint_models = [loop.constraint_model(self.model) for loop in self.loops]
+
     def _geometry(self, kind: Any) -> pin.GeometryModel:
         """Geometry; meshes are looked for beside the URDF and in the folder above."""
         if self._urdf_folder is None:

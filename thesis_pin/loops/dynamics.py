@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -141,13 +142,18 @@ class ForwardDynamics:
     """
 
     def __init__(self, robot: ClosedRobot, *, damping: float = 1e-8) -> None:
-        self.robot, self.data = robot, robot.model.createData()
+        self.robot, self.damping = robot, damping
+        self.data = robot.model.createData()
         self.models = robot.rigid_constraint_models()
         self.datas = pin.StdVec_RigidConstraintData()
         for model in self.models:
             self.datas.append(model.createData())
         self.settings = pin.ProximalSettings(1e-14, damping, 50)
         pin.initConstraintDynamics(robot.model, self.data, self.models, self.datas)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Pinocchio's constraints can't travel; they are made again of the robot."""
+        return partial(ForwardDynamics, damping=self.damping), (self.robot,)
 
     def __call__(self, q: np.ndarray, v: np.ndarray, torque: np.ndarray) -> np.ndarray:
         """Accelerations ``(nv,)`` of one state under motor torques ``(motors,)``."""

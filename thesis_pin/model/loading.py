@@ -157,6 +157,20 @@ class LoadedRobot:
         self.q0 = pin.neutral(self.model)
         self.v0 = np.zeros(self.model.nv)
 
+    def __getstate__(self) -> dict[str, object]:
+        """What travels: all but what is made of it, as Pinocchio's data, geometry and pools."""
+        made = {
+            name
+            for kind in type(self).__mro__
+            for name, item in vars(kind).items()
+            if isinstance(item, functools.cached_property)
+        }
+        return {key: value for key, value in vars(self).items() if key not in {"data", *made}}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        vars(self).update(state)
+        self.data = self.model.createData()
+
     @functools.cached_property
     def _folder(self) -> str:
         """Meshes on disk, where Pinocchio's reader wants them; lives as long as the robot."""

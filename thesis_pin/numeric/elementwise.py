@@ -8,9 +8,9 @@ floats are several times faster. Code that is handed one of :data:`FLOATS` and
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
 
@@ -19,6 +19,15 @@ FEW = 16
 
 BLOCK = 4096
 """Samples whose intermediates stay in a core's cache."""
+
+Number: TypeAlias = float | np.ndarray
+"""One number, or an array of them."""
+
+Numbers: TypeAlias = Sequence[Number] | np.ndarray
+"""Several of them, for instance the entries of a pose."""
+
+Truth: TypeAlias = bool | np.ndarray
+"""One condition, or an array of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,18 +41,18 @@ class Elementwise:
         some: Whether a condition holds for at least one element.
     """
 
-    cosine_sine: Callable[[Any], tuple[Any, Any]]
-    sqrt: Callable[[Any], Any]
-    acos: Callable[[Any], Any]
-    atan2: Callable[[Any, Any], Any]
-    where: Callable[[Any, Any, Any], Any]
-    some: Callable[[Any], bool]
+    cosine_sine: Callable[[Number], tuple[Number, Number]]
+    sqrt: Callable[[Number], Number]
+    acos: Callable[[Number], Number]
+    atan2: Callable[[Number, Number], Number]
+    where: Callable[[Truth, Number, Number], Number]
+    some: Callable[[Truth], bool]
 
-    def clipped(self, cosine: Any) -> Any:
+    def clipped(self, cosine: Number) -> Number:
         """What ought to be a cosine, brought into ±1."""
         return self.where(cosine > 1.0, 1.0, self.where(cosine < -1.0, -1.0, cosine))
 
-    def larger(self, one: Any, other: Any) -> Any:
+    def larger(self, one: Number, other: Number) -> Number:
         """The larger of two."""
         return self.where(one > other, one, other)
 
@@ -61,8 +70,9 @@ def cosine_sine(angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.cos(angle), np.sin(angle)
 
 
-FLOATS = Elementwise(_cosine_sine, math.sqrt, math.acos, math.atan2, _pick, bool)
-ARRAYS = Elementwise(cosine_sine, np.sqrt, np.arccos, np.arctan2, np.where, np.any)
+# Each of the two takes its own kind only, which their common type can't say.
+FLOATS = Elementwise(_cosine_sine, math.sqrt, math.acos, math.atan2, _pick, bool)  # type: ignore[arg-type]
+ARRAYS = Elementwise(cosine_sine, np.sqrt, np.arccos, np.arctan2, np.where, np.any)  # type: ignore[arg-type]
 
 
 def blocks(count: int, size: int = BLOCK) -> list[slice]:

@@ -21,7 +21,8 @@ from pollard_pin.thesis.claims.robot import Check
 from pollard_pin.thesis.explicit import ExplicitModel
 from pollard_pin.thesis.references import References
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.text import residual_text
+from thesis_pin.audit.verdicts import ClaimResult, largest_relative
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
 STATES = 1000
@@ -65,12 +66,6 @@ def projected_terms(
     return back @ np.array(mass) @ jacobian, velocity, gravity
 
 
-def largest_relative(found: np.ndarray, truth: np.ndarray) -> float:
-    """Largest error of a state, relative to that state's largest entry."""
-    axes = tuple(range(1, truth.ndim))
-    return float((np.abs(found - truth).max(axis=axes) / np.abs(truth).max(axis=axes)).max())
-
-
 def _equation_of_motion(_: Catalogue, __: Equation, ___: References) -> ClaimResult:
     """D, V q̇ and C of the corrected thesis against Pinocchio's projected dynamics."""
     model = ExplicitModel()
@@ -79,9 +74,10 @@ def _equation_of_motion(_: Catalogue, __: Equation, ___: References) -> ClaimRes
     terms = mass, (velocity @ v[..., None])[..., 0], gravity
     truth = projected_terms(model.robot, pose, v)
     gaps = [largest_relative(a, b) for a, b in zip(terms, truth, strict=True)]
+    told = [residual_text(gap) for gap in gaps]
     note = (
-        f"left side against Pinocchio at {len(pose)} random poses: D {gaps[0]:.0e}, "
-        f"V q̇ {gaps[1]:.0e}, C {gaps[2]:.0e}; with the corrections of every line it rests on"
+        f"left side against Pinocchio at {len(pose)} random poses: D {told[0]}, V q̇ {told[1]}, "
+        f"C {told[2]}; with the corrections of every line it rests on"
     )
     return ClaimResult(max(gaps), note=note)
 

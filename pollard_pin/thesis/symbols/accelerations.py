@@ -24,7 +24,7 @@ import numpy as np
 
 from pollard_pin.thesis.state import CHAIN_0, JOINTS, POSE, SIDE, State, own_name
 from pollard_pin.thesis.symbols.loops import element, opening, side
-from pollard_pin.thesis.symbols.rates import RATE_EQUATIONS, moving
+from pollard_pin.thesis.symbols.rates import RATES, moving
 from thesis_pin.equations.values import STEP
 
 # 32 points can't tell the 34th Taylor term from the second; at this radius it is below rounding.
@@ -139,7 +139,7 @@ _ROOTS["theta_1716"] = _entry("b", 1, 1)
 def coefficient(state: State, name: str, i: str) -> np.ndarray | None:
     """Value of "G_8"; None if there is none, or it needs a chain and has none."""
     number = int(name[2:])
-    for row in RATE_EQUATIONS:
+    for row in RATES:
         chain = i if row.angle.endswith("i") else ""
         if row.angle.endswith("i") and not i:
             continue

@@ -14,10 +14,10 @@ import numpy as np
 
 from pollard_pin.specification import LINK_NAMES, Specification
 from pollard_pin.thesis.state import CONSTANTS_I, LENGTHS_0, Matrices, State
-from pollard_pin.thesis.symbols.loops import PATHS, placement
+from pollard_pin.thesis.symbols.loops import PATHS, Path, placement
 from pollard_pin.thesis.symbols.rates import joint_rates
 from thesis_pin.equations import lagrangian
-from thesis_pin.equations.dual import Dual
+from thesis_pin.equations.dual import dual
 from thesis_pin.model.inertia import Reading
 
 BODIES = ("1", "2", "3", "4", "5", "11", "21", "12", "22")
@@ -45,16 +45,9 @@ def turned(state: State, frame: str, i: str = "") -> Matrices:
 
 def centre(state: State, body: str) -> Matrices:
     """Centre of gravity of a body in the base frame [m], shape ``(..., 3)``."""
-    frame, i = own_frame(body)
     local = state.constants[f"centre {body}"]
     local = np.concatenate([local, np.ones_like(local[..., :1])], axis=-1)
-    return (placement(state, PATHS[frame], i) @ local[..., None])[..., :3, 0]
-
-
-def spin(rotation: Dual) -> np.ndarray:
-    """Axis times rate of a turning frame: the vector of Ṙ Rᵀ, shape ``(..., 3)``."""
-    skew = rotation.slope @ np.swapaxes(rotation.value, -1, -2)
-    return np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
+    return (placement(state, *_path(body)) @ local[..., None])[..., :3, 0]
 
 
 def inertia(state: State, body: str) -> np.ndarray:
@@ -66,18 +59,22 @@ def inertia(state: State, body: str) -> np.ndarray:
 def bodies(state: State) -> dict[str, lagrangian.Body]:
     """All bodies with their Jacobians by the pose, on closed states."""
     rates = joint_rates(state)
-    along_pose = [
-        replace(state, along={name: row[..., k] for name, row in rates.items()}) for k in range(6)
-    ]
+    moved = replace(
+        state, along={k: {name: row[..., k] for name, row in rates.items()} for k in range(6)}
+    )
     found = {}
     for body in BODIES:
-        frame, i = own_frame(body)
-        linear = np.stack([centre(s, body).slope for s in along_pose], axis=-1)
-        angular = np.stack([spin(turned(s, frame, i)) for s in along_pose], axis=-1)
-        where = centre(state, body)
+        place, frame = centre(moved, body), dual(placement(moved, *_path(body)))
+        linear = np.stack([place.along(k) for k in range(6)], axis=-1)
+        angular = np.stack([frame.axis(k) for k in range(6)], axis=-1)
         mass = state.constants[f"mass {body}"]
-        found[body] = lagrangian.Body(mass, inertia(state, body), linear, angular, where)
+        found[body] = lagrangian.Body(mass, inertia(state, body), linear, angular, place.value)
     return found
+
+
+def _path(body: str) -> tuple[Path, str]:
+    frame, i = own_frame(body)
+    return PATHS[frame], i
 
 
 def random_constants(generator: np.random.Generator, size: int) -> dict[str, np.ndarray]:

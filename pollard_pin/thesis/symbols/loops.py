@@ -9,7 +9,8 @@ import re
 
 import numpy as np
 
-from pollard_pin.thesis.state import Matrices, State, inverse
+from pollard_pin.thesis.state import Matrices, State
+from thesis_pin.equations.dual import inverse
 
 
 def frame(state: State, name: str) -> Matrices | None:
@@ -60,7 +61,7 @@ _LETTERS = {
 def _product(state: State, *moves: str) -> Matrices:
     result: Matrices = np.eye(4)
     for move, name in zip(moves[::2], moves[1::2], strict=True):
-        result = result @ state.elementary(move, name)
+        result = state.after(result, move, name)
     return result
 
 
@@ -74,7 +75,7 @@ def side(state: State, k: int, i: str = "") -> Matrices:
         return t("T_315")[..., 3]
     if k == 2:
         return (inverse(t("T_03")) @ t("T_LD0"))[..., 3]
-    tilt = inverse(state.elementary("Rx", "beta_54i", i))
+    tilt = inverse(state.after(np.eye(4), "Rx", "beta_54i", i))
     if k == 3:
         return (tilt @ t("T_48i", i))[..., 3]
     back = tilt @ inverse(t("T_02i", i) @ t("T_24i", i))
@@ -108,7 +109,7 @@ def placement(state: State, path: Path, i: str = "") -> Matrices:
     result: Matrices = np.eye(4)
     for move, name in path:
         sign = -1 if move[0] == "-" else 1
-        result = result @ state.elementary(move.removeprefix("-"), name, i, sign)
+        result = state.after(result, move.removeprefix("-"), name, i, sign)
     return result
 
 

@@ -11,10 +11,11 @@ from typing import Self
 import numpy as np
 
 from pollard_pin.thesis.state import CHAIN_0, JOINTS, POSE, State, own_name
-from pollard_pin.thesis.symbols.bodies import BODIES, centre, origin, own_frame, spin, turned
-from pollard_pin.thesis.symbols.loops import PATHS, between
+from pollard_pin.thesis.symbols.bodies import BODIES, centre, origin, own_frame, turned
+from pollard_pin.thesis.symbols.loops import PATHS, between, placement
 from pollard_pin.thesis.symbols.positions import Positions
 from pollard_pin.thesis.symbols.rates import derivative, explicit_rates, joint_rates, moving
+from thesis_pin.equations.dual import dual
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
 
@@ -176,7 +177,8 @@ class MotionSymbols(Positions):
             along = {name: self.state.rates[name] for name in JOINTS}
         else:
             return None
-        return vector(spin(turned(replace(self.state, along=along), frame, i)))
+        moved = dual(placement(replace(self.state, along={None: along}), PATHS[frame], i))
+        return vector(moved.axis(None))
 
     def _axis(self, symbol: Symbol, i: str) -> Value | None:
         column = "ijk".index(symbol.base)

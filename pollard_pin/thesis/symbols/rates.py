@@ -19,8 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, inverse, own_name
+from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, own_name
 from pollard_pin.thesis.symbols.loops import element, opening, side
+from thesis_pin.equations.dual import dual, inverse, vee
 
 Along = Mapping[str, float | np.ndarray]
 _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarray]]]
@@ -28,7 +29,7 @@ _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarra
 
 def derivative(of: Callable[[State], Any], state: State, along: Along) -> np.ndarray:
     """Exact derivative of a product of transforms along a direction, at complex states too."""
-    return of(replace(state, along=along)).slope
+    return dual(of(replace(state, along={None: along}))).along(None)
 
 
 def _first(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
@@ -109,7 +110,7 @@ def _yaw(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray
 
 
 @dataclass(frozen=True)
-class RateEquation:
+class Rate:
     """One rate equation: θ̇ = (Σ V rate) / V_first = (Σ E pose rate) / V_first.
 
     Attributes:
@@ -129,35 +130,31 @@ class RateEquation:
 
 _ANGLES_0 = ("psi", "theta", "phi", "theta_21", "theta_54")
 _ANGLES_I = ("theta_21", "theta_43", "theta_54", "theta_21i", "theta_65i")
-RATE_EQUATIONS = (
-    RateEquation("theta_21", 1, POSE, 0, _first),
-    RateEquation("theta_43", 8, ("x", "z", "psi", "theta", "phi", "theta_21"), 1, _second),
-    RateEquation(
-        "theta_54", 15, ("x", "y", "psi", "theta", "phi", "theta_21", "theta_43"), 7, _third
-    ),
-    RateEquation("theta_1817", 23, _ANGLES_0, 13, _quotient("b", "theta_1817", (1, 3), (1, 2), -1)),
-    RateEquation("theta_1716", 29, (*_ANGLES_0, "theta_1817"), 19, _yaw),
-    RateEquation(
+RATES = (
+    Rate("theta_21", 1, POSE, 0, _first),
+    Rate("theta_43", 8, ("x", "z", "psi", "theta", "phi", "theta_21"), 1, _second),
+    Rate("theta_54", 15, ("x", "y", "psi", "theta", "phi", "theta_21", "theta_43"), 7, _third),
+    Rate("theta_1817", 23, _ANGLES_0, 13, _quotient("b", "theta_1817", (1, 3), (1, 2), -1)),
+    Rate("theta_1716", 29, (*_ANGLES_0, "theta_1817"), 19, _yaw),
+    Rate(
         "theta_1615",
         36,
         (*_ANGLES_0, "theta_1817", "theta_1716"),
         25,
         _quotient("c", "theta_1615", (3, 2), (2, 2), 1),
     ),
-    RateEquation("theta_21i", 44, ("theta_21", "theta_43", "theta_54"), 31, _first),
-    RateEquation("theta_65i", 48, ("theta_21", "theta_43", "theta_54", "theta_21i"), 37, _second),
-    RateEquation("theta_76i", 53, _ANGLES_I, 43, _third),
-    RateEquation(
-        "theta_1110i", 59, _ANGLES_I, 49, _quotient("d", "theta_1110", (3, 2), (3, 1), -1)
-    ),
-    RateEquation(
+    Rate("theta_21i", 44, ("theta_21", "theta_43", "theta_54"), 31, _first),
+    Rate("theta_65i", 48, ("theta_21", "theta_43", "theta_54", "theta_21i"), 37, _second),
+    Rate("theta_76i", 53, _ANGLES_I, 43, _third),
+    Rate("theta_1110i", 59, _ANGLES_I, 49, _quotient("d", "theta_1110", (3, 2), (3, 1), -1)),
+    Rate(
         "theta_109i",
         65,
         ("theta_21", "theta_54", "theta_21i", "theta_65i", "theta_1110i"),
         55,
         _quotient("e", "theta_109", (3, 1), (3, 3), -1),
     ),
-    RateEquation(
+    Rate(
         "theta_98i",
         71,
         (*_ANGLES_I, "theta_76i", "theta_1110i", "theta_109i"),
@@ -180,7 +177,7 @@ def coefficient(
         rates: :func:`joint_rates` at the states, if they are known.
     """
     letter, number = name[0], int(name[2:])
-    for row in RATE_EQUATIONS:
+    for row in RATES:
         chain = i if row.angle.endswith("i") else ""
         if row.angle.endswith("i") and not i:
             continue
@@ -239,7 +236,7 @@ def explicit_rates(state: State) -> dict[str, np.ndarray]:
     thesis's k are as functions, which a derivative by one angle alone needs.
     """
     result: dict[str, np.ndarray] = {}
-    for row in RATE_EQUATIONS:
+    for row in RATES:
         for i in ("1", "2") if row.angle.endswith("i") else ("",):
             below, numerator = row.relation(state, i)
             found = [
@@ -258,12 +255,14 @@ def _solve(
 ) -> list[np.ndarray]:
     """Rates of unknown variables that keep a gap as it is while the given ones move."""
 
-    def twist(along: Along) -> np.ndarray:
-        rate = inverse(gap(state)) @ derivative(gap, state, along)
-        parts = [rate[..., 0, 3], rate[..., 1, 3], rate[..., 2, 3]]
-        return np.stack([*parts, rate[..., 2, 1], rate[..., 0, 2], rate[..., 1, 0]], axis=-1)
+    moved = gap(replace(state, along={**{n: {n: 1.0} for n in unknown}, **dict(enumerate(given))}))
+    back = inverse(moved.value)
 
-    matrix = np.stack([twist({name: 1.0}) for name in unknown], axis=-1)
-    right = np.stack([twist(along) for along in given], axis=-1)
+    def twist(direction: object) -> np.ndarray:
+        rate = back @ moved.along(direction)
+        return np.concatenate([rate[..., :3, 3], vee(rate)], axis=-1)
+
+    matrix = np.stack([twist(name) for name in unknown], axis=-1)
+    right = np.stack([twist(k) for k in range(len(given))], axis=-1)
     solved = np.linalg.solve(matrix, -right)
     return [solved[..., k, :] for k in range(len(unknown))]

@@ -20,7 +20,8 @@ from scout_pin.specification import Specification
 from scout_pin.thesis.explicit import ExplicitModel, Interval, resting, solve_one
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.text import residual_text
+from thesis_pin.audit.verdicts import ClaimResult, largest_relative
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import NoSolution
@@ -77,9 +78,10 @@ def _equation_of_motion(states: int) -> ClaimResult:
         mass, velocity, gravity = model.terms(q, v)
         terms = mass, (velocity @ v[..., None])[..., 0], gravity
         truth = _pinocchio_terms(robot, q, v)
-        gaps = [_largest_relative(a, b) for a, b in zip(terms, truth, strict=True)]
+        gaps = [largest_relative(a, b) for a, b in zip(terms, truth, strict=True)]
         worst = max(worst, *gaps)
-        notes.append(f"{reading}: D {gaps[0]:.0e}, V q̇ {gaps[1]:.0e}, C {gaps[2]:.0e}")
+        told = [residual_text(gap) for gap in gaps]
+        notes.append(f"{reading}: D {told[0]}, V q̇ {told[1]}, C {told[2]}")
     note = f"left side against Pinocchio at {states} random states; {'; '.join(notes)}"
     return ClaimResult(worst, note=note)
 
@@ -94,12 +96,6 @@ def _pinocchio_terms(
         gravity.append(pin.computeGeneralizedGravity(robot.model, data, one).copy())
         bias.append(pin.nonLinearEffects(robot.model, data, one, rate) - gravity[-1])
     return np.array(mass), np.array(bias), np.array(gravity)
-
-
-def _largest_relative(found: np.ndarray, truth: np.ndarray) -> float:
-    """Largest error of a state, relative to that state's largest entry."""
-    axes = tuple(range(1, truth.ndim))
-    return float((np.abs(found - truth).max(axis=axes) / np.abs(truth).max(axis=axes)).max())
 
 
 def _actuation() -> ClaimResult:
@@ -213,8 +209,8 @@ def _inertias_as_used() -> ClaimResult:
         torques[reading] = inverse_dynamics(robot, load_gait("thesis").sample(times)).torque
     change = float(np.abs(torques["printed"] - torques["physical"]).max())
     return ClaimResult(
-        _largest_relative(used, truth),
-        _largest_relative(right, truth),
+        largest_relative(used, truth),
+        largest_relative(right, truth),
         "the kinetic energy of 4.1 counts m c² twice",
         {"gait torque [N·m]": change},
     )

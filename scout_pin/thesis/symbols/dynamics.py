@@ -7,10 +7,11 @@ from functools import cached_property
 
 import numpy as np
 
-from scout_pin.thesis.state import BODIES, coordinate_index, vee
+from scout_pin.thesis.state import BODIES, coordinate_index
 from scout_pin.thesis.symbols.motion import component
 from scout_pin.thesis.symbols.vectors import Vectors
 from thesis_pin.equations import lagrangian
+from thesis_pin.equations.dual import vee
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.lagrangian import GRAVITY
 from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
@@ -44,9 +45,9 @@ class Dynamics(Vectors):
         if symbol.sub not in ends:
             return None
         first, last = ends[symbol.sub]
-        placement = self.state.frame(last).placement
+        placement = self.state.frame(last).value
         if first != "0":
-            placement = np.linalg.inv(self.state.frame(first).placement) @ placement
+            placement = np.linalg.inv(self.state.frame(first).value) @ placement
         return matrix(placement)
 
     def _of_J(self, symbol: Symbol, i: str) -> Value | None:

@@ -6,8 +6,8 @@ import re
 
 import numpy as np
 
-from scout_pin.thesis.state import Frame, vee
 from scout_pin.thesis.symbols.coordinates import Coordinates
+from thesis_pin.equations.dual import Dual, vee
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
 
@@ -20,12 +20,10 @@ _EULER_AXES = {"itheta": 0, "jphi": 1, "kpsi": 2}
 class Geometry(Coordinates):
     """Rotations, transforms, unit vectors, angles."""
 
-    def _rate(self, frame: Frame) -> np.ndarray:
+    def _rate(self, frame: Dual) -> np.ndarray:
         """Ṙ Rᵀ of a frame."""
-        rate = sum(
-            d[..., :3, :3] * self.state.v[..., k, None, None] for k, d in frame.derivatives.items()
-        )
-        return rate @ np.swapaxes(frame.rotation, -1, -2)
+        total = sum(frame.along(k) * self.state.v[..., k, None, None] for k in range(18))
+        return np.asarray(total)[..., :3, :3] @ np.swapaxes(frame.rotation, -1, -2)
 
     def _body(self, sub: str) -> str | None:
         """Link whose frame the thesis numbers so: "B", "31" (link 2, left), "1" (sole)."""

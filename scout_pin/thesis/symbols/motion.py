@@ -6,8 +6,9 @@ import re
 
 import numpy as np
 
-from scout_pin.thesis.state import BODIES, vee
+from scout_pin.thesis.state import BODIES
 from scout_pin.thesis.symbols.geometry import Geometry
+from thesis_pin.equations.dual import vee
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.equations.values import STEP, ZERO, Value, scalar, vector
 

@@ -53,7 +53,7 @@ def test_circles_are_as_exact_for_fast_states(opened):
 
 def test_references_on_the_closed_mechanism_give_the_models_accelerations(robot, rng):
     poses, rate, acceleration, _, _, expected = closed_motion(robot, rng, 20)
-    state = ExplicitModel(robot.specification).mechanics(poses, rate, acceleration).state
+    state = ExplicitModel(robot.specification).references(poses, rate, acceleration).state
     found = accelerating(state).accelerations
     actual = np.stack([found[name] for name in ANGLES], axis=-1)
     np.testing.assert_allclose(actual, expected, atol=1e-9 * np.abs(expected).max())

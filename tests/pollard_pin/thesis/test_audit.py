@@ -300,7 +300,7 @@ def test_references_on_the_closed_mechanism_give_the_models_rates(robot, rng):
     found = robot.inverse_kinematics(poses)
     poses, q = poses[found.valid], found.angles[found.valid]
     still = np.zeros(poses.shape)
-    mechanics = ExplicitModel(robot.specification).mechanics(poses, still, still)
+    mechanics = ExplicitModel(robot.specification).references(poses, still, still)
     rates = joint_rates(mechanics.state)
     expected = robot.rate_jacobian(q)
     scale = np.abs(expected).max(axis=(1, 2), keepdims=True)

@@ -9,7 +9,7 @@ from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import states
 from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.symbols.loops import frame
-from pollard_pin.thesis.symbols.rates import RATE_EQUATIONS
+from pollard_pin.thesis.symbols.rates import RATES
 from thesis_pin.audit.kinds import of_equation
 from thesis_pin.audit.places import places
 from thesis_pin.audit.verdicts import residual
@@ -144,7 +144,7 @@ def test_only_theta_21_and_theta_21i_are_confused_and_V_59_has_them_right():
                     r"\theta_{21}",
                     r"\theta_{21i}",
                 }
-    (row,) = (row for row in RATE_EQUATIONS if row.first == 59)
+    (row,) = (row for row in RATES if row.first == 59)
     for i in "12":
         below, _ = row.relation(OPEN.state, i)
         np.testing.assert_allclose(below, frame(OPEN.state, f"T_LD{i}")[..., 2, 0] ** 2, atol=1e-12)
@@ -178,7 +178,7 @@ def test_with_every_V_one_higher_and_one_sign_the_print_of_260_is_right():
 
 def test_E_9_lacks_just_the_coefficient_of_z_that_258_lacks():
     printed = value(catalogue()["pollard:2.5.3:E_9"].printed[0], Renumbered(CLOSED.state))
-    (row,) = (row for row in RATE_EQUATIONS if row.first == 15)
+    (row,) = (row for row in RATES if row.first == 15)
     _, numerator = row.relation(CLOSED.state, "")
     missing = value("E_9", CLOSED) - printed
     np.testing.assert_allclose(missing, numerator({"z": 1.0}), rtol=1e-8, atol=1e-9)

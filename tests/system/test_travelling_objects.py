@@ -1,0 +1,174 @@
+"""Robots, solutions, motions, reports and errors travel: pickle, deepcopy, other processes."""
+
+import copy
+import multiprocessing
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+import pollard_pin
+import scout_pin
+import thesis_pin
+from scout_pin.report.verdict import sentences
+from scout_pin.report.view import gait_scene
+from thesis_pin import errors
+from thesis_pin.loops.closures import load
+
+ROOT = Path(__file__).parents[2]
+LOOPED = ROOT / "tests" / "thesis_pin" / "loops" / "data"
+
+
+def looped(root=None):
+    return load(LOOPED / "four_bar.urdf", LOOPED / "four_bar.yaml", root)
+
+
+def gait_report():
+    return scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait(), samples=21)
+
+
+def trajectory_report():
+    return pollard_pin.trajectory_report(pollard_pin.load(), pollard_pin.appendix_b(), samples=21)
+
+
+def torque_block(package):
+    robot, name = package.load(), "scout" if package is scout_pin else "pollard"
+    if name == "scout":
+        gait = scout_pin.load_gait()
+        return next(iter(scout_pin.torque_blocks(robot, gait, gait.sample_times(21))))
+    path = pollard_pin.appendix_b()
+    return next(iter(pollard_pin.torque_blocks(robot, path, np.linspace(0, path.duration, 21))))
+
+
+MAKERS = {
+    "Scout": scout_pin.load,
+    "Scout in the thesis's coordinates": lambda: scout_pin.load(root="thesis", inertia="printed"),
+    "Pollard": pollard_pin.load,
+    "ClosedRobot": looped,
+    "ClosedRobot, free-flying": lambda: looped(pin.JointModelFreeFlyer()),
+    "Specification of Scout": lambda: scout_pin.load().specification,
+    "Specification of Pollard": lambda: pollard_pin.load().specification,
+    "Gait": scout_pin.load_gait,
+    "GaitMotion": lambda: scout_pin.load_gait().sample(np.linspace(0, 40, 9)),
+    "LegSolutions": lambda: scout_pin.load().leg_inverse_kinematics("left", STANDING),
+    "Contact": lambda: scout_pin.load().contacts[0],
+    "GaitReport": gait_report,
+    "ToolPath": pollard_pin.appendix_b,
+    "ToolPath of segments": lambda: pollard_pin.load_path(ROOT / "examples" / "spray_arch.toml"),
+    "ToolMotion": lambda: pollard_pin.appendix_b().sample(9),
+    "Solutions": lambda: pollard_pin.load().inverse_kinematics(POSE, "useful"),
+    "Assemblies": lambda: pollard_pin.load().forward_kinematics(np.full(6, 0.1)),
+    "Branch": lambda: pollard_pin.DEFAULT_BRANCH,
+    "TrajectoryReport": trajectory_report,
+    "TorqueBlock of Scout": lambda: torque_block(scout_pin),
+    "TorqueBlock of Pollard": lambda: torque_block(pollard_pin),
+    "ClosureFile": lambda: looped().closures,
+    "Loop": lambda: looped().loops[0],
+    "ForwardDynamics": lambda: thesis_pin.ForwardDynamics(looped()),
+    "Scene": lambda: gait_scene(gait_report()),
+    "LoopDynamics": lambda: thesis_pin.inverse_dynamics(
+        looped(), looped().q0, ZERO, ZERO, check=False
+    ),
+}
+STANDING = scout_pin.load().neutral_feet()["left"]
+POSE = np.array([0.45, 0.05, 0.1, 0.2, -0.1, 0.3])
+ZERO = np.zeros(4)
+
+
+def same(one, other, seen=None):
+    """Whether two objects hold the same numbers and texts, however deep."""
+    if isinstance(one, np.ndarray):
+        return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one)
+    if isinstance(one, list | tuple):
+        return len(one) == len(other) and all(map(same, one, other))
+    if hasattr(one, "__dataclass_fields__"):
+        names = one.__dataclass_fields__
+        return all(same(getattr(one, name), getattr(other, name)) for name in names)
+    if isinstance(one, thesis_pin.ClosedRobot | scout_pin.Scout):
+        return one.model == other.model and one.urdf == other.urdf
+    if type(one).__eq__ is object.__eq__:  # no notion of equality: by its class
+        return type(one) is type(other)
+    return one == other
+
+
+def travelled(way, thing):
+    return pickle.loads(pickle.dumps(thing)) if way == "pickle" else copy.deepcopy(thing)
+
+
+@pytest.mark.parametrize("way", ["pickle", "deepcopy"])
+@pytest.mark.parametrize("name", MAKERS)
+def test_an_object_arrives_with_the_numbers_it_left_with(way, name):
+    thing = MAKERS[name]()
+    found = travelled(way, thing)
+    assert type(found) is type(thing)
+    assert same(thing, found)
+
+
+@pytest.mark.parametrize("used", [False, True])
+@pytest.mark.parametrize("way", ["pickle", "deepcopy"])
+@pytest.mark.parametrize("name", ["Scout", "Pollard", "ClosedRobot", "ClosedRobot, free-flying"])
+def test_a_robot_that_has_travelled_computes_the_same_bits(name, way, used):
+    """Also once pools, geometry and contacts have been made."""
+    robot = MAKERS[name]()
+    if used and name in ("Scout", "Pollard"):
+        assert robot.pool is not None
+        assert robot.visual_model.ngeoms > 0
+    found = travelled(way, robot)
+    q = pin.randomConfiguration(robot.model, -np.ones(robot.model.nq), np.ones(robot.model.nq))
+    v, a = np.full(robot.model.nv, 0.3), np.full(robot.model.nv, -0.2)
+    one, other = (pin.rnea(r.model, r.data, q, v, a) for r in (robot, found))
+    np.testing.assert_array_equal(one, other)
+    if used and name in ("Scout", "Pollard"):
+        assert found.visual_model.ngeoms == robot.visual_model.ngeoms
+
+
+def test_a_report_that_has_travelled_says_the_same():
+    report = gait_report()
+    found = travelled("pickle", report)
+    assert sentences(found) == sentences(report)
+    other = trajectory_report()
+    assert other.verdict() == travelled("pickle", other).verdict()
+
+
+def test_robots_work_in_a_spawned_process():
+    scout, pollard = scout_pin.load(), pollard_pin.load()
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        feet = pool.apply(scout.neutral_feet)
+        found = pool.apply(pollard.inverse_kinematics, (POSE,))
+        motion = pool.apply(pollard_pin.appendix_b().sample, (9,))
+        with pytest.raises(errors.Unreachable, match="outside the joint limits"):
+            pool.apply(scout.inverse_kinematics, (np.eye(4), np.eye(4), np.eye(4)))
+    np.testing.assert_array_equal(feet["left"], STANDING)
+    np.testing.assert_array_equal(found.angles, pollard.inverse_kinematics(POSE).angles)
+    np.testing.assert_array_equal(motion.pose, pollard_pin.appendix_b().sample(9).pose)
+
+
+ERRORS = [
+    errors.BadInput("it is wrong", where="file, line 3", allowed="right", remedy="Mend it"),
+    errors.WrongShape("q", (3,), "(4,)"),
+    errors.NotFinite("q", (2,)),
+    errors.UnknownName("joint", "kne", ["knee", "hip"]),
+    errors.SingularPose("it is singular", where="sample 3"),
+    errors.Unreachable("too far", where="left foot"),
+]
+
+
+@pytest.mark.parametrize("error", ERRORS, ids=lambda error: type(error).__name__)
+def test_an_error_arrives_with_its_words(error):
+    found = travelled("pickle", error)
+    assert type(found) is type(error)
+    assert str(found) == str(error)
+    assert vars(found) == vars(error)
+
+
+def test_every_public_class_is_tried():
+    known = {name.split(",")[0].split(" ")[0] for name in MAKERS}
+    for package in (thesis_pin, scout_pin, pollard_pin):
+        for name in dir(package):
+            thing = getattr(package, name)
+            if isinstance(thing, type) and not issubclass(thing, Exception):
+                assert name in known, name
