@@ -34,8 +34,10 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from pollard_pin.motion.path import Timing, ToolPath, arc, joined, line, through
+from pollard_pin.motion.curves import arc, joined, line, through
+from pollard_pin.motion.path import Timing, ToolPath
 from thesis_pin.errors import BadInput, TrajectoryError
+from thesis_pin.files import name_as_text
 from thesis_pin.model.samples import check_increasing, check_width, finite, numbers, read_rows
 from thesis_pin.model.specification import Key, Positive, Strict, Vector3, read_toml
 
@@ -175,7 +177,7 @@ def read_csv(file: str | Path, method: str = "free") -> ToolPath:
     table *= factors
     # 179° and −179° are neighbours: an angle that wraps around doesn't turn back.
     table[:, 4:] = np.unwrap(table[:, 4:], axis=0)
-    return through(table[:, 0], table[:, 1:], method, name=Path(file).name)
+    return through(table[:, 0], table[:, 1:], method, name=name_as_text(Path(file).name))
 
 
 def _bare_columns(header: Sequence[str], where: str) -> tuple[list[int], np.ndarray]:

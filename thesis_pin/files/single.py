@@ -111,6 +111,11 @@ def is_standard_output(target: object) -> bool:
         return False
 
 
+def name_as_text(path: str | Path) -> str:
+    """A path as text that every document can hold: bytes that are none are ``\\xff``."""
+    return os.fsencode(path).decode("utf-8", "backslashreplace")
+
+
 @contextlib.contextmanager
 def cannot_write(target: str | Path) -> Iterator[None]:
     """Turn the system's refusals into :class:`CannotWrite` about a target."""

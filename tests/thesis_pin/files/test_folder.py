@@ -1,5 +1,6 @@
 """Folders change in one step or say that they are a mixture; what isn't ours stays."""
 
+import fcntl
 import os
 import random
 import stat
@@ -92,15 +93,15 @@ def test_what_others_put_into_a_folder_stays_as_it_is(tmp_path, way):
 def test_somebody_elses_manifest_makes_no_file_ours(tmp_path):
     folder = tmp_path / "downloads"
     folder.mkdir()
-    (folder / "film").write_bytes(b"mine")
+    for name in ("film", "song"):
+        (folder / name).write_bytes(b"mine")
     total = subprocess.run(
-        ["sha256sum", "film"], cwd=folder, capture_output=True, text=True, check=True
+        ["sha256sum", "film", "song"], cwd=folder, capture_output=True, text=True, check=True
     ).stdout
     for name in ("SHA256SUMS", MANIFEST):
         (folder / name).write_text(total)
     write_folder(folder, NEW)
-    assert (folder / "film").read_bytes() == b"mine"
-    assert (folder / "SHA256SUMS").read_text() == total
+    assert tree(folder) == NEW | {"film": b"mine", "song": b"mine", "SHA256SUMS": total.encode()}
 
 
 @pytest.mark.parametrize("reason", ["folders of others", "links of ours", "links to a folder"])
@@ -274,6 +275,22 @@ def test_a_killed_run_keeps_nobody_out_also_while_its_workers_live(tmp_path):
         assert os.listdir(tmp_path) == ["out"]
 
 
+def test_a_lock_that_its_last_owner_removes_is_taken_anew(tmp_path, monkeypatch):
+    lock, lockf = tmp_path / ".out.partial" / "lock", fcntl.lockf
+
+    def late(*arguments: int) -> None:
+        if not calls:
+            lock.unlink()  # between our opening and our locking it
+        calls.append(1)
+        lockf(*arguments)
+
+    calls: list[int] = []
+    monkeypatch.setattr("thesis_pin.files.folder.fcntl.lockf", late)
+    with Claim(tmp_path / "out"):
+        assert lock.exists()
+        assert len(calls) == 2
+
+
 def lay(folder: Path, files: dict[str, bytes]) -> None:
     """Whatever stands in a folder, it is what a first run and a user's note leave."""
     write_folder(folder, files)
@@ -301,15 +318,22 @@ def test_an_exchanged_folder_is_old_or_new_whatever_line_a_run_is_killed_at(tmp_
     assert os.listdir(tmp_path) == ["out"]
 
 
-def test_what_a_killed_run_leaves_of_single_files_is_known_to_be_a_mixture(tmp_path, one_by_one):
+@pytest.mark.parametrize("before", ["one of our runs", "files of the same names"])
+def test_what_a_killed_run_leaves_of_single_files_is_known_to_be_a_mixture(
+    tmp_path, one_by_one, before
+):
     folder, note = tmp_path / "out", {"notes": b"mine"}
     mixtures = 0
     for line in range(0, 5000, 3):
         lay(folder, OLD)
+        if before != "one of our runs":
+            (folder / MANIFEST).unlink()
+            (folder / "stale.txt").unlink()
+        old = tree(folder)
         done = not killed_at_line(lambda: write_folder(folder, NEW), line)
         found, unlike = tree(folder), unlike_manifest(folder)
         assert found["notes"] == b"mine"
-        assert found in (OLD | note, NEW | note) or unlike
+        assert found in (old, NEW | note) or unlike
         assert set(os.listdir(tmp_path)) <= {"out", ".out.partial"}
         assert set(os.listdir(folder)) <= {"sub", MANIFEST, "notes", *OLD, *NEW}
         mixtures += bool(unlike)
@@ -319,7 +343,7 @@ def test_what_a_killed_run_leaves_of_single_files_is_known_to_be_a_mixture(tmp_p
         else:
             break
     assert done
-    assert mixtures > 5
+    assert mixtures  # it can happen, and was seen
     assert tree(folder) == NEW | note
 
 
