@@ -24,6 +24,8 @@ def zero_moment_point(
     com: np.ndarray,
     momentum_rate: np.ndarray,
     ground_height: float = 0.0,
+    *,
+    first: int = 0,
 ) -> np.ndarray:
     """Zero-moment point on a horizontal floor.
 
@@ -33,6 +35,7 @@ def zero_moment_point(
         momentum_rate: Time derivative of linear then angular momentum about
             the world origin [N], [N·m], shape ``(..., 6)``.
         ground_height: Height of the floor [m].
+        first: Number of the first sample, for messages.
 
     Returns:
         Point on the floor [m], shape ``(..., 2)``.
@@ -52,7 +55,7 @@ def zero_moment_point(
         k = int(np.argmax(np.atleast_1d(normal <= 0)))
         raise NoSupportForce(
             f"the floor would have to pull with {-float(np.atleast_1d(normal)[k]):.3g} N",
-            where=f"sample {k}",
+            where=f"sample {first + k}",
             remedy="The motion falls faster than gravity: slow it down (a larger time unit)",
         )
     x = (weight * com[..., 0] + ground_height * rate[..., 0] - rate[..., 4]) / normal
