@@ -198,8 +198,8 @@ class Gait:
                 found[order, k] = curve(t, order) / unit**order
         rotation, omega, alpha = euler_placement("xyz", values[3:].T, rates[3:].T, second[3:].T)
         # Copied: views would keep the angles alive as well.
-        position, velocity, acceleration = (part[:3].copy().T for part in found)
-        return BodyMotion(rotation, position, velocity, acceleration, omega, alpha)
+        place, velocity, acceleration = (part[:3].copy().T for part in found)
+        return BodyMotion(rotation, place, velocity, acceleration, omega, alpha)
 
     def sample(self, t: np.ndarray, time_unit: float | None = None) -> GaitMotion:
         """Sample the gait and check that it can be meant.

@@ -14,9 +14,7 @@ from thesis_pin.errors import BadInput, NoSupportForce
 from thesis_pin.model.loading import LoadedRobot
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import real
-
-GRAVITY = 9.81
-"""Pinocchio's default, [m/s²]."""
+from thesis_pin.tolerances import GRAVITY
 
 
 def zero_moment_point(

@@ -13,8 +13,8 @@ from scout_pin.thesis.symbols.vectors import Vectors
 from thesis_pin.equations import lagrangian
 from thesis_pin.equations.dual import vee
 from thesis_pin.equations.formula import Node, Symbol
-from thesis_pin.equations.lagrangian import GRAVITY
 from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
+from thesis_pin.tolerances import GRAVITY
 
 
 class Dynamics(Vectors):
