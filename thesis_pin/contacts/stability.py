@@ -121,7 +121,9 @@ def signed_margin(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
     border = shapely.LinearRing(polygon)
     place = shapely.points(points)
     distance = shapely.distance(border, place)
-    return np.where(shapely.contains(shapely.Polygon(polygon), place), distance, -distance)
+    return np.asarray(
+        np.where(shapely.contains(shapely.Polygon(polygon), place), distance, -distance)
+    )
 
 
 def support_polygon(*soles: ArrayLike) -> np.ndarray:
@@ -140,4 +142,4 @@ def support_polygon(*soles: ArrayLike) -> np.ndarray:
     if not soles:
         raise BadInput("there is no sole", allowed="the corners of at least one")
     points = np.concatenate([corners("sole", sole)[:, :2] for sole in soles])
-    return points[ConvexHull(points).vertices]
+    return np.asarray(points[ConvexHull(points).vertices])
