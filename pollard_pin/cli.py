@@ -1,89 +1,43 @@
-"""The command ``pollard-pin``: its words. What they do is in :mod:`pollard_pin.verbs`."""
+"""The command ``pollard-pin``: its words. What only Pollard does is in :mod:`pollard_pin.verbs`."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
+from functools import partial
 
-from thesis_pin.command.audit import add_verb
-from thesis_pin.command.options import (
-    add_json,
-    add_report_options,
-    add_robot,
-    add_view_options,
-    later,
-)
-from thesis_pin.command.parser import Parser, count, number, run
-from thesis_pin.version import __version__
+from thesis_pin.command import common
+from thesis_pin.command.options import add_branch, add_json, add_robot
+from thesis_pin.command.parser import Parser
+from thesis_pin.command.registry import Command, Verb
+from thesis_pin.command.robot import Robot
+from thesis_pin.command.values import count, number
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Entry point; returns the exit code."""
-    return run(parser(), arguments)
-
-
-def parser() -> Parser:
-    """The command's parser with all its verbs."""
-    top = Parser(
-        prog="pollard-pin",
-        description="Pollard, a three-chain parallel spray robot: torque reports, animations, "
-        "kinematics, workspace, URDF.",
-        epilog="Example: pollard-pin trajectory --out report",
-    )
-    top.add_argument("--version", action="version", version=f"pollard-pin {__version__}")
-    verbs = top.add_subparsers(title="verbs", required=True, metavar="VERB")
-    _add_trajectory(verbs)
-    _add_view(verbs)
-    _add_ik(verbs)
-    _add_fk(verbs)
-    _add_workspace(verbs)
-    _add_info(verbs)
-    _add_urdf(verbs)
-    _add_check(verbs)
-    add_verb(verbs, "pollard-pin audit --equation 2.4.1:A_10", _run("audit"))
-    return top
-
-
-def _add_robot(verb: argparse.ArgumentParser) -> None:
-    add_robot(verb, "another three-chain robot")
-
-
-def _run(name: str) -> Callable[[argparse.Namespace], int]:
-    return later("pollard_pin.verbs", name)
-
-
-def _add_branch(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument(
-        "--branch",
-        metavar="SIGNS",
-        help="seven signs e0 f0 w e1 f1 e2 f2, written --branch=-++-+++ (the default)",
-    )
-
-
-def _add_path(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument(
+def _which_path(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="this one")
+    words.add_argument(
         "--path", metavar="FILE", help=".csv or .toml path (default: the curve of appendix B)"
     )
-    verb.add_argument(
+    words.add_argument(
         "--duration",
         type=number("--duration", positive=True),
         metavar="SECONDS",
         help="duration of appendix B's curve (default: the specification's)",
     )
-    verb.add_argument(
+    words.add_argument(
         "--timing",
         choices=("constant-rate", "rest-to-rest"),
         help="timing of appendix B's curve (default: the specification's)",
     )
-    verb.add_argument(
+    words.add_argument(
         "--placement",
         nargs=3,
         type=number("--placement"),
         metavar=("X", "Y", "Z"),
         help="what is added to appendix B's curve [m] (default: the specification's)",
     )
-    verb.add_argument(
+    words.add_argument(
         "--actuators",
         choices=("six", "three"),
         default="six",
@@ -91,93 +45,36 @@ def _add_path(verb: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_trajectory(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "trajectory",
-        help="what the motors, joints and ball joints have to do on a path",
-        description="Torques, power, work, loop reactions and singularity margins on a path.",
-        epilog="Example: pollard-pin trajectory --path examples/spray_arch.toml --out report",
-    )
-    _add_robot(verb)
-    _add_branch(verb)
-    _add_path(verb)
-    verb.add_argument(
-        "--samples", type=count("--samples", 2), default=2001, help="samples (default: 2001)"
-    )
-    add_report_options(verb, "a motor exceeds its limits")
-    verb.set_defaults(run=_run("trajectory"))
-
-
-def _add_view(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "view",
-        help="watch the robot on a path in the browser",
-        description="Show the robot on a path with torques, ball-joint forces and margins, "
-        "on 127.0.0.1.",
-        epilog="Example: pollard-pin view --path examples/spray_arch.toml --html spray.html",
-    )
-    _add_robot(verb)
-    _add_branch(verb)
-    _add_path(verb)
-    add_view_options(verb)
-    verb.set_defaults(run=_run("view"))
-
-
-def _add_ik(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "ik",
-        help="joint angles for a pose of the tool, every useful branch",
-        description="The twelve joint angles that bring the spray tip to a pose.",
-        epilog="Example: pollard-pin ik 0.45 0 0.05 0 10 0",
-    )
-    _add_robot(verb)
-    _add_branch(verb)
-    verb.add_argument(
+def _which_pose(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="all 16 with f0 f1 f2 at +")
+    words.add_argument(
         "pose",
         nargs=6,
         type=number("the pose"),
         metavar="VALUE",
         help="x y z of the spray tip [m], then ψ θ φ of the tool [°]",
     )
-    verb.add_argument(
+    words.add_argument(
         "--allow-singular",
         action="store_true",
         help="answer at singular poses too, with angles that are free set to zero",
     )
-    add_json(verb, "the solutions")
-    verb.set_defaults(run=_run("ik"))
 
 
-def _add_fk(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "fk",
-        help="every assembly mode of six motor angles",
-        description="Poses of the spray tip for angles of the six motors, every assembly mode.",
-        epilog="Example: pollard-pin fk -35 -40 40 0 20 0",
-    )
-    _add_robot(verb)
-    verb.add_argument(
+def _which_motors(words: argparse.ArgumentParser) -> None:
+    words.add_argument(
         "motors",
         nargs=6,
         type=number("a motor angle"),
         metavar="ANGLE",
         help="θ21 θ211 θ212 θ1615 θ1716 θ1817 [°]",
     )
-    add_json(verb, "the modes")
-    verb.set_defaults(run=_run("fk"))
 
 
-def _add_workspace(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "workspace",
-        help="reach and conditioning over a slice or a volume",
-        description="Reach, condition number and sign of the actuation over a grid.",
-        epilog="Example: pollard-pin workspace --x 0.1 0.8 --y 0 --z -0.5 0.5 --out slice",
-    )
-    _add_robot(verb)
-    _add_branch(verb)
+def _which_grid(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="this one")
     for axis, default in (("x", [0.1, 0.8]), ("y", [0.0]), ("z", [-0.5, 0.5])):
-        verb.add_argument(
+        words.add_argument(
             f"--{axis}",
             nargs="+",
             type=number(f"--{axis}"),
@@ -185,7 +82,7 @@ def _add_workspace(verbs: Any) -> None:
             metavar="METRES",
             help=f"one value, or from and to (default: {' '.join(map(str, default))})",
         )
-    verb.add_argument(
+    words.add_argument(
         "--orientation",
         nargs=3,
         type=number("--orientation"),
@@ -193,48 +90,98 @@ def _add_workspace(verbs: Any) -> None:
         metavar=("PSI", "THETA", "PHI"),
         help="ψ, θ, φ of the tool [°] (default: 0 0 0)",
     )
-    verb.add_argument(
-        "--points", type=count("--points", 2), default=101, help="points an axis (default: 101)"
+    words.add_argument(
+        "--points",
+        type=count("--points", 2),
+        default=101,
+        metavar="N",
+        help="points an axis (default: 101)",
     )
-    verb.add_argument("--jobs", type=count("--jobs", 1), default=2, help="threads (default: 2)")
-    verb.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
-    add_json(verb, "the reachable positions")
-    verb.set_defaults(run=_run("workspace"))
-
-
-def _add_info(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "info",
-        help="what a specification describes",
-        description="Joints, bodies, degrees of freedom and assumptions of a robot.",
-        epilog="Example: pollard-pin info --inertia printed",
+    words.add_argument(
+        "--jobs", type=count("--jobs", 1), default=2, metavar="N", help="threads (default: 2)"
     )
-    _add_robot(verb)
-    add_json(verb, "it")
-    verb.set_defaults(run=_run("info"))
+    words.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
 
 
-def _add_urdf(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "urdf",
-        help="URDF, closure file and MJCF of a specification",
-        description="The cut-open URDF, its closure file and the MJCF of the closed robot.",
-        epilog="Example: pollard-pin urdf --out model",
-    )
-    _add_robot(verb)
-    verb.add_argument("--out", metavar="DIR", help="write all files (default: print the URDF)")
-    verb.set_defaults(run=_run("urdf"))
+_branch = partial(
+    add_branch,
+    signs="seven signs e0 f0 w e1 f1 e2 f2, written --branch=-++-+++",
+)
+_robot = partial(add_robot, another="another three-chain robot")
+
+ROBOT = Robot(
+    package="pollard_pin",
+    another="another three-chain robot",
+    motion=_which_path,
+    report="report.document:trajectory_report",
+    page="report.page:trajectory_page",
+    scene="report.view:path_scene",
+    inverse_kinematics="model:Pollard.inverse_kinematics",
+)
+
+COMMAND = Command(
+    "pollard-pin",
+    "Pollard, a three-chain parallel spray robot: torque reports, animations, kinematics, "
+    "workspace, URDF.",
+    (
+        common.report_verb(
+            ROBOT,
+            "trajectory",
+            "what the motors, joints and ball joints have to do on a path",
+            "Torques, power, work, loop reactions and singularity margins on a path.",
+            "trajectory --path examples/spray_arch.toml --out report",
+            samples=2001,
+            breaks="a motor exceeds its limits",
+        ),
+        common.view_verb(
+            ROBOT,
+            "watch the robot on a path in the browser",
+            "Show the robot on a path with torques, ball-joint forces and margins, on 127.0.0.1.",
+            "view --path examples/spray_arch.toml --html spray.html",
+        ),
+        common.ik_verb(
+            ROBOT,
+            "joint angles for a pose of the tool, every useful branch",
+            "The twelve joint angles that bring the spray tip to a pose.",
+            "ik 0.45 0 0.05 0 10 0",
+            (_which_pose,),
+        ),
+        Verb(
+            "fk",
+            "every assembly mode of six motor angles",
+            "Poses of the spray tip for angles of the six motors, every assembly mode.",
+            "fk -35 -40 40 0 20 0",
+            "pollard_pin.model:Pollard.forward_kinematics",
+            "pollard_pin.verbs:fk",
+            (_robot, _which_motors, partial(add_json, what="the modes")),
+        ),
+        Verb(
+            "workspace",
+            "reach and conditioning over a slice or a volume",
+            "Reach, condition number and sign of the actuation over a grid.",
+            "workspace --x 0.1 0.8 --y 0 --z -0.5 0.5 --out slice",
+            "pollard_pin.study.workspace:evaluate_workspace",
+            "pollard_pin.verbs:workspace",
+            (_robot, _which_grid, partial(add_json, what="the reachable positions")),
+        ),
+        common.info_verb(ROBOT, "info --inertia printed"),
+        common.urdf_verb(
+            ROBOT,
+            "URDF, closure file and MJCF of a specification",
+            "Print the cut-open URDF, or write it in both readings with its closure file and the "
+            "MJCF of the closed robot.",
+        ),
+        common.audit_verb(ROBOT, "audit --equation 2.4.1:A_10"),
+    ),
+    moved={"check": "thesis-pin check URDF CLOSURES"},
+)
 
 
-def _add_check(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "check",
-        help="is any robot's URDF and closure file sound?",
-        description="Check a URDF and the closure file beside it: names, tree, loops, motors, "
-        "degrees of freedom. Any looped robot, not only this one.",
-        epilog="Example: pollard-pin check five_bar.urdf five_bar.yaml",
-    )
-    verb.add_argument("urdf", help="URDF of the cut-open tree")
-    verb.add_argument("closures", help="YAML with closed_loop, type and name_mot")
-    add_json(verb, "the findings")
-    verb.set_defaults(run=_run("check"))
+def parser() -> Parser:
+    """The command's parser with all its verbs."""
+    return COMMAND.parser()
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point; returns the exit code."""
+    return COMMAND.main(arguments)

@@ -1,33 +1,33 @@
-"""What each verb of ``pollard-pin`` does. Each imports what it needs when it runs."""
+"""What the verbs of ``pollard-pin`` do that only Pollard does; imported when a verb runs."""
 
 from __future__ import annotations
 
 import argparse
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
 
-from thesis_pin.command import verbs
+import numpy as np
+
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, USEFUL_BRANCHES, Branch
+from pollard_pin.model import Pollard, load
+from pollard_pin.motion.path import ToolPath
+from pollard_pin.specification import Specification
+from thesis_pin.command.exits import ExitCode
+from thesis_pin.command.messages import say
 from thesis_pin.command.output import print_table, print_text
-from thesis_pin.command.parser import LIMIT_VIOLATED, OK, run_view
-from thesis_pin.command.progress import LONG, Bar
-from thesis_pin.command.verbs import show, write_report
+from thesis_pin.command.progress import Bar
+from thesis_pin.command.targets import free
+from thesis_pin.command.verbs import Answer, give
+from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.files import write_file, write_folder
-
-if TYPE_CHECKING:
-    from pollard_pin.kinematics.geometry import Branch
-    from pollard_pin.motion.path import ToolPath
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:
-    from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
-
     return DEFAULT_BRANCH if arguments.branch is None else Branch.parse(arguments.branch)
 
 
-def _path(arguments: argparse.Namespace, specification: Any) -> ToolPath:
+def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPath:
     from pollard_pin.motion.files import load_path
     from pollard_pin.motion.path import appendix_b
-    from thesis_pin.errors import BadInput
 
     if arguments.path is None:
         return appendix_b(
@@ -45,104 +45,72 @@ def _path(arguments: argparse.Namespace, specification: Any) -> ToolPath:
     return load_path(arguments.path)
 
 
-def trajectory(arguments: argparse.Namespace) -> int:
-    """Work out a path and write or print its report."""
-    from pollard_pin.model import load
+def report(
+    arguments: argparse.Namespace,
+    robot: Pollard,
+    samples: Callable[[float], int],
+    progress: Callable[[int, int], None],
+) -> object:
+    """The report on the path that the arguments ask for."""
     from pollard_pin.report.document import trajectory_report
 
-    robot = load(arguments.specification, inertia=arguments.inertia)
-    path, branch = _path(arguments, robot.specification), _branch(arguments)
-    with Bar("working out the path", wanted=arguments.samples >= LONG) as bar:
-        report = trajectory_report(
-            robot,
-            path,
-            samples=arguments.samples,
-            branch=branch,
-            motors=arguments.actuators,
-            progress=bar,
-        )
-    if write_report(
-        arguments,
-        report,
-        figures=lambda: import_module("pollard_pin.report.figures").figures(report),
-        page=lambda: import_module("pollard_pin.report.page").trajectory_page(report),
-    ):
-        from pollard_pin.report.tables import print_report
-
-        print_report(report)
-    return OK if report.motor_use.within or not arguments.strict else LIMIT_VIOLATED
-
-
-def view(arguments: argparse.Namespace) -> int:
-    """Show a path in the browser, or write it as a page."""
-    from pollard_pin.model import load
-    from pollard_pin.report.document import trajectory_report
-    from pollard_pin.report.view import path_scene
-    from thesis_pin.pages.scene import frames
-
-    robot = load(arguments.specification, inertia=arguments.inertia)
     path = _path(arguments, robot.specification)
-    report = trajectory_report(
+    return trajectory_report(
         robot,
         path,
-        samples=frames(path.duration),
+        samples=samples(path.duration),
         branch=_branch(arguments),
         motors=arguments.actuators,
+        progress=progress,
     )
-    run_view(path_scene(report), arguments)
-    return OK
 
 
-def ik(arguments: argparse.Namespace) -> int:
-    """Print or write the branches of one tool pose."""
-    import numpy as np
-
-    from pollard_pin.kinematics.geometry import USEFUL_BRANCHES
-    from pollard_pin.model import load
+def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:
+    """The branches of the tool pose that the arguments ask for."""
     from pollard_pin.report.tables import ik_document, print_solutions
 
-    robot = load(arguments.specification, inertia=arguments.inertia)
     pose = np.array(arguments.pose)
     pose[3:] = np.radians(pose[3:])
     labels = USEFUL_BRANCHES if arguments.branch is None else (_branch(arguments),)
     solutions = robot.inverse_kinematics(pose, labels)
-    solutions.require_one(allow_singular=arguments.allow_singular)
-    return show(
-        arguments, lambda: ik_document(robot, solutions), lambda: print_solutions(solutions)
-    )
+    try:
+        solutions.require_one(allow_singular=arguments.allow_singular)
+    except Unreachable as error:
+        no = str(error)
+        return Answer(
+            lambda: ik_document(robot, solutions) | {"explanation": no},
+            lambda: print_text(no),
+            yes=False,
+        )
+    return Answer(lambda: ik_document(robot, solutions), lambda: print_solutions(solutions))
 
 
-def fk(arguments: argparse.Namespace) -> int:
+def fk(arguments: argparse.Namespace) -> ExitCode:
     """Print or write the assembly modes of six motor angles."""
-    import numpy as np
-
-    from pollard_pin.model import load
     from pollard_pin.report.tables import fk_document, print_modes
 
-    robot = load(arguments.specification, inertia=arguments.inertia)
-    modes = robot.forward_kinematics(np.radians(arguments.motors))
-    modes.require()
-    return show(arguments, lambda: fk_document(robot, modes), lambda: print_modes(robot, modes))
+    def answer() -> Answer:
+        robot = load(arguments.specification, inertia=arguments.inertia)
+        modes = robot.forward_kinematics(np.radians(arguments.motors))
+        try:
+            modes.require()
+        except Unreachable as error:
+            no = str(error)
+            document = fk_document(robot, modes) | {"explanation": no}
+            return Answer(lambda: document, lambda: print_text(no), yes=False)
+        return Answer(lambda: fk_document(robot, modes), lambda: print_modes(robot, modes))
+
+    return give(arguments, answer)
 
 
-def workspace(arguments: argparse.Namespace) -> int:
+def workspace(arguments: argparse.Namespace) -> ExitCode:
     """Map reach and conditioning over a slice or a volume."""
-    import numpy as np
-
-    from pollard_pin.model import load
     from pollard_pin.study.workspace import evaluate_workspace
-    from thesis_pin.errors import BadInput
+    from thesis_pin.report.writers import csv_bytes, json_bytes
 
-    axes: dict[str, Any] = {}
-    for name in "xyz":
-        ends = getattr(arguments, name)
-        if len(ends) > 2 or (len(ends) == 2 and not ends[0] < ends[1]):
-            raise BadInput(
-                f"--{name} is {' '.join(f'{end:g}' for end in ends)}",
-                allowed="one value, or from and to in ascending order",
-            )
-        axes[name] = np.linspace(ends[0], ends[-1], arguments.points if len(ends) == 2 else 1)
+    axes = {name: _axis(name, getattr(arguments, name), arguments.points) for name in "xyz"}
     robot = load(arguments.specification, inertia=arguments.inertia)
+    files: dict[str, bytes] = {}
     with Bar("mapping the workspace") as bar:
         space = evaluate_workspace(
             robot,
@@ -152,17 +120,18 @@ def workspace(arguments: argparse.Namespace) -> int:
             jobs=arguments.jobs,
             progress=bar,
         )
-    from thesis_pin.report.writers import csv_bytes, json_bytes
+        content = json_bytes(space.document()) if arguments.json or arguments.out else b""
+        if arguments.out:
+            from pollard_pin.study.figures import workspace_files
 
-    content = json_bytes(space.document()) if arguments.json or arguments.out else b""
+            files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
+            files |= workspace_files(space)
     if arguments.out:
-        from pollard_pin.study.figures import workspace_files
-
-        files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
-        write_folder(arguments.out, files | workspace_files(space))
+        write_folder(arguments.out, files)
+        say(f"wrote {arguments.out}")
     if arguments.json:
         write_file(arguments.json, content)
-    if arguments.json != "-":
+    if free(arguments):
         rows = [
             (name.replace("_", " "), "–" if value is None else f"{value:.6g}")
             for name, value in space.summary().items()
@@ -172,40 +141,14 @@ def workspace(arguments: argparse.Namespace) -> int:
             "Where the determinant changes sign the motors lose the tool; a path must stay on "
             "one side."
         )
-    return OK
+    return ExitCode.DONE
 
 
-def info(arguments: argparse.Namespace) -> int:
-    """Say what a specification describes."""
-    from pollard_pin.model import load
-    from pollard_pin.report.info import document, print_info
-
-    robot = load(arguments.specification, inertia=arguments.inertia)
-    return show(arguments, lambda: document(robot), lambda: print_info(robot))
-
-
-def urdf(arguments: argparse.Namespace) -> int:
-    """Print the URDF, or write every generated file."""
-    from pollard_pin import urdf as generator
-    from pollard_pin.specification import Specification
-
-    specification = Specification.read(arguments.specification)
-    text = generator.urdf(specification, arguments.inertia)
-    return verbs.urdf(arguments, specification.name, text, lambda: generator.files(specification))
-
-
-def check(arguments: argparse.Namespace) -> int:
-    """Say whether a URDF and its closure file are sound."""
-    from pollard_pin.report.tables import check_document, print_check
-    from thesis_pin.loops.closures import load
-
-    document = check_document(load(arguments.urdf, arguments.closures))
-    return show(arguments, lambda: document, lambda: print_check(document))
-
-
-def audit(arguments: argparse.Namespace) -> int:
-    """A verdict on each printed equation of the thesis."""
-    from pollard_pin.thesis.audit import THESIS
-    from thesis_pin.command.audit import run_verb
-
-    return run_verb(arguments, THESIS)
+def _axis(name: str, ends: list[float], points: int) -> np.ndarray:
+    """Grid values of one axis: one, or from and to."""
+    if len(ends) > 2 or (len(ends) == 2 and not ends[0] < ends[1]):
+        raise BadInput(
+            f"--{name} is {' '.join(f'{end:g}' for end in ends)}",
+            allowed="one value, or from and to in ascending order",
+        )
+    return np.linspace(ends[0], ends[-1], points if len(ends) == 2 else 1)

@@ -1,67 +1,39 @@
-"""The command ``scout-pin``: its words. What they do is in :mod:`scout_pin.verbs`."""
+"""The command ``scout-pin``: its words. What only Scout does is in :mod:`scout_pin.verbs`."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Sequence
+from functools import partial
 
-from thesis_pin.command.audit import add_verb
-from thesis_pin.command.options import (
-    add_json,
-    add_report_options,
-    add_robot,
-    add_view_options,
-    later,
+from thesis_pin.command import common
+from thesis_pin.command.options import add_branch
+from thesis_pin.command.parser import Parser
+from thesis_pin.command.registry import Command
+from thesis_pin.command.robot import Robot
+from thesis_pin.command.values import number
+
+_branch = partial(
+    add_branch,
+    signs="three signs S_E S_2 S_K for both legs, written --branch=+-+, or for left and right, "
+    "--branch=+++,-+-",
 )
-from thesis_pin.command.parser import Parser, count, number, run
-from thesis_pin.version import __version__
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Entry point; returns the exit code."""
-    return run(parser(), arguments)
-
-
-def parser() -> Parser:
-    """The command's parser with all its verbs."""
-    top = Parser(
-        prog="scout-pin",
-        description="Scout, an 18-DoF biped: torque reports, animations, inverse kinematics, URDF.",
-        epilog="Example: scout-pin gait --out report",
-    )
-    top.add_argument("--version", action="version", version=f"scout-pin {__version__}")
-    verbs = top.add_subparsers(title="verbs", required=True, metavar="VERB")
-    _add_gait(verbs)
-    _add_view(verbs)
-    _add_ik(verbs)
-    _add_info(verbs)
-    _add_urdf(verbs)
-    add_verb(verbs, "scout-pin audit --equation 4.3.3:dot_e_9i", _run("audit"))
-    return top
-
-
-def _add_robot(verb: argparse.ArgumentParser) -> None:
-    add_robot(verb, "another biped")
-
-
-def _run(name: str) -> Callable[[argparse.Namespace], int]:
-    return later("scout_pin.verbs", name)
-
-
-def _add_which_gait(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument(
+def _which_gait(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="the nearest to zero angles that is valid throughout")
+    words.add_argument(
         "--gait",
         metavar="NAME|FILE",
         default="thesis",
         help="thesis, thesis-program, a .toml gait or a .csv of samples (default: thesis)",
     )
-    verb.add_argument(
+    words.add_argument(
         "--interpolation",
         choices=("linear", "quadratic", "cubic", "free", "quintic"),
         help="method for the gait's nodes, instead of the gait's own",
     )
-    verb.add_argument(
+    words.add_argument(
         "--time-unit",
         type=number("--time-unit", positive=True),
         metavar="SECONDS",
@@ -69,48 +41,10 @@ def _add_which_gait(verb: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_gait(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "gait",
-        help="can this gait walk, and can the servos carry it?",
-        description="Torques, contact forces, stability and servo limits of a gait.",
-        epilog="Example: scout-pin gait --gait walk.toml --time-unit 0.05 --out report",
-    )
-    _add_robot(verb)
-    _add_which_gait(verb)
-    verb.add_argument(
-        "--samples",
-        type=count("--samples", 2),
-        default=401,
-        help="evenly spaced samples; a few more stand beside each change (default: 401)",
-    )
-    add_report_options(verb, "the gait breaks a limit")
-    verb.set_defaults(run=_run("gait"))
-
-
-def _add_view(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "view",
-        help="watch a gait in the browser",
-        description="Show the robot along a gait with forces, ZMP and support, on 127.0.0.1.",
-        epilog="Example: scout-pin view --gait walk.toml --html walk.html",
-    )
-    _add_robot(verb)
-    _add_which_gait(verb)
-    add_view_options(verb)
-    verb.set_defaults(run=_run("view"))
-
-
-def _add_ik(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "ik",
-        help="joint angles of one leg for a foot pose, every branch",
-        description="Every set of joint angles that brings a sole to a pose in the torso frame.",
-        epilog="Example: scout-pin ik left --position -0.0445 -0.02 -0.22 --rotation 5 0 10",
-    )
-    _add_robot(verb)
-    verb.add_argument("side", choices=("left", "right"))
-    verb.add_argument(
+def _which_pose(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="all")
+    words.add_argument("side", choices=("left", "right"))
+    words.add_argument(
         "--position",
         nargs=3,
         required=True,
@@ -118,7 +52,7 @@ def _add_ik(verbs: Any) -> None:
         metavar=("X", "Y", "Z"),
         help="origin of the sole in the torso frame [m]",
     )
-    verb.add_argument(
+    words.add_argument(
         "--rotation",
         nargs=3,
         default=(0.0, 0.0, 0.0),
@@ -126,29 +60,60 @@ def _add_ik(verbs: Any) -> None:
         metavar=("PITCH", "ROLL", "YAW"),
         help="Rx(pitch) Ry(roll) Rz(yaw) [°] (default: 0 0 0)",
     )
-    add_json(verb, "the branches")
-    verb.set_defaults(run=_run("ik"))
 
 
-def _add_info(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "info",
-        help="what a specification describes",
-        description="Joints, limits, masses, reach and assumptions of a biped.",
-        epilog="Example: scout-pin info --specification examples/lopsided.toml",
-    )
-    _add_robot(verb)
-    add_json(verb, "it")
-    verb.set_defaults(run=_run("info"))
+ROBOT = Robot(
+    package="scout_pin",
+    another="another biped",
+    motion=_which_gait,
+    report="report.document:gait_report",
+    page="report.page:gait_page",
+    scene="report.view:gait_scene",
+    inverse_kinematics="model:Scout.leg_inverse_kinematics",
+)
+
+COMMAND = Command(
+    "scout-pin",
+    "Scout, an 18-DoF biped: torque reports, animations, inverse kinematics, URDF.",
+    (
+        common.report_verb(
+            ROBOT,
+            "gait",
+            "can this gait walk, and can the servos carry it?",
+            "Torques, contact forces, stability and servo limits of a gait.",
+            "gait --gait examples/walk.toml --time-unit 0.05 --out report",
+            samples=401,
+            breaks="the gait breaks a limit",
+        ),
+        common.view_verb(
+            ROBOT,
+            "watch a gait in the browser",
+            "Show the robot along a gait with forces, ZMP and support, on 127.0.0.1.",
+            "view --gait examples/walk.toml --html walk.html",
+        ),
+        common.ik_verb(
+            ROBOT,
+            "joint angles of one leg for a foot pose, every branch",
+            "Every set of joint angles that brings a sole to a pose in the torso frame.",
+            "ik left --position -0.0445 -0.02 -0.22 --rotation 5 0 10",
+            (_which_pose,),
+        ),
+        common.info_verb(ROBOT, "info --specification examples/lopsided.toml"),
+        common.urdf_verb(
+            ROBOT,
+            "the URDF of a specification",
+            "Print the URDF, or write it in both readings with its meshes into a folder.",
+        ),
+        common.audit_verb(ROBOT, "audit --equation 4.3.3:dot_e_9i"),
+    ),
+)
 
 
-def _add_urdf(verbs: Any) -> None:
-    verb = verbs.add_parser(
-        "urdf",
-        help="the URDF of a specification",
-        description="Print the URDF, or write it with its meshes into a folder.",
-        epilog="Example: scout-pin urdf --out my_robot",
-    )
-    _add_robot(verb)
-    verb.add_argument("--out", metavar="DIR", help="write both readings and the sole meshes there")
-    verb.set_defaults(run=_run("urdf"))
+def parser() -> Parser:
+    """The command's parser with all its verbs."""
+    return COMMAND.parser()
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point; returns the exit code."""
+    return COMMAND.main(arguments)

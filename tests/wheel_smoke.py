@@ -40,7 +40,7 @@ assert "wrong" in output("pollard-pin", "audit", "--equation", "pollard:3.2.5:k_
 motors = json.loads(output("pollard-pin", "trajectory", "--json", "-"))["actuators"]
 assert len(motors) == 6
 assert output("pollard-pin", "urdf") == Path(pollard_pin.URDF_PATH).read_text()
-found = output("pollard-pin", "check", pollard_pin.URDF_PATH, pollard_pin.CLOSURE_PATH)
+found = output("thesis-pin", "check", pollard_pin.URDF_PATH, pollard_pin.CLOSURE_PATH)
 assert "6 by rank" in found
 for words in ("scout-pin view", "scout-pin gait", "pollard-pin view", "pollard-pin trajectory"):
     assert output(*words.split(), "--html", "-").startswith("<!doctype html>"), words

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import pinocchio as pin
 
 from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.kinematics.forward import Assemblies
@@ -15,9 +14,6 @@ from pollard_pin.model import Pollard
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.command.output import print_table, print_text
-from thesis_pin.errors import Unreachable
-from thesis_pin.loops import kinematics as loops
-from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.report import branches
 
 
@@ -137,6 +133,7 @@ def fk_document(robot: Pollard, modes: Assemblies) -> dict[str, Any]:
     return {
         "schema": "pollard-pin/forward-kinematics",
         "version": 1,
+        "robot": robot.specification.name,
         "actuators": list(ACTUATOR_NAMES),
         "joints": list(JOINT_NAMES),
         "modes": [
@@ -171,76 +168,3 @@ def print_modes(robot: Pollard, modes: Assemblies) -> None:
             if modes.outside[k].any()
         ),
     )
-
-
-def check_document(robot: ClosedRobot) -> dict[str, Any]:
-    """Loops, motors and degrees of freedom of any looped robot, JSON-ready.
-
-    Freedom is counted at a closed configuration found from a few spread-out guesses;
-    None if none of them closes.
-    """
-    generator, closed = np.random.default_rng(0), None
-    for _ in range(20):
-        guess = pin.integrate(robot.model, robot.q0, generator.uniform(-1.5, 1.5, robot.model.nv))
-        try:
-            closed = loops.close(robot, guess)
-            break
-        except Unreachable:
-            continue
-    freedom = None
-    if closed is not None:
-        found = loops.mobility(robot, closed)
-        freedom = {
-            "counted": found.counted,
-            "by_rank": found.freedom,
-            "equations": found.equations,
-            "independent": found.independent,
-            "held_by_motors": found.held,
-            "configuration": closed,
-        }
-    return {
-        "schema": "pollard-pin/check",
-        "version": 1,
-        "robot": robot.model.name,
-        "joints": list(robot.model.names)[1:],
-        "motors": list(robot.actuators),
-        "loops": [
-            {"name": loop.name, "type": loop.kind, "frames": list(loop.frames)}
-            for loop in robot.loops
-        ],
-        "freedom": freedom,
-    }
-
-
-def print_check(document: dict[str, Any]) -> None:
-    """Print what :func:`check_document` found."""
-    rows = [(loop["name"], loop["type"], *loop["frames"]) for loop in document["loops"]]
-    if rows:
-        print_table(("loop", "type", "frame", "frame"), rows)
-    motors = ", ".join(document["motors"])
-    print_text(
-        f"{document['robot']}: {len(document['joints'])} joints, "
-        f"{len(document['motors'])} motors ({motors})."
-    )
-    freedom = document["freedom"]
-    if freedom is None:
-        print_text("No closed configuration was found from 20 random guesses.")
-        return
-    print_text(
-        f"Degrees of freedom: {freedom['by_rank']} by rank "
-        f"({freedom['independent']} of {freedom['equations']} loop equations are independent), "
-        f"{freedom['counted']} by counting.",
-        _held(len(document["motors"]), freedom["held_by_motors"], freedom["by_rank"]),
-    )
-
-
-def _held(motors: int, held: int, freedom: int) -> str:
-    """What the motors hold, in words."""
-    if held < freedom:
-        return (
-            f"The motors hold {held} of them: with all motors still, "
-            f"{freedom - held} can move by itself."
-        )
-    if motors > freedom:
-        return f"The motors hold all of them, {motors - freedom} more than needed."
-    return "The motors hold all of them."

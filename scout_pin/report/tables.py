@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -64,13 +65,16 @@ def print_report(report: GaitReport) -> None:
     print_text("", *report.verdict())
 
 
-def ik_document(robot: Scout, solutions: LegSolutions, pose: np.ndarray) -> dict[str, Any]:
-    """Inverse kinematics of one foot pose on every branch, JSON-ready.
+def ik_document(
+    robot: Scout, solutions: LegSolutions, pose: np.ndarray, only: int | None = None
+) -> dict[str, Any]:
+    """Inverse kinematics of one foot pose, JSON-ready.
 
     Args:
         robot: The biped.
         solutions: All branches of one pose.
         pose: The pose as asked for: x, y, z [m], pitch, roll, yaw [rad], ``(6,)``.
+        only: Number of the one branch to say; None says all.
     """
     excess = (solutions.excess, True)
     return branches.document(
@@ -81,19 +85,27 @@ def ik_document(robot: Scout, solutions: LegSolutions, pose: np.ndarray) -> dict
         pose=pose,
         branches=[
             branches.branch(
-                solutions, k, branches.label(signs), solutions.explain((), k), reach_excess=excess
+                solutions,
+                k,
+                branches.label(BRANCHES[k]),
+                solutions.explain((), k),
+                reach_excess=excess,
             )
-            for k, signs in enumerate(BRANCHES)
+            for k in _numbers(only)
         ],
-        explanation=solutions.explain(),
+        explanation=solutions.explain((), only),
     )
 
 
-def print_solutions(solutions: LegSolutions) -> None:
-    """Print joint angles of one pose, a row a branch."""
+def _numbers(only: int | None) -> Sequence[int]:
+    return range(len(BRANCHES)) if only is None else (only,)
+
+
+def print_solutions(solutions: LegSolutions, only: int | None = None) -> None:
+    """Print joint angles of one pose, a row a branch; ``only`` as for :func:`ik_document`."""
     rows = []
-    for k, signs in enumerate(BRANCHES):
-        label = branches.label(signs)
+    for k in _numbers(only):
+        label = branches.label(BRANCHES[k])
         if not solutions.reachable[k]:
             rows.append((label, *[""] * 6, f"{solutions.excess[k] * 1e3:.1f} mm off"))
             continue
@@ -102,4 +114,5 @@ def print_solutions(solutions: LegSolutions) -> None:
     side = solutions.geometry.names[0].split("_")[0]
     columns = ("branch", "hip yaw", "roll", "pitch", "knee", "ankle", "roll", "")
     print_table(columns, rows, title=f"{side} leg, angles in degrees")
-    print_text(solutions.explain().capitalize() + ".")
+    text = solutions.explain((), only)
+    print_text(text[0].upper() + text[1:] + ".")

@@ -66,5 +66,5 @@ def test_an_unknown_equation_is_refused_with_near_names(capsys):
 
 def test_a_file_that_can_not_be_written_is_refused(tmp_path, capsys):
     target = tmp_path / "missing" / "audit.json"
-    assert main(["audit", "--equation", "6.2:ZMP_x", "--json", str(target)]) == 2
+    assert main(["audit", "--equation", "6.2:ZMP_x", "--json", str(target)]) == 3
     assert "can't write" in capsys.readouterr().err

@@ -1,77 +1,191 @@
-"""Every flag of both commands with values it can't take: one message, code 2, no file."""
+"""Every flag of every command with values it can't take: one message, code 2 or 3, no file."""
 
-import argparse
+import re
 
 import pytest
+from commands import OUTPUTS, ROOT, VERBS, example, flags, into, run
 
-from pollard_pin.cli import main as pollard
-from pollard_pin.cli import parser as pollard_parser
-from scout_pin.cli import main as scout
-from scout_pin.cli import parser as scout_parser
+ERROR = re.compile(r"^[a-z]+-pin( [a-z]+)?: error: ", flags=re.MULTILINE)
 
 HOPELESS = {"nothing": "", "two dashes": "--", "a NUL": "\0x", "far too long": "9" * 5000}
-"""Values that no flag of either command takes."""
+"""Values that no flag of any command takes."""
 
-REQUIRED = {
-    ("scout", "ik"): ["left", "--position", "-0.0445", "-0.02", "-0.22"],
-    ("pollard", "ik"): ["0.45", "0", "0.1", "0", "0", "0"],
-    ("pollard", "fk"): ["1", "2", "3", "4", "5", "6"],
-    ("pollard", "check"): ["a.urdf", "b.yaml"],
-}
-SERVING = ["--no-browser", "--hold", "0.01"]
-
-
-def flags():
-    """Each flag with a value, of each verb of both commands."""
-    for robot, parser in (("scout", scout_parser()), ("pollard", pollard_parser())):
-        verbs = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction))
-        for verb, words in verbs.choices.items():
-            for action in words._actions:
-                if action.option_strings and action.nargs != 0:
-                    yield robot, verb, action.option_strings[0]
+FLAGS = [
+    (name, action.option_strings[0])
+    for name in VERBS
+    for action in flags(name)
+    if action.option_strings and action.nargs != 0
+]
 
 
-def run(robot, words, capfd):
-    main = scout if robot == "scout" else pollard
-    try:
-        code = main(words)
-    except SystemExit as exit_:
-        code = exit_.code
-    out, err = capfd.readouterr()
-    return code, out, err
-
-
-@pytest.mark.parametrize(("robot", "verb", "flag"), list(flags()))
+@pytest.mark.parametrize(("name", "flag"), FLAGS, ids=" ".join)
 def test_hopeless_values_are_refused_before_anything_is_written(
-    robot, verb, flag, tmp_path, monkeypatch, capfd
+    name, flag, tmp_path, monkeypatch, capfd
 ):
+    for folder in ("examples", "urdf"):
+        (tmp_path / folder).symlink_to(ROOT / folder)
+    before = set(tmp_path.iterdir())
     monkeypatch.chdir(tmp_path)
-    for name, value in HOPELESS.items():
-        words = [verb, *REQUIRED.get((robot, verb), []), *(SERVING if verb == "view" else [])]
-        code, out, err = run(robot, [*words, f"{flag}={value}"], capfd)
-        assert code == 2, (name, out, err)
-        assert err.count("error:") == 1, (name, err)
-        assert out == "", name
-        assert list(tmp_path.iterdir()) == [], name
+    outputs = [] if flag in OUTPUTS else into(name, tmp_path)
+    if name.endswith(" view") and flag == "--json":
+        outputs = ["--html", str(tmp_path / "page.html")]  # rather than serve it
+    for what, value in HOPELESS.items():
+        code, out, err = run(name, [*example(name), *outputs, f"{flag}={value}"], capfd)
+        allowed = (2, 3) if flag in OUTPUTS else (2,)
+        assert code in allowed, (what, out, err)
+        assert err.count("error:") == 1, (what, err)
+        assert len(err) < 3000, what
+        assert out == "", what
+        assert set(tmp_path.iterdir()) == before, what
 
 
-@pytest.mark.parametrize("robot", ["scout", "pollard"])
-def test_more_samples_than_memory_holds_is_one_message(robot, monkeypatch, capfd):
+@pytest.mark.parametrize("name", ["scout-pin gait", "pollard-pin trajectory"])
+def test_more_samples_than_memory_holds_is_one_message(name, monkeypatch, capfd):
     import numpy as np
 
     def full(*_, **__):
         raise MemoryError
 
+    command, verb = name.split()
     monkeypatch.setattr(np, "linspace", full)
-    verb = "gait" if robot == "scout" else "trajectory"
-    code, out, err = run(robot, [verb, "--samples", "100000000"], capfd)
+    code, out, err = run(name, [verb, "--samples", "100000000"], capfd)
     assert (code, out) == (2, "")
-    assert err == f"{robot}-pin: error: there isn't enough memory for this; ask for less at once\n"
+    assert err == f"{command}: error: there isn't enough memory for this; ask for less at once\n"
 
 
 @pytest.mark.parametrize("text", ["x = " + "[" * 5000, "[" * 5000])
 def test_a_file_nested_too_deeply_is_refused(text, tmp_path, capfd):
     (tmp_path / "deep.toml").write_text(text)
-    code, _, err = run("scout", ["info", "--specification", str(tmp_path / "deep.toml")], capfd)
+    words = ["info", "--specification", str(tmp_path / "deep.toml")]
+    code, _, err = run("scout-pin info", words, capfd)
     assert code == 2
     assert "the specification is" in err
+
+
+# -- a table of misuse ----------------------------------------------------------------
+
+NUMBERS = {
+    "--time-unit": {"2.5"},
+    "--duration": {"2.5"},
+    "--speed": {"2.5"},
+    "--hold": {"2.5"},
+    "--samples": set(),
+    "--points": set(),
+    "--jobs": set(),
+    "--port": {"0"},
+    "--position": {"0", "-1", "2.5"},
+    "--rotation": {"0", "-1", "2.5"},
+    "--placement": {"0", "-1", "2.5"},
+    "--orientation": {"0", "-1", "2.5"},
+    "--x": {"0", "-1", "2.5"},
+    "--y": {"0", "-1", "2.5"},
+    "--z": {"0", "-1", "2.5"},
+    "pose": {"0", "-1", "2.5"},
+    "motors": {"0", "-1", "2.5"},
+}
+"""What of :data:`JUNK` each flag that takes numbers has a use for."""
+JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
+
+READ = ("--specification", "--gait", "--path", "urdf", "closures")
+"""Flags and words that name a file to read."""
+FILES = {
+    "missing": None,
+    "empty": "",
+    "of another kind": "%PDF-1.4\n",
+    "with a wrong key": "format = 1\nnonsense = 1\n",
+    "with NaN": "format = 1\nname = nan\n",
+    "not text": b"\xff\xfe\x00\x9f",
+    "a folder": "folder",
+}
+
+CONTRADICTIONS = {
+    "scout-pin gait": [["--json", "-", "--html", "-"], ["--branch=+-"]],
+    "scout-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--branch=+-"]],
+    "scout-pin ik": [["--branch=+-"]],
+    "scout-pin info": [],
+    "scout-pin urdf": [],
+    "scout-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
+    "pollard-pin trajectory": [
+        ["--json", "-", "--html", "-"],
+        ["--duration", "3"],
+        ["--timing", "constant-rate"],
+        ["--placement", "0", "0", "0"],
+        ["--branch=+-"],
+    ],
+    "pollard-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--duration", "3"]],
+    "pollard-pin ik": [["--branch=+-"]],
+    "pollard-pin fk": [],
+    "pollard-pin workspace": [["--x", "0.8", "0.1"], ["--z", "0", "1", "2"], ["--branch=+-"]],
+    "pollard-pin info": [],
+    "pollard-pin urdf": [],
+    "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
+    "thesis-pin check": [],
+}
+"""Flags that contradict a verb's example, its outputs, or each other."""
+
+
+def misuses():
+    """(verb, what is wrong, words that stand instead of or behind the example's)."""
+    for name in VERBS:
+        for words in CONTRADICTIONS[name]:
+            yield name, " ".join(words), words
+        for action in flags(name):
+            flag = action.option_strings[0] if action.option_strings else action.dest
+            if action.choices:
+                yield name, f"{flag} nonsense", (action, "nonsense")
+            if flag in READ:
+                for kind in FILES:
+                    yield name, f"{flag}: a file {kind}", (action, kind)
+            elif callable(action.type):
+                for junk in JUNK:
+                    if junk not in NUMBERS[flag]:
+                        yield name, f"{flag} {junk}", (action, junk)
+
+
+def misused(name, instead, folder):
+    """The command line with one thing wrong."""
+    words = example(name)
+    if isinstance(instead, list):
+        return words, instead
+    action, value = instead
+    if (action.option_strings or [action.dest])[0] in READ:
+        value = written(value, folder)
+    if action.option_strings:
+        count = action.nargs if isinstance(action.nargs, int) else 1
+        return words, [action.option_strings[0], value, *["1"] * (count - 1)]
+    before = [act for act in flags(name) if not act.option_strings]
+    before = before[: [act.dest for act in before].index(action.dest)]
+    place = 1 + sum(act.nargs or 1 for act in before)
+    return [*words[:place], value, *words[place + 1 :]], []
+
+
+def written(kind, folder):
+    """A file of a kind, by its name."""
+    path = folder / "bad.toml"
+    content = FILES[kind]
+    if kind == "a folder":
+        return str(folder)
+    if content is not None:
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return str(path)
+
+
+def test_every_verb_is_in_the_table_of_contradictions():
+    assert set(CONTRADICTIONS) == set(VERBS)
+
+
+@pytest.mark.parametrize(
+    ("name", "instead"), [pytest.param(n, i, id=f"{n}: {what}") for n, what, i in misuses()]
+)
+def test_misuse_is_one_message_exit_2_and_no_file(name, instead, tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(ROOT)
+    out, inputs = tmp_path / "out", tmp_path / "in"
+    out.mkdir()
+    inputs.mkdir()
+    words, behind = misused(name, instead, inputs)
+    code, said, err = run(name, [*words, *into(name, out), *behind], capfd)
+    assert code == 2, (said, err)
+    assert said == ""
+    assert len(ERROR.findall(err)) == 1, err
+    assert "Traceback" not in err
+    assert list(out.iterdir()) == []

@@ -17,6 +17,11 @@ COMMANDS = {
         ["ik", "right", "--position", "0.03", "0.02", "-0.2", "--rotation", "5", "-5", "20"],
         8,
     ),
+    "scout, one branch": (
+        scout,
+        ["ik", "right", "--position", "0.03", "0.02", "-0.2", "--branch=+++,-+-"],
+        1,
+    ),
     "pollard": (pollard, ["ik", "0.45", "0.03", "0.1", "5", "10", "-20"], 16),
     "pollard, one branch": (
         pollard,
@@ -78,3 +83,11 @@ def test_the_labels_name_the_branches_they_stand_beside(capsysbinary):
             np.testing.assert_allclose(branch["angles"], expected.angles, atol=1e-14)
         else:
             assert not expected.reachable
+
+
+def test_one_branch_is_the_row_that_all_of_them_have(capsysbinary):
+    main, words, _ = COMMANDS["scout, one branch"]
+    asked = document("scout, one branch", capsysbinary)["branches"]
+    assert main([*words[:-1], "--json", "-"]) == 0
+    every = {one["branch"]: one for one in json.loads(capsysbinary.readouterr().out)["branches"]}
+    assert asked == [every["-+-"]]

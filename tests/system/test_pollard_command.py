@@ -10,6 +10,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from thesis_pin.command.main import main as thesis_pin
+
 ROOT = Path(__file__).parents[2]
 DATA = ROOT / "tests" / "thesis_pin" / "loops" / "data"
 
@@ -90,7 +92,7 @@ def test_out_writes_report_samples_and_the_thesis_figures(pollard_pin, tmp_path)
     assert row["torque_chain0_shoulder_Nm"] == report["torque"][49][0]
 
 
-VERBS = ("trajectory", "view", "ik", "fk", "workspace", "info", "urdf", "check")
+VERBS = ("trajectory", "view", "ik", "fk", "workspace", "info", "urdf", "audit")
 
 
 @pytest.mark.parametrize("verb", VERBS)
@@ -144,7 +146,6 @@ def test_inverse_and_forward_kinematics_return_to_the_pose(pollard_pin):
         (("ik", "0.45", "0", "0.05", "0", "10", "0", "--branch=-++-+++"), "1 of 1 branches"),
         (("fk", "-35", "-40", "40", "0", "20", "0"), "2 assembly modes"),
         (("info",), "6 by counting, 6 by rank"),
-        (("check", DATA / "five_bar.urdf", DATA / "five_bar.yaml"), "2 by rank"),
         (("workspace", "--points", "15"), "reachable share"),
     ],
 )
@@ -156,13 +157,22 @@ def test_tables_fit_a_terminal_and_say_what_matters(pollard_pin, arguments, says
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
-def test_urdf_writes_the_four_files_and_check_accepts_them(pollard_pin, tmp_path):
+def test_urdf_writes_the_four_files_and_thesis_pin_check_accepts_them(pollard_pin, tmp_path, capfd):
     done = pollard_pin("urdf", "--out", tmp_path)
     assert done.returncode == 0
     names = ("pollard.urdf", "pollard_printed.urdf", "pollard.closures.yaml", "pollard.mjcf.xml")
     assert {file.name for file in tmp_path.iterdir()} == {*names, "manifest.sha256"}
-    done = pollard_pin("check", tmp_path / names[0], tmp_path / names[2], "--json", "-")
-    assert json.loads(done.stdout)["freedom"]["by_rank"] == 6
+    capfd.readouterr()
+    assert thesis_pin(["check", str(tmp_path / names[0]), str(tmp_path / names[2])]) == 0
+    assert "6 by rank" in capfd.readouterr().out
+
+
+def test_check_names_the_command_that_has_it_now(pollard_pin):
+    done = pollard_pin("check", DATA / "five_bar.urdf", DATA / "five_bar.yaml", "--json", "-")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "pollard-pin: error: check has moved; use: thesis-pin check URDF CLOSURES\n"
+    )
 
 
 def test_workspace_writes_data_and_picture(pollard_pin, tmp_path):
@@ -232,7 +242,6 @@ def test_strict_fails_only_if_a_motor_exceeds_a_limit(pollard_pin, tmp_path):
 POSES = "time_s,x_m,y_m,z_m,psi_deg,theta_deg,phi_deg\n"
 CROSSING = POSES + "0,0.45,0,-0.1,0,0,0\n2,0.25,0,-0.1,0,0,0\n"
 BACKWARDS = POSES + "0,0.45,0,0,0,0,0\n2,0.46,0,0,0,0,0\n1,0.47,0,0,0,0,0\n"
-LOOPS = "closed_loop: [[left_tip, right_tip]]\ntype: ['3d']\nname_mot: [motor_left]\n"
 
 
 def bad_inputs(folder):
@@ -241,31 +250,15 @@ def bad_inputs(folder):
         "crossing.csv": CROSSING,
         "backwards.csv": BACKWARDS,
         "four.csv": "0,0.45,0,0\n1,0.46,0,0\n",
-        "frame.yaml": LOOPS.replace("right_tip", "wrong_tip"),
-        "lengths.yaml": LOOPS.replace("['3d']", "['3d', '6d']"),
         "broken.toml": "format = 1\nname = 3\n",
-        "two_parents.urdf": (DATA / "five_bar.urdf")
-        .read_text()
-        .replace('<child link="right_tip"/>', '<child link="left_tip"/>')
-        .replace('  <link name="right_tip"/>\n', ""),
     }
     for name, text in files.items():
         (folder / name).write_text(text)
-    bar, loops = DATA / "five_bar.urdf", DATA / "five_bar.yaml"
     return {
-        "unreachable pose": (("ik", "2", "0", "0", "0", "0", "0"), "too far from the shoulder"),
-        "pose that only other orientations reach": (
-            ("ik", "0.07", "0", "0.05", "0", "0", "0"),
-            "too near to the shoulder",
-        ),
         "singular pose": (
             # Straight up the wrist: with the elbow up, tool along the forearm.
             ("ik", "--branch=-++-+++", *straight_wrist()),
             "wrist straight",
-        ),
-        "motor angles without a mode": (
-            ("fk", "-35", "-140", "140", "0", "20", "0"),
-            "no assembly mode",
         ),
         "path across a singularity": (
             ("trajectory", "--path", folder / "crossing.csv"),
@@ -289,12 +282,26 @@ def bad_inputs(folder):
             ("trajectory", "--specification", folder / "broken.toml"),
             "problems in the specification",
         ),
-        "unknown frame": (("check", bar, folder / "frame.yaml"), "unknown frame 'wrong_tip'"),
-        "unequal lists": (("check", bar, folder / "lengths.yaml"), "2 entries for 1 loops"),
-        "two parents": (("check", folder / "two_parents.urdf", loops), "has two parents"),
         "branch": (("ik", "0.45", "0", "0", "0", "0", "0", "--branch=+-"), "seven signs"),
         "axis the wrong way": (("workspace", "--x", "0.8", "0.1"), "ascending"),
     }
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("ik", "2", "0", "0", "0", "0", "0"), "too far from the shoulder"),
+        (("ik", "0.07", "0", "0.05", "0", "0", "0"), "too near to the shoulder"),
+        (("fk", "-35", "-140", "140", "0", "20", "0"), "no assembly mode"),
+    ],
+)
+def test_what_cannot_be_reached_is_answered_by_no_and_the_reason(pollard_pin, arguments, says):
+    done = pollard_pin(*arguments)
+    assert (done.returncode, done.stderr) == (1, "")
+    assert says in " ".join(done.stdout.split())
+    document = pollard_pin(*arguments, "--json", "-")
+    assert (document.returncode, document.stderr) == (1, "")
+    assert says in json.loads(document.stdout)["explanation"]
 
 
 def straight_wrist():
@@ -347,5 +354,5 @@ def test_an_unwritable_place_is_named(pollard_pin, tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("")
     done = pollard_pin("trajectory", "--samples", "11", "--json", blocked / "x.json")
-    assert done.returncode == 2
+    assert done.returncode == 3
     assert str(blocked) in done.stderr.replace("\n", "")

@@ -39,8 +39,9 @@ def commands():
 def test_every_command_line_of_the_readme_is_understood(words):
     import importlib
 
-    cli = importlib.import_module(words[0].replace("-", "_") + ".cli")
-    cli.parser().parse_args(words[1:])
+    package = words[0].replace("-", "_")
+    module = "command.main" if package == "thesis_pin" else "cli"
+    importlib.import_module(f"{package}.{module}").parser().parse_args(words[1:])
 
 
 def test_check_command_is_the_one_ci_runs():

@@ -170,30 +170,39 @@ BAD = {
     "NaN pose": (["ik", "left", "--position", "nan", "0", "0"], "finite"),
     "two coordinates": (["ik", "left", "--position", "0", "0"], "expected 3"),
     "unknown verb": (["dance"], "gait"),
-    "out is a file": (["gait", "--out", __file__], "folder"),
-    "page into nowhere": (["gait", "--html", "no/where/report.html"], "can't write"),
-    "view into nowhere": (["view", "--html", "no/where/view.html"], "can't write"),
     "zero speed": (["view", "--speed", "0"], "positive"),
     "negative hold": (["view", "--hold", "-1"], "positive"),
     "no port": (["view", "--port", "http"], "whole number"),
     "port too high": (["view", "--port", "70000", "--no-browser"], "65535"),
-    "json into nowhere": (["gait", "--json", "no/where/report.json"], "can't write"),
 }
 
 
 @pytest.mark.parametrize("name", BAD)
 def test_bad_input_is_one_clear_message_exit_2_and_no_file(name, tmp_path):
     arguments, says = BAD[name]
-    out = (
-        [] if arguments[0] in ("ik", "dance", "view") or "--out" in arguments else ["--out", "made"]
-    )
-    if name.endswith("into nowhere"):
-        out = []
+    out = [] if arguments[0] in ("ik", "dance", "view") else ["--out", "made"]
     done = scout_pin(*arguments, *out, cwd=tmp_path)
     assert done.returncode == 2, done.stdout + done.stderr
     assert says in done.stderr
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["gait", "--out", __file__],
+        ["gait", "--html", "no/where/report.html"],
+        ["view", "--html", "no/where/view.html"],
+        ["gait", "--json", "no/where/report.json"],
+    ],
+)
+def test_what_cannot_be_written_is_refused_with_3_before_any_work(arguments, tmp_path):
+    done = scout_pin(*arguments, cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (3, "")
+    assert "can't" in done.stderr
+    assert done.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 
 
@@ -213,8 +222,11 @@ def test_ik_lists_branches_and_explains():
     assert done.stdout.count("valid") >= 1
     assert max(map(len, done.stdout.splitlines())) <= 80
     far = scout_pin("ik", "right", "--position", "0", "0", "-1")
-    assert far.returncode == 2
-    assert "right foot: unreachable" in far.stderr
+    assert (far.returncode, far.stderr) == (1, "")
+    assert "Unreachable: " in far.stdout
+    far = scout_pin("ik", "right", "--position", "0", "0", "-1", "--json", "-")
+    assert far.returncode == 1
+    assert json.loads(far.stdout)["explanation"].startswith("unreachable: ")
     document = json.loads(
         scout_pin("ik", "left", "--position", "-0.0445", "-0.02", "-0.22", "--json", "-").stdout
     )
@@ -307,3 +319,15 @@ def test_angles_of_a_leg_and_the_robots_numbers_need_neither_scipy_nor_matplotli
     leg = ("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")
     for words in (("info",), leg, (*leg, "--json", "-")):
         assert scout_pin(*words, code=probe).stderr.strip() == "[]"
+
+
+def test_a_gait_takes_the_branch_it_is_told():
+    def theta(*words):
+        done = scout_pin("gait", "--samples", "11", "--json", "-", *words)
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)["theta"]
+
+    assert theta() == theta("--branch=+++,-+-")
+    other = scout_pin("gait", "--samples", "11", "--branch=+++,-++")
+    assert other.returncode == 2
+    assert "right foot, sample 0: branch -++ is outside the limits" in other.stderr

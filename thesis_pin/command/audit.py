@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import difflib
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
+from thesis_pin.command.exits import ExitCode
+from thesis_pin.command.targets import free
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
@@ -20,31 +22,12 @@ _TITLE = 31
 """Characters of a failure's title, so that its row fits 80 columns."""
 
 
-def add_verb(verbs: Any, example: str, run: Callable[[argparse.Namespace], int]) -> None:
-    """Add the verb to a command's parser; ``example`` is an invocation for its help."""
-    verb = verbs.add_parser(
-        "audit",
-        help="is this printed equation of the thesis right?",
-        description="A computed verdict on every printed equation of the thesis.",
-        epilog=f"Example: {example}",
-    )
-    verb.add_argument(
-        "--equation", metavar="ID", help="explain one equation; also by its number or symbol"
-    )
-    verb.add_argument("--every", action="store_true", help="list every failing line")
-    verb.add_argument("--json", metavar="FILE|-", help="write all rows as JSON")
-    verb.add_argument("--html", metavar="FILE", help="write a page with rendered formulas")
-    verb.add_argument("--markdown", metavar="FILE", help="write the audit as a document")
-    verb.set_defaults(run=run)
-
-
-def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> int:
+def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     """Run the verb; returns the exit code."""
     from thesis_pin.audit import text as faces
     from thesis_pin.audit.document import document
     from thesis_pin.audit.page import page
     from thesis_pin.command.output import print_entries, print_table, print_text
-    from thesis_pin.command.parser import OK
     from thesis_pin.command.progress import track
     from thesis_pin.files import write_file
     from thesis_pin.report.writers import json_bytes
@@ -61,13 +44,13 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> int:
         write_file(arguments.markdown, faces.markdown(report, thesis.document_command).encode())
     if arguments.json:
         write_file(arguments.json, json_bytes(document(report)))
-    if arguments.json == "-":
-        return OK
+    if not free(arguments):
+        return ExitCode.DONE
     if only:
         for k, row in enumerate(report.rows):
             print_text(*[""] * (k > 0))
             print_entries(faces.explain(row, report.causes.get(row.cause)))
-        return OK
+        return ExitCode.DONE
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])
     headings, chapters = faces.chapter_table(report)
@@ -84,7 +67,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> int:
     )
     print_entries(_without_verdict(report))
     print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
-    return OK
+    return ExitCode.DONE
 
 
 def _without_verdict(report: AuditReport) -> Iterator[tuple[str, str]]:

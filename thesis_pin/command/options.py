@@ -1,29 +1,21 @@
-"""Words that both commands' verbs share; each robot's ``cli.py`` adds its own."""
+"""Options that several verbs share: the same words for the same flag in all commands."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
-from importlib import import_module
 
-from thesis_pin.command.parser import count, number
+from thesis_pin.command.values import count, number
+from thesis_pin.errors import BadInput
 
-
-def later(module: str, name: str) -> Callable[[argparse.Namespace], int]:
-    """A verb of a module that is imported when the verb runs, so that help is quick."""
-
-    def call(arguments: argparse.Namespace) -> int:
-        return int(getattr(import_module(module), name)(arguments))
-
-    return call
+Words = argparse.ArgumentParser
 
 
-def add_robot(verb: argparse.ArgumentParser, another: str) -> None:
+def add_robot(words: Words, another: str) -> None:
     """Which robot: ``another`` says what a specification may describe."""
-    verb.add_argument(
+    words.add_argument(
         "--specification", metavar="FILE", help=f"TOML of {another} (default: the thesis's)"
     )
-    verb.add_argument(
+    words.add_argument(
         "--inertia",
         choices=("physical", "printed"),
         default="physical",
@@ -31,41 +23,81 @@ def add_robot(verb: argparse.ArgumentParser, another: str) -> None:
     )
 
 
-def add_json(verb: argparse.ArgumentParser, what: str) -> None:
+def add_branch(words: Words, signs: str, default: str) -> None:
+    """Which solution of inverse kinematics; ``signs`` says what its signs mean."""
+    words.add_argument("--branch", metavar="SIGNS", help=f"{signs} (default: {default})")
+
+
+def add_json(words: Words, what: str) -> None:
     """Write ``what`` as JSON."""
-    verb.add_argument("--json", metavar="FILE|-", help=f"write {what} as JSON")
+    words.add_argument("--json", metavar="FILE|-", help=f"write {what} as JSON")
 
 
-def add_report_options(verb: argparse.ArgumentParser, breaks: str) -> None:
+def add_report(words: Words, breaks: str) -> None:
     """Where a report goes; ``breaks`` says when ``--strict`` exits with 1."""
-    verb.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
-    add_json(verb, "the report")
-    verb.add_argument(
-        "--html", metavar="FILE", help="write the report as a page to mail: animation and plots"
+    words.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
+    add_json(words, "the report")
+    words.add_argument(
+        "--html", metavar="FILE|-", help="write the report as a page to mail: animation and plots"
     )
-    verb.add_argument("--strict", action="store_true", help=f"exit with 1 if {breaks}")
+    words.add_argument("--strict", action="store_true", help=f"exit with 1 if {breaks}")
 
 
-def add_view_options(verb: argparse.ArgumentParser) -> None:
+def add_view(words: Words) -> None:
     """The options every ``view`` verb has besides its motion's."""
-    verb.add_argument(
+    words.add_argument(
         "--speed",
         type=number("--speed", positive=True),
         default=1.0,
         help="playing speed; 1 is real time (default: 1)",
     )
-    verb.add_argument(
+    words.add_argument(
         "--port",
-        type=count("--port", 0),
+        type=count("--port", 0, 65535),
         help="port on 127.0.0.1; 0 is any (default: the first free one from 7000)",
     )
-    verb.add_argument("--no-browser", action="store_true", help="only print the address")
-    verb.add_argument(
+    words.add_argument("--no-browser", action="store_true", help="only print the address")
+    words.add_argument(
         "--hold",
         type=number("--hold", positive=True),
         metavar="SECONDS",
         help="end by itself (default: on Ctrl-C)",
     )
-    verb.add_argument(
-        "--html", metavar="FILE", help="write one self-contained page instead of serving it"
+    words.add_argument(
+        "--html", metavar="FILE|-", help="write one self-contained page instead of serving it"
     )
+    add_json(words, "what is shown, and where")
+
+
+def add_audit(words: Words) -> None:
+    """The options of the verb ``audit``."""
+    words.add_argument(
+        "--equation", metavar="ID", help="explain one equation; also by its number or symbol"
+    )
+    words.add_argument("--every", action="store_true", help="list every failing line")
+    add_json(words, "all rows")
+    words.add_argument("--html", metavar="FILE|-", help="write a page with rendered formulas")
+    words.add_argument("--markdown", metavar="FILE|-", help="write the audit as a document")
+
+
+def refuse_beside(arguments: argparse.Namespace, flag: str, others: tuple[str, ...]) -> None:
+    """Refuse flags that mean nothing beside another.
+
+    Args:
+        arguments: The parsed arguments; flags that weren't given are None or False.
+        flag: The flag that rules the others out, without dashes.
+        others: These.
+
+    Raises:
+        BadInput: ``flag`` and one of the others are given.
+    """
+
+    def given(name: str) -> bool:
+        value = getattr(arguments, name.replace("-", "_"))
+        return value is not None and value is not False  # port 0 is one
+
+    for other in others:
+        if given(flag) and given(other):
+            raise BadInput(
+                f"--{other} means nothing beside --{flag}", remedy="Leave one of them out"
+            )

@@ -1,8 +1,9 @@
-"""Progress bars of both commands: on standard error, on a terminal only, gone at the end."""
+"""Progress of the commands: on a terminal's standard error after two seconds, gone at the end."""
 
 from __future__ import annotations
 
 import sys
+import threading
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, TypeVar
 
@@ -11,41 +12,62 @@ if TYPE_CHECKING:
 
 Thing = TypeVar("Thing")
 
-LONG = 20_000
-"""Samples from which a report takes longer than a second or two."""
+PATIENCE = 2.0
+"""Seconds that nobody minds waiting without a word."""
 
 
 class Bar:
-    """A bar for what reports its progress as ``bar(done, total)``.
+    """A bar for what takes long; also for what reports its progress as ``bar(done, total)``.
 
     Args:
         what: What is going on.
-        wanted: Whether there is enough to do.
+        after: Seconds after which it is shown; None takes :data:`PATIENCE`.
     """
 
-    def __init__(self, what: str, *, wanted: bool = True) -> None:
-        self.what, self.wanted = what, wanted
+    def __init__(self, what: str, *, after: float | None = None) -> None:
+        self.what, self.after = what, PATIENCE if after is None else after
+        self._done: tuple[int, int | None] = (0, None)
+        self._lock, self._over = threading.Lock(), False
         self._bar: Progress | None = None
+        self._timer: threading.Timer | None = None
 
     def __enter__(self) -> Bar:
-        if self.wanted and sys.stderr.isatty():
-            from rich.console import Console
-            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-            columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-            self._bar = Progress(*columns, console=Console(stderr=True), transient=True)
-            self._task = self._bar.add_task(self.what, total=None)
-            self._bar.start()
+        if sys.stderr is None or not sys.stderr.isatty():
+            return self
+        if self.after <= 0:
+            self._show()
+        else:
+            self._timer = threading.Timer(self.after, self._show)
+            self._timer.daemon = True
+            self._timer.start()
         return self
+
+    def _show(self) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+        columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+        with self._lock:
+            if self._over:
+                return
+            self._bar = Progress(*columns, console=Console(stderr=True), transient=True)
+            done, total = self._done
+            self._task = self._bar.add_task(self.what, completed=done, total=total)
+            self._bar.start()
 
     def __call__(self, done: int, total: int) -> None:
         """Show that ``done`` of ``total`` is done."""
+        self._done = (done, total)
         if self._bar is not None:
             self._bar.update(self._task, completed=done, total=total)
 
     def __exit__(self, *_: object) -> None:
-        if self._bar is not None:
-            self._bar.stop()
+        if self._timer is not None:
+            self._timer.cancel()
+        with self._lock:
+            self._over = True
+            if self._bar is not None:
+                self._bar.stop()
 
 
 def track(things: Iterable[Thing], what: str, total: int) -> Iterator[Thing]:

@@ -1,106 +1,248 @@
-"""What the verbs of both commands do alike: write reports and documents, print a URDF."""
+"""What the verbs of several commands do alike: report, show, answer, print a URDF."""
 
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
-from thesis_pin.command.parser import OK
-from thesis_pin.files import write_file, write_folder
+from thesis_pin.command.exits import ExitCode
+from thesis_pin.command.messages import say
+from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.progress import Bar
+from thesis_pin.command.registry import found
+from thesis_pin.command.targets import free
+from thesis_pin.files import is_standard_output, write_file, write_folder
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # help has to be quick
     import numpy as np
+    from numpy.typing import NDArray
+
+    from thesis_pin.command.robot import Robot
+    from thesis_pin.pages.scene import Scene
 
 
 class Report(Protocol):
     """A report that can be written as JSON and as a table of samples."""
 
-    def document(self) -> dict[str, Any]:
+    @property
+    def within_limits(self) -> bool:
+        """Whether the robot can do it."""
+
+    def document(self) -> Mapping[str, object]:
         """The whole report, JSON-ready."""
 
-    def columns(self) -> Mapping[str, np.ndarray | Sequence[str]]:
+    def columns(self) -> Mapping[str, NDArray[np.float64] | Sequence[str]]:
         """Its samples: column name → values."""
 
 
-def show(
-    arguments: argparse.Namespace, document: Callable[[], Any], tell: Callable[[], None]
-) -> int:
-    """Write a document where ``--json`` says; print it unless that is standard output.
+class MakeReport(Protocol):
+    """What a robot's hook ``makes_report`` is."""
+
+    def __call__(
+        self,
+        arguments: argparse.Namespace,
+        robot: object,
+        samples: Callable[[float], int],
+        progress: Callable[[int, int], None],
+    ) -> Report:
+        """The report on the motion that the arguments ask for.
+
+        Args:
+            arguments: The parsed arguments.
+            robot: The robot they ask for.
+            samples: The motion's duration [s] → number of samples.
+            progress: Told the steps done and their total.
+        """
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a verb found out.
+
+    Attributes:
+        document: Makes it JSON-ready.
+        tell: Prints it for people.
+        yes: Whether what was asked for is possible.
+    """
+
+    document: Callable[[], Mapping[str, object]]
+    tell: Callable[[], None]
+    yes: bool = True
+
+
+def give(
+    arguments: argparse.Namespace, make: Callable[[], Answer], what: str = "working it out"
+) -> ExitCode:
+    """Write an answer where ``--json`` says; print it unless that is standard output.
 
     Args:
         arguments: With ``json``.
-        document: Makes the JSON-ready document.
-        tell: Prints the same for people.
+        make: Finds the answer.
+        what: What is going on meanwhile, for a progress bar.
     """
-    if arguments.json:
+    with Bar(what):
         from thesis_pin.report.writers import json_bytes
 
-        write_file(arguments.json, json_bytes(document()))
-    if arguments.json != "-":
-        tell()
-    return OK
+        answer = make()
+        content = json_bytes(answer.document()) if arguments.json else b""
+    if arguments.json:
+        write_file(arguments.json, content)
+    if free(arguments):
+        answer.tell()
+    return ExitCode.DONE if answer.yes else ExitCode.NO
 
 
-def write_report(
-    arguments: argparse.Namespace,
-    report: Report,
-    *,
-    figures: Callable[[], Mapping[str, bytes]],
-    page: Callable[[], bytes],
-) -> bool:
-    """Write a report where ``--out``, ``--json`` and ``--html`` say.
+def report(robot: Robot, what: str, arguments: argparse.Namespace) -> ExitCode:
+    """Report on a motion where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
 
-    Every content exists before the first file is written.
-
-    Args:
-        arguments: With ``out``, ``json`` and ``html``.
-        report: The report.
-        figures: Draws its figures: file name → content.
-        page: Makes its page.
-
-    Returns:
-        Whether standard output is still free for the table.
+    Every content exists before the first file is written; but if a figure or the
+    page fails, the data are written all the same.
     """
-    document, files, html = b"", {}, b""
-    if arguments.json or arguments.out:
-        from thesis_pin.report.writers import csv_bytes, json_bytes
+    from thesis_pin.report.writers import csv_bytes, json_bytes
 
-        document = json_bytes(report.document())
+    files: dict[str, bytes] = {}
+    content = page = b""
+    with Bar(what) as bar:
+        answer = _report(robot, arguments, lambda _: arguments.samples, bar)
+        if arguments.json or arguments.out:
+            content = json_bytes(answer.document())
         if arguments.out:
-            files = {"report.json": document, "samples.csv": csv_bytes(report.columns())}
-            files |= figures()
+            files = {"report.json": content, "samples.csv": csv_bytes(answer.columns())}
+        try:
+            drawn = _hook(robot, robot.figures)(answer) if arguments.out else {}
+            page = _hook(robot, robot.page)(answer) if arguments.html else b""
+        except Exception:
+            _deliver(arguments, files, content)
+            raise
+    _deliver(arguments, files | drawn, content)
     if arguments.html:
-        html = page()
+        write_file(arguments.html, page)
+    if free(arguments):
+        _hook(robot, robot.table)(answer)
+    refused = arguments.strict and not answer.within_limits
+    return ExitCode.NO if refused else ExitCode.DONE
+
+
+def _deliver(arguments: argparse.Namespace, files: Mapping[str, bytes], content: bytes) -> None:
+    """Write a report's folder and its document."""
     if arguments.out:
         write_folder(arguments.out, files)
-        print(f"wrote {arguments.out}", file=sys.stderr)
+        say(f"wrote {arguments.out}")
     if arguments.json:
-        write_file(arguments.json, document)
+        write_file(arguments.json, content)
+
+
+def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Show a motion in the browser, or write it as a page."""
+    refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
+    with Bar("working out the motion") as bar:
+        from thesis_pin.pages.scene import frames
+        from thesis_pin.report.writers import json_bytes
+
+        scene: Scene = _hook(robot, robot.scene)(_report(robot, arguments, frames, bar))
+    shown = {
+        "schema": f"{robot.command}/view",
+        "version": 1,
+        "title": scene.title,
+        "duration": float(scene.time[-1] - scene.time[0]),
+        "samples": len(scene.time),
+        "page": arguments.html,
+    }
+    from thesis_pin.pages import player, serving
+
     if arguments.html:
-        write_file(arguments.html, html)
-    return "-" not in (arguments.json, arguments.html)
+        player.write_html(scene, arguments.html, speed=arguments.speed)
+        if not is_standard_output(arguments.html):
+            say(f"wrote {arguments.html}")
+        if arguments.json:
+            write_file(arguments.json, json_bytes(shown | {"address": None}))
+        return ExitCode.DONE
+
+    def ready(address: str) -> None:
+        if arguments.json:
+            write_file(arguments.json, json_bytes(shown | {"address": address}))
+
+    serving.show(
+        scene,
+        speed=arguments.speed,
+        port=arguments.port,
+        browser=not arguments.no_browser,
+        hold=arguments.hold,
+        say=say,
+        ready=ready,
+    )
+    return ExitCode.DONE
 
 
-def urdf(
-    arguments: argparse.Namespace, name: str, text: str, files: Callable[[], Mapping[str, str]]
-) -> int:
-    """Print a URDF, or write every generated file into ``--out``.
+def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Inverse kinematics of one pose."""
+    return give(arguments, lambda: _hook(robot, robot.solves)(arguments, _load(robot, arguments)))
 
-    Args:
-        arguments: With ``out``.
-        name: The robot's name, for messages.
-        text: Its URDF.
-        files: Everything generated from its specification: file name → text.
-    """
-    from thesis_pin.model.loading import check_urdf
 
-    check_urdf(text, where=name)
-    if not arguments.out:
+def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Say what a specification describes."""
+
+    def answer() -> Answer:
+        loaded = _load(robot, arguments)
+        document, tell = _hook(robot, robot.info), _hook(robot, robot.print_info)
+        return Answer(lambda: document(loaded), lambda: tell(loaded))
+
+    return give(arguments, answer)
+
+
+def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Print a URDF, or write every generated file into ``--out``."""
+    with Bar("generating the files"):
+        from thesis_pin.model.loading import check_urdf
+        from thesis_pin.report.writers import json_bytes
+
+        specification = _hook(robot, robot.specification)(arguments.specification)
+        text: str = _hook(robot, robot.urdf)(specification, arguments.inertia)
+        check_urdf(text, where=specification.name)
+        made = _hook(robot, robot.files)(specification)
+        files = {name: content.encode() for name, content in made.items()}
+    document = {
+        "schema": f"{robot.command}/urdf",
+        "version": 1,
+        "robot": specification.name,
+        "inertia": arguments.inertia,
+        "folder": str(arguments.out) if arguments.out else None,
+        "files": [{"name": name, "bytes": len(content)} for name, content in files.items()],
+    }
+    if arguments.out:
+        write_folder(arguments.out, files)
+        say(f"wrote {', '.join(files)} to {arguments.out}")
+    if arguments.json:
+        write_file(arguments.json, json_bytes(document))
+    if not arguments.out and free(arguments):
         write_file("-", text.encode())
-        return OK
-    contents = {file: content.encode() for file, content in files().items()}
-    write_folder(arguments.out, contents)
-    print(f"wrote {', '.join(contents)} to {arguments.out}", file=sys.stderr)
-    return OK
+    return ExitCode.DONE
+
+
+def audit(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """A verdict on each printed equation of the thesis."""
+    from thesis_pin.command.audit import run_verb
+
+    refuse_beside(arguments, "equation", ("every",))
+    return run_verb(arguments, _hook(robot, robot.thesis))
+
+
+def _hook(robot: Robot, name: str) -> Any:
+    """One of the robot's functions, imported when it is needed."""
+    return found(robot.name_of(name))
+
+
+def _load(robot: Robot, arguments: argparse.Namespace) -> Any:
+    return _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
+
+
+def _report(
+    robot: Robot,
+    arguments: argparse.Namespace,
+    samples: Callable[[float], int],
+    progress: Callable[[int, int], None],
+) -> Report:
+    make: MakeReport = _hook(robot, robot.makes_report)
+    return make(arguments, _load(robot, arguments), samples, progress)

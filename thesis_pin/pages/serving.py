@@ -40,6 +40,7 @@ def show(
     browser: bool = True,
     hold: float | None = None,
     say: Callable[[str], None] = _LOG.warning,
+    ready: Callable[[str], None] | None = None,
 ) -> None:
     """Serve a scene on 127.0.0.1 until interrupted (Ctrl-C) or ``hold`` has passed.
 
@@ -52,12 +53,15 @@ def show(
         hold: Seconds to serve; None for ever.
         say: Told the address, and when the browser can't draw every frame; left out,
             a log, which Python writes on standard error unless told otherwise.
+        ready: Given the address, for a program that wants to know it.
 
     Raises:
         BadInput: The port is taken or not allowed.
     """
     with PageServer(html(scene, speed=speed), port, say) as server:
         say(f"showing {scene.title} at {server.address} (Ctrl-C ends)")
+        if ready is not None:
+            ready(server.address)
         if browser:
             window = graphical()
             if window is None or not window.open(server.address):

@@ -1,77 +1,71 @@
-"""What both commands share."""
-
-import os
+"""How the three commands read a command line."""
 
 import pytest
 
-from thesis_pin.command.parser import Parser, count, number, run
-from thesis_pin.errors import BadInput, ThesisPinError
-from thesis_pin.files import MANIFEST, write_file, write_folder
+from thesis_pin.command.parser import Parser
 
 
-def failing(error):
+def reading(*words, **options):
     parser = Parser(prog="robot-pin")
-
-    def verb(_):
-        raise error
-
-    parser.set_defaults(run=verb)
-    return parser
-
-
-def test_our_errors_become_one_line_and_exit_code_2(capsys):
-    assert run(failing(BadInput("it is bent", where="arm", allowed="straight")), []) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert err == "robot-pin: error: arm: it is bent; allowed: straight\n"
-
-
-def test_bugs_are_not_hidden():
-    with pytest.raises(ZeroDivisionError):
-        run(failing(ZeroDivisionError()), [])
-
-
-def test_an_interruption_ends_quietly(capsys):
-    assert run(failing(KeyboardInterrupt()), []) == 130
-    assert "Traceback" not in capsys.readouterr().err
+    parser.add_argument("--point", nargs=2)
+    parser.add_argument("pose", nargs="*")
+    return parser.parse_args([*words])
 
 
 @pytest.mark.parametrize(
-    ("read", "text"),
+    "word",
     [
-        (number("--x", positive=True), "0"),
-        (number("--x", positive=True), "-1"),
-        (number("--x"), "nan"),
-        (number("--x"), "inf"),
-        (number("--x"), "one"),
-        (count("--n", 2), "1"),
-        (count("--n", 2), "2.5"),
+        "-1",
+        "-0.5",
+        "-.5",
+        "-1.",
+        "-1e-3",
+        "-1E+3",
+        "-.5e2",
+        "-1.25e-17",
+        "-inf",
+        "-nan",
+        "-Infinity",
     ],
 )
-def test_numbers_are_checked_where_they_are_read(read, text):
-    import argparse
-
-    with pytest.raises(argparse.ArgumentTypeError, match="allowed"):
-        read(text)
-    assert number("--x")("-2.5") == -2.5
-    assert count("--n", 2)("2") == 2
+def test_negative_numbers_are_values_also_with_exponents(word):
+    assert float(word) == float(word) or "nan" in word
+    assert reading(word, "2").pose == [word, "2"]
+    assert reading("--point", word, word).point == [word, word]
 
 
-def test_files_are_written_whole_and_leave_nothing_behind(tmp_path):
-    write_folder(tmp_path / "deep" / "er", {"a.txt": b"one", "sub/b.txt": b"two"})
-    assert (tmp_path / "deep/er/a.txt").read_bytes() == b"one"
-    assert (tmp_path / "deep/er/sub/b.txt").read_bytes() == b"two"
-    assert sorted(os.listdir(tmp_path / "deep/er")) == ["a.txt", MANIFEST, "sub"]
+@pytest.mark.parametrize("word", ["-e3", "-1e", "-1-2", "-x", "-1x", "--1"])
+def test_other_words_with_a_minus_stay_flags(word, capsys):
+    with pytest.raises(SystemExit) as end:
+        reading(word)
+    assert end.value.code == 2
+    assert word in capsys.readouterr().err
 
 
-def test_unwritable_places_are_refused_and_what_stood_there_stays(tmp_path):
-    (tmp_path / "file").write_text("kept")
-    with pytest.raises(BadInput, match="folder"):
-        write_folder(tmp_path / "file", {"a.txt": b"x"})
-    with pytest.raises(BadInput, match="can't write"):
-        write_file(tmp_path / "missing" / "a.txt", b"x")
-    (tmp_path / "taken").mkdir()
-    with pytest.raises(ThesisPinError, match="can't write"):
-        write_file(tmp_path / "taken", b"x")
-    assert (tmp_path / "file").read_text() == "kept"
-    assert sorted(os.listdir(tmp_path)) == ["file", "taken"]
+def test_a_flag_whose_value_is_two_dashes_is_refused(capsys):
+    with pytest.raises(SystemExit):
+        reading("--point=--")
+    assert "'--' is no value" in capsys.readouterr().err
+
+
+def test_flags_are_not_guessed_from_their_beginnings(capsys):
+    with pytest.raises(SystemExit):
+        reading("--poi", "1", "2")
+
+
+def test_what_the_parser_quotes_cannot_command_a_terminal(capsys):
+    with pytest.raises(SystemExit):
+        reading("--\x1b[31mred\0" + "9" * 100_000)
+    err = capsys.readouterr().err
+    assert "\\x1b[31mred\\x00" in err
+    assert err.isascii()
+    assert set(err) & set(map(chr, range(32))) == {"\n"}
+    assert len(err) < 2500
+
+
+def test_debug_may_stand_before_and_behind_a_verb():
+    top = Parser(prog="robot-pin")
+    top.add_subparsers().add_parser("walk")
+    assert top.parse_args(["--debug", "walk"]).debug
+    assert top.parse_args(["walk", "--debug"]).debug
+    assert not hasattr(top.parse_args(["walk"]), "debug")

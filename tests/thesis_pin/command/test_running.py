@@ -1,0 +1,138 @@
+"""Every way a command can end has its exit code."""
+
+import errno
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from thesis_pin.command.exits import ExitCode
+from thesis_pin.command.parser import Parser
+from thesis_pin.command.running import run
+from thesis_pin.errors import BadInput, Busy, CannotWrite, Unreachable
+
+ROOT = Path(__file__).parents[3]
+CONVENTIONS = (ROOT / "docs" / "conventions.md").read_text(encoding="utf-8")
+
+
+def doing(verb):
+    parser = Parser(prog="robot-pin")
+    parser.set_defaults(run=verb)
+    return parser
+
+
+def failing(error):
+    def verb(_):
+        raise error
+
+    return doing(verb)
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "says"),
+    [
+        (BadInput("it is bent", where="arm", allowed="straight"), 2, "arm: it is bent; allowed"),
+        (Unreachable("too far"), 2, "error: too far"),
+        (CannotWrite("no folder", where="--out"), 3, "error: --out: no folder"),
+        (Busy("another run writes", where="--out"), 3, "another run writes"),
+        (MemoryError(), 2, "isn't enough memory"),
+        (KeyboardInterrupt(), 130, "interrupted"),
+        (OSError(errno.ENOSPC, "No space left on device"), 3, "standard output can't be written"),
+        (ZeroDivisionError("division by zero"), 70, "bug: ZeroDivisionError: division by zero"),
+        (OSError(errno.ENOENT, "No such file"), 70, "bug: FileNotFoundError"),
+        (RecursionError("too deep"), 70, "bug: RecursionError"),
+    ],
+)
+def test_an_error_becomes_one_line_and_its_code(error, code, says, capsys):
+    assert run(failing(error), []) == code
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("robot-pin: ")
+    assert err.count("\n") == 1
+    assert says in err
+
+
+@pytest.mark.parametrize("code", [ExitCode.DONE, ExitCode.NO])
+def test_a_verb_s_own_code_is_the_command_s(code):
+    assert run(doing(lambda _: code), []) == code
+
+
+def test_a_bug_says_where_it_is_and_how_to_report_it(capsys):
+    assert run(failing(KeyError("left\nknee")), []) == 70
+    err = capsys.readouterr().err
+    assert "test_running.py, line" in err
+    assert "please report it" in err
+    assert "--debug" in err
+    assert "Traceback" not in err
+
+
+def test_debug_shows_a_bug_s_traceback(capsys):
+    assert run(failing(KeyError("left_knee")), ["--debug"]) == 70
+    err = capsys.readouterr().err
+    assert "Traceback (most recent call last)" in err
+    assert err.splitlines()[-1].startswith("robot-pin: bug: KeyError")
+
+
+def test_messages_are_shown_not_obeyed(capsys):
+    run(failing(BadInput("the name \x1b]0;owned\x07\0 is " + "x" * 50_000)), [])
+    err = capsys.readouterr().err
+    assert "\\x1b]0;owned\\x07\\x00" in err
+    assert set(err) & set(map(chr, range(32))) == {"\n"}
+    assert len(err) < 1200
+
+
+def process(verb, **options):
+    """A command whose verb is a line of Python, in a process of its own."""
+    code = (
+        "import sys, os\n"
+        "from thesis_pin.command.parser import Parser\n"
+        "from thesis_pin.command.running import run\n"
+        f"def verb(_):\n    {verb}\n    return 0\n"
+        "p = Parser(prog='robot-pin'); p.set_defaults(run=verb)\n"
+        "sys.exit(run(p))"
+    )
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    return subprocess.run(
+        [sys.executable, "-c", code, *options.pop("words", [])],
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        check=False,
+        **options,
+    )
+
+
+@pytest.mark.parametrize("lines", [1, 100_000])
+def test_a_closed_pipe_ends_quietly_with_0(lines):
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = process(f"print('x\\n' * {lines})", stdout=writer)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_help_into_a_closed_pipe_ends_quietly_with_0():
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = process("pass", stdout=writer, words=["--help"])
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
+@pytest.mark.parametrize("lines", [1, 100_000])
+def test_a_full_standard_output_is_3(lines):
+    with open("/dev/full", "w") as full:
+        done = process(f"print('x\\n' * {lines})", stdout=full)
+    assert done.returncode == 3
+    assert done.stderr == (
+        "robot-pin: error: standard output can't be written: No space left on device\n"
+    )
+
+
+def test_the_documents_list_every_code():
+    table = CONVENTIONS.split("## Exit codes")[1].split("\n## ")[0]
+    rows = [line.split("|")[1].strip() for line in table.splitlines() if line.startswith("| ")]
+    assert [row for row in rows if row.isdigit()] == [str(code.value) for code in ExitCode]
