@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
+
+from thesis_pin.command.readable import readable
 
 LONGEST = 1000
 """Characters of a line, beyond which a message is cut."""
@@ -21,6 +24,7 @@ def clean(text: str) -> str:
         (``\\x1b``), lines of at most :data:`LONGEST` characters and at most
         :data:`MOST_LINES` of them, with what is missing counted.
     """
+    text = readable(text, "utf-8")  # bytes of a name that are no text
     lines = text[: 2 * LONGEST * MOST_LINES].split("\n")
     shown = [_line(line) for line in lines[:MOST_LINES]]
     if len(lines) > MOST_LINES:
@@ -39,5 +43,6 @@ def _line(line: str) -> str:
 
 
 def say(text: str) -> None:
-    """Tell the user on standard error."""
-    print(clean(text), file=sys.stderr, flush=True)
+    """Tell the user on standard error, if somebody listens there."""
+    with contextlib.suppress(OSError):
+        print(clean(text), file=sys.stderr, flush=True)

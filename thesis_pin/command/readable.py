@@ -66,6 +66,9 @@ def prepare_streams() -> None:
     if sys.stderr is None:
         sys.stderr = io.StringIO()
     codecs.register_error("readable", _mend)
+    raw = getattr(sys.stdout, "buffer", None)
+    if isinstance(raw, io.RawIOBase):  # python -u: what a full disk cuts off wouldn't be noticed
+        sys.stdout = io.TextIOWrapper(io.BufferedWriter(raw), encoding=sys.stdout.encoding)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="readable")
