@@ -9,7 +9,7 @@ from timing import Comparison, again
 
 import pollard_pin
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.specification import ACTUATORS
 from thesis_pin.loops import dynamics as loop_dynamics

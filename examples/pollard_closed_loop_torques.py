@@ -36,7 +36,7 @@ def show(robot, found):
     print(f"  equations of motion met to {found.residual.max():.0e}")
 
 
-data = Path(__file__).parents[1] / "tests" / "thesis_pin" / "data"
+data = Path(__file__).parents[1] / "tests" / "thesis_pin" / "loops" / "data"
 show(*torques(data / "five_bar.urdf", data / "five_bar.yaml", [-1.9, 1.2, -1.2, -1.2]))
 
 guess = pollard_pin.load().inverse_kinematics([0.45, 0.05, 0.0, 0.1, 0.1, 0.1]).angles

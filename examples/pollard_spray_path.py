@@ -1,7 +1,7 @@
 """A spray path of one's own: up an arch and back along a line, and what it asks of the motors."""
 
 import pollard_pin
-from pollard_pin.motion.path import arc, joined, line
+from pollard_pin.motion.curves import arc, joined, line
 from pollard_pin.specification import SKEWED_PATH
 from thesis_pin.errors import ThesisPinError
 

@@ -21,10 +21,10 @@ for signs, angles, valid in zip(scout_pin.BRANCHES, solutions.angles, solutions.
     degrees = " ".join(f"{value:8.2f}" for value in np.degrees(angles))
     print(f"{signs!s:12} {degrees}  {'valid' if valid else ''}")
 
-# Pinocchio agrees.
-theta = solutions.angles[solutions.valid][0]
-q = robot.q0.copy()
-q[7:13] = theta
+# Pinocchio agrees: its q is the torso's place and the angles of all twelve joints.
+angles = np.zeros(12)
+angles[:6] = solutions.angles[solutions.valid][0]
+q = robot.configuration(np.eye(4), angles)
 pin.framesForwardKinematics(robot.model, robot.data, q)
 reached = robot.data.oMf[robot.sole_frames["left"]]
 error = np.abs(reached.homogeneous - target.homogeneous).max()

@@ -36,7 +36,7 @@ from .report.document import trajectory_report as trajectory_report
 # Only Pollard
 from .specification import ACTUATOR_NAMES as ACTUATOR_NAMES
 from .model import CLOSURE_PATH as CLOSURE_PATH
-from .motion.path import appendix_b as appendix_b
+from .motion.curves import appendix_b as appendix_b
 from .dynamics.inverse import inverse_dynamics_at as inverse_dynamics_at
 from .dynamics.three_motors import three_torques as three_torques
 from .study.workspace import evaluate_workspace as evaluate_workspace

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal, overload
 
 import numpy as np
 import pinocchio as pin
@@ -123,7 +123,13 @@ class Pollard(ClosedRobot):
             self.geometry, pose, branch_labels(branch), reference, squeeze=False
         )
 
-    def forward_kinematics(self, motors: ArrayLike, reference: ArrayLike | None = None) -> Any:
+    @overload
+    def forward_kinematics(self, motors: ArrayLike) -> forward.Assemblies: ...
+    @overload
+    def forward_kinematics(self, motors: ArrayLike, reference: ArrayLike) -> np.ndarray: ...
+    def forward_kinematics(
+        self, motors: ArrayLike, reference: ArrayLike | None = None
+    ) -> forward.Assemblies | np.ndarray:
         """Assembly modes of motor angles ``(..., 6)`` [rad].
 
         Args:

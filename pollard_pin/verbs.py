@@ -26,8 +26,8 @@ def _branch(arguments: argparse.Namespace) -> Branch:
 
 
 def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPath:
+    from pollard_pin.motion.curves import appendix_b
     from pollard_pin.motion.files import load_path
-    from pollard_pin.motion.path import appendix_b
 
     if arguments.path is None:
         return appendix_b(

@@ -24,6 +24,8 @@ class Tolerances:
         joint_limit: Excess still taken as inside a joint limit [rad].
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
         rate_jump: Jump of rate that counts as smooth [m/s], [rad/s].
+        step: Least distance of two nodes or samples: below it, rates are made of
+            rounding [s], [-].
         static: Joint speed below which Coulomb friction is taken as zero [rad/s].
     """
 
@@ -39,6 +41,7 @@ class Tolerances:
     joint_limit: float = 1e-9
     seam: float = 1e-4
     rate_jump: float = 1e-6
+    step: float = 1e-9
     static: float = 1e-9
 
 

@@ -34,7 +34,8 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from pollard_pin.motion.path import Timing, ToolPath, arc, joined, line, through
+from pollard_pin.motion.curves import arc, joined, line, through
+from pollard_pin.motion.path import Timing, ToolPath
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.files import name_as_text
 from thesis_pin.model.samples import check_increasing, check_width, finite, numbers, read_rows

@@ -1,37 +1,28 @@
-"""Paths of the spray tip: appendix B's curve, lines, arcs, and the user's own.
+"""Paths of the spray tip: what a path is, and its timing.
 
 A path is a pose (x, y, z, ψ, θ, φ) over time with exact first and second
 derivatives. Geometry and timing are separate: a curve over s in [0, 1], and a law
 s(t). Orientations are interpolated in ψ, θ, φ themselves.
-
-Source: Pollard thesis, appendix B.
 """
 
 from __future__ import annotations
 
-import itertools
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pollard_pin.specification import Specification
 from thesis_pin.errors import TrajectoryError, WrongShape
-from thesis_pin.numeric.arrays import finite_array, vector
-from thesis_pin.numeric.checks import choice, instance, real, shown, whole
+from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.numeric.checks import choice, real, whole
 
 Timing = Literal["constant-rate", "rest-to-rest"]
 TIMINGS: tuple[str, ...] = get_args(Timing)
 
 Triple = tuple[np.ndarray, np.ndarray, np.ndarray]
 """A pose and its first and second derivatives, each ``(n, 6)``."""
-
-_REACH = 60 * math.pi  # the parameter of appendix B runs from −60π to 60π
-_MM = 1e-3
 
 
 @dataclass(frozen=True)
@@ -140,227 +131,7 @@ def along(curve: Callable[[np.ndarray], Triple], law: Triple) -> Triple:
     )
 
 
-def _driven(
+def driven(
     curve: Callable[[np.ndarray], Triple], timing: str, duration: float, time: np.ndarray
 ) -> Triple:
     return along(curve, timing_law(timing, duration, time))
-
-
-def appendix_b(
-    specification: Specification | None = None,
-    *,
-    placement: Sequence[float] | None = None,
-    orientation: Sequence[float] | None = None,
-    duration: float | None = None,
-    timing: str | None = None,
-) -> ToolPath:
-    """The thesis's spray path, placed and timed.
-
-    Printed in millimetres and without a time: x = −0.001 t², y = t,
-    z = 100 sin(0.3 t), t from −60π to 60π. As printed it can't be reached with any
-    orientation of the tool: at t = 0 the wrist is too near the shoulder.
-
-    Args:
-        specification: Gives what is None below; None for the thesis's robot.
-        placement: What is added to (x, y, z) [m].
-        orientation: ψ, θ, φ, kept all along [rad].
-        duration: [s].
-        timing: Law for t: ``"constant-rate"`` or ``"rest-to-rest"``.
-
-    Source: Pollard thesis, appendix B.
-    """
-    if specification is not None:
-        instance("specification", specification, Specification, "Specification.read()")
-    assumed = (specification or Specification.read()).assumptions
-    place = vector("placement", assumed.placement.position if placement is None else placement, 3)
-    tool = vector(
-        "orientation",
-        np.radians(assumed.placement.orientation_deg) if orientation is None else orientation,
-        3,
-    )
-    seconds = assumed.motion.duration if duration is None else duration
-    law = assumed.motion.timing if timing is None else timing
-    timing_law(law, seconds, np.zeros(1))
-
-    curve = partial(_appendix_b_curve, np.concatenate([place, tool]))
-    return ToolPath(
-        "appendix B",
-        seconds,
-        partial(_driven, curve, law, seconds),
-        {
-            "path": "appendix B",
-            "placement": place.tolist(),
-            "orientation": tool.tolist(),
-            "duration": seconds,
-            "timing": law,
-        },
-    )
-
-
-def _appendix_b_curve(origin: np.ndarray, s: np.ndarray) -> Triple:
-    u, span = _REACH * (2 * s - 1), 2 * _REACH
-    value, first, second = np.zeros((3, len(s), 6))
-    value[:, 0], value[:, 1] = -0.001 * u**2, u
-    value[:, 2] = 100 * np.sin(0.3 * u)
-    first[:, 0], first[:, 1], first[:, 2] = -0.002 * u, 1.0, 30 * np.cos(0.3 * u)
-    second[:, 0], second[:, 2] = -0.002, -9 * np.sin(0.3 * u)
-    return value * _MM + origin, first * (_MM * span), second * (_MM * span**2)
-
-
-def line(
-    start: ArrayLike, end: ArrayLike, duration: float, timing: str = "rest-to-rest"
-) -> ToolPath:
-    """A straight line between two poses (x, y, z, ψ, θ, φ)."""
-    first, last = vector("start", start, 6), vector("end", end, 6)
-    return _single("line", partial(_line_curve, first, last), duration, timing)
-
-
-def _line_curve(first: np.ndarray, last: np.ndarray, s: np.ndarray) -> Triple:
-    step = np.broadcast_to(last - first, (len(s), 6))
-    return first + s[:, None] * step, step, np.zeros_like(step)
-
-
-def arc(
-    start: ArrayLike,
-    via: ArrayLike,
-    end: ArrayLike,
-    duration: float,
-    timing: str = "rest-to-rest",
-) -> ToolPath:
-    """A circular arc.
-
-    Args:
-        start: First pose (x, y, z, ψ, θ, φ).
-        via: Point [m] the arc passes through.
-        end: Last pose.
-        duration: [s].
-        timing: Timing law.
-
-    Raises:
-        TrajectoryError: The three points lie on a line.
-    """
-    first, last = vector("start", start, 6), vector("end", end, 6)
-    middle = vector("via", via, 3)
-    one, two = middle - first[:3], last[:3] - first[:3]
-    normal = np.cross(one, two)
-    area = float(np.linalg.norm(normal))
-    if area < 1e-9 * max(float(one @ one), float(two @ two)):
-        raise TrajectoryError(
-            "start, via and end of an arc lie on a line", remedy="Use a line, or move via"
-        )
-    normal = normal / area
-    to_centre = np.cross((two @ two) * one - (one @ one) * two, normal) / (2 * area)
-    # Circumcentre of 0, a, b: (|a|² b − |b|² a) × (a × b) / (2 |a × b|²).
-    centre = first[:3] - to_centre
-    radius = first[:3] - centre
-    side = np.cross(normal, radius)
-    gap = last[:3] - centre
-    angle = math.atan2(float(gap @ side), float(gap @ radius)) % (2 * math.pi)
-    curve = partial(_arc_curve, first, last, centre, radius, side, angle)
-    return _single("arc", curve, duration, timing)
-
-
-def _arc_curve(
-    first: np.ndarray,
-    last: np.ndarray,
-    centre: np.ndarray,
-    radius: np.ndarray,
-    side: np.ndarray,
-    angle: float,
-    s: np.ndarray,
-) -> Triple:
-    value = first + s[:, None] * (last - first)
-    slope = np.broadcast_to(last - first, value.shape).copy()
-    bend = np.zeros_like(value)
-    c, sn = np.cos(angle * s)[:, None], np.sin(angle * s)[:, None]
-    value[:, :3] = centre + c * radius + sn * side
-    slope[:, :3] = angle * (c * side - sn * radius)
-    bend[:, :3] = -(angle**2) * (c * radius + sn * side)
-    return value, slope, bend
-
-
-def _single(
-    name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str
-) -> ToolPath:
-    timing_law(timing, duration, np.zeros(1))
-    duration = float(duration)
-    return ToolPath(
-        name,
-        duration,
-        partial(_driven, curve, timing, duration),
-        {"path": name, "duration": float(duration), "timing": timing},
-    )
-
-
-def through(
-    time: ArrayLike, poses: ArrayLike, method: str = "cubic", *, name: str = "poses over time"
-) -> ToolPath:
-    """A spline through poses at given times, with its exact derivatives.
-
-    Args:
-        time: [s], strictly increasing, shape ``(n,)``; the path begins at its first.
-        poses: x, y, z [m], ψ, θ, φ [rad], shape ``(n, 6)``.
-        method: See :data:`thesis_pin.numeric.interpolation.METHODS`.
-        name: For reports.
-
-    Raises:
-        TrajectoryError: Too few poses or time not increasing.
-        UnknownName: No such method.
-    """
-    from thesis_pin.numeric.interpolation import interpolate
-
-    poses, time = finite_array("poses", poses, None, 6), finite_array("time", time, None)
-    if len(poses) != len(time):
-        raise TrajectoryError(f"{len(time)} times and {len(poses)} poses", allowed="as many")
-    begin = time[0] if len(time) else 0.0
-    curves = [interpolate(time - begin, column, method) for column in poses.T]
-    function = partial(_through, curves)
-    parameters = {"path": name, "nodes": len(time), "interpolation": method}
-    duration = float(time[-1] - begin)
-    return ToolPath(name, duration, function, {**parameters, "duration": duration})
-
-
-def _through(curves: Sequence[Callable[[np.ndarray, int], np.ndarray]], at: np.ndarray) -> Triple:
-    rows = [np.stack([curve(at, order) for curve in curves], axis=-1) for order in (0, 1, 2)]
-    return rows[0], rows[1], rows[2]
-
-
-def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
-    """Paths that follow each other without a jump in pose or rate.
-
-    Raises:
-        TrajectoryError: There is none, or pose or rate jumps between two of them.
-    """
-    if not isinstance(paths, list | tuple) or not paths:
-        raise TrajectoryError(
-            f"segments are {'empty' if isinstance(paths, list | tuple) else shown(paths)}",
-            allowed="a list of at least one path",
-        )
-    for path in paths:
-        instance("a segment", path, ToolPath, "line(), arc() or through()")
-    for number, (before, after) in enumerate(itertools.pairwise(paths), start=1):
-        end, start = before.at(before.duration), after.at(0.0)
-        for what, one, two in (
-            ("pose", end.pose, start.pose),
-            ("rate", end.rate, start.rate),
-        ):
-            jump = float(np.abs(one - two).max())
-            if jump > 1e-9:
-                raise TrajectoryError(
-                    f"the {what} jumps by {jump:.3g} between segments {number} and {number + 1}",
-                    remedy="Let the segments meet, and use rest-to-rest timing around corners",
-                )
-    ends = np.cumsum([path.duration for path in paths])
-    function = partial(_joined, tuple(paths), ends)
-    parameters = {"path": name, "segments": [path.parameters for path in paths]}
-    return ToolPath(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})
-
-
-def _joined(paths: Sequence[ToolPath], ends: np.ndarray, at: np.ndarray) -> Triple:
-    which = np.minimum(np.searchsorted(ends, at, side="right"), len(paths) - 1)
-    rows = np.empty((3, len(at), 6))
-    for k, path in enumerate(paths):
-        some = which == k
-        local = np.clip(at[some] - (ends[k] - path.duration), 0.0, path.duration)
-        rows[:, some] = path.function(local)
-    return rows[0], rows[1], rows[2]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -122,13 +122,13 @@ class TrajectoryReport(TrajectoryNumbers):
         columns["condition"], columns["margin"] = self.holding.condition, self.solutions.margin
         return columns
 
-    def summary(self) -> dict[str, Any]:
+    def summary(self) -> dict[str, object]:
         """The verdict, peaks, work, balance, margins; without the samples."""
         a, time = self.actuators, self.joints.time
         force, moment = self.peak_reactions
         reading, other = self.other_reading
         worst, least = int(np.argmax(self.holding.condition)), int(np.argmin(self.solutions.margin))
-        summary = {
+        summary: dict[str, object] = {
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
             "peak_torque": a.peak_torque,

@@ -26,6 +26,3 @@ def figures(report: TrajectoryReport) -> dict[str, bytes]:
     for name, figure in drawn.items():
         files |= figure_files(name, figure)
     return files
-
-
-report_files = figures

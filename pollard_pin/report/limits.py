@@ -26,7 +26,7 @@ def distance_class(margin: np.ndarray, condition: np.ndarray) -> np.ndarray:
     """
     reach = np.digitize(margin, MARGIN_BOUNDS)
     hold = np.digitize(-condition, [-bound for bound in CONDITION_BOUNDS])
-    return np.minimum(reach, hold).astype(float)
+    return np.asarray(np.minimum(reach, hold).astype(float))
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,15 @@ from pollard_pin.report.curves import plots
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.report.view import path_scene
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin.pages.page import Page, Table, Tile, assumptions_table, html, software
+from thesis_pin.pages.page import (
+    Page,
+    Table,
+    Tile,
+    assumptions_table,
+    html,
+    parameters_table,
+    software,
+)
 from thesis_pin.pages.scene import thinned
 
 MOST_SAMPLES = 1201
@@ -35,22 +43,21 @@ def trajectory_page(report: TrajectoryReport) -> bytes:
 
 
 def _tiles(report: TrajectoryReport) -> list[Tile]:
-    a, summary = report.actuators, report.summary()
+    a = report.actuators
     return [
         Tile("peak torque at the base", f"{a.peak_torque[:3].max():.3f} N·m"),
         Tile("peak torque in the wrist", f"{a.peak_torque[3:].max() * 1e3:.1f} mN·m"),
         Tile("peak power of a motor", f"{a.peak_power.max():.3f} W"),
         Tile("work given by the motors", f"{a.positive_work.sum():.3f} J"),
-        Tile("peak ball-joint force", f"{summary['peak_loop_force'].max():.2f} N"),
-        Tile("least reach margin", f"{summary['margin']['least']:.3f}"),
-        Tile("largest condition number", f"{summary['condition']['largest']:.1f}"),
-        Tile("loops open by, most", f"{summary['residual']['loops']:.1e} m"),
+        Tile("peak ball-joint force", f"{report.loop_force_size.max():.2f} N"),
+        Tile("least reach margin", f"{report.solutions.margin.min():.3f}"),
+        Tile("largest condition number", f"{report.holding.condition.max():.1f}"),
+        Tile("loops open by, most", f"{report.solutions.loop_residual.max():.1e} m"),
     ]
 
 
 def _tables(report: TrajectoryReport) -> list[Table]:
-    a, summary = report.actuators, report.summary()
-    reading = summary["other_inertia"]
+    a, (reading, other) = report.actuators, report.other_reading
     motors = Table(
         "Motors",
         (
@@ -63,7 +70,7 @@ def _tables(report: TrajectoryReport) -> list[Table]:
             "work + J",
             "work − J",
             "net J",
-            f"peak N·m, {reading['reading']}",
+            f"peak N·m, {reading}",
         ),
         [
             (
@@ -74,9 +81,9 @@ def _tables(report: TrajectoryReport) -> list[Table]:
                 f"{a.peak_speed[k]:.3f}",
                 f"{a.peak_power[k]:.4f}",
                 f"{a.positive_work[k]:.4f}",
-                f"{a.negative_work[k]:.4f}",
-                f"{a.net_work[k]:.5f}",
-                f"{reading['peak_torque'][k]:.4f}",
+                f"{a.negative_work[k]:z.4f}",
+                f"{a.net_work[k]:z.5f}",
+                f"{other[k]:.4f}",
             )
             for k, name in enumerate(a.names)
         ],
@@ -96,11 +103,6 @@ def _tables(report: TrajectoryReport) -> list[Table]:
         motors,
         joints,
         assumptions_table(report.assumptions()),
-        Table(
-            "Parameters",
-            ("parameter", "value"),
-            [(name.replace("_", " "), str(value)) for name, value in report.parameters.items()],
-            prose=True,
-        ),
+        parameters_table(report.parameters),
         software(),
     ]

@@ -19,7 +19,7 @@ from thesis_pin.report import branches
 
 def print_report(report: TrajectoryReport) -> None:
     """Print the summary of a trajectory report."""
-    a, summary = report.actuators, report.summary()
+    a, time = report.actuators, report.joints.time
     three = report.three is not None
     rows = []
     for k, symbol in enumerate(ACTUATOR_SYMBOLS[: 3 if three else 6]):
@@ -42,24 +42,24 @@ def print_report(report: TrajectoryReport) -> None:
         f"{report.path.duration:g} s, {report.robot.inertia} inertias "
         "(N·m, rad/s, W, J)",
     )
-    energy, condition = summary["energy"], summary["condition"]
-    margin, reading = summary["margin"], summary["other_inertia"]
-    force = summary["peak_loop_force"]
-    joint = int(np.argmax(summary["peak_joint_force"]))
+    condition, margin = report.holding.condition, report.solutions.margin
+    reading, other = report.other_reading
+    force, joint_force = report.loop_force_size.max(axis=0), report.peak_reactions[0]
+    joint = int(np.argmax(joint_force))
     if not three:
         print_text(
-            f"Energy: the motors' net work is {energy['net_work'] * 1e3:.4f} mJ, the robot's "
-            f"energy changes by {energy['change'] * 1e3:.4f} mJ."
+            f"Energy: the motors' net work is {report.work_done[-1].sum() * 1e3:.4f} mJ, the "
+            f"robot's energy changes by {report.energy_change * 1e3:.4f} mJ."
         )
     print_text(
         f"Loop reactions: up to {force[0]:.3f} N and {force[1]:.3f} N in the ball joints; the "
         f"most loaded other joint is {JOINT_NAMES[joint]} with "
-        f"{summary['peak_joint_force'][joint]:.2f} N.",
-        f"Actuation: condition number {condition['least']:.2f} to {condition['largest']:.2f} "
-        f"(largest at t = {condition['time']:.3f} s), determinant of constant sign. "
-        f"Reach margin at least {margin['least']:.3f} (t = {margin['time']:.3f} s).",
-        f"With {reading['reading']} inertias the base motors of six would peak at "
-        f"{', '.join(f'{value:.3f}' for value in reading['peak_torque'][:3])} N·m.",
+        f"{joint_force[joint]:.2f} N.",
+        f"Actuation: condition number {condition.min():.2f} to {condition.max():.2f} "
+        f"(largest at t = {time[condition.argmax()]:.3f} s), determinant of constant sign. "
+        f"Reach margin at least {margin.min():.3f} (t = {time[margin.argmin()]:.3f} s).",
+        f"With {reading} inertias the base motors of six would peak at "
+        f"{', '.join(f'{value:.3f}' for value in other[:3])} N·m.",
         "",
         *report.verdict(),
         "",

@@ -123,7 +123,7 @@ def _description(report: TrajectoryReport) -> str:
 
 
 def _opening(report: TrajectoryReport) -> np.ndarray:
-    return np.linalg.norm(report.solutions.posture.opening, axis=-1).max(axis=-1)
+    return np.asarray(np.linalg.norm(report.solutions.posture.opening, axis=-1).max(axis=-1))
 
 
 def _tool(

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.specification import ACTUATORS
 from pollard_pin.thesis.claims.dynamics import AWAY
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel

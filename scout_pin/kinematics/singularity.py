@@ -3,41 +3,36 @@
 from __future__ import annotations
 
 import numpy as np
-import pinocchio as pin
+from numpy.typing import ArrayLike
 
-from scout_pin.model import Scout
-from scout_pin.specification import SIDES
+from scout_pin.kinematics.forward import leg_forward_kinematics
+from scout_pin.kinematics.geometry import LegGeometry
+from scout_pin.kinematics.screws import LegScrews
+from thesis_pin.numeric.arrays import finite_array
 
 
-def leg_conditioning(robot: Scout, theta: np.ndarray) -> np.ndarray:
-    """Smallest over largest singular value of each leg's Jacobian; 0 is singular, 1 is best.
+def leg_conditioning(leg: LegGeometry, theta: ArrayLike) -> np.ndarray:
+    """Smallest over largest singular value of a leg's Jacobian; 0 is singular, 1 is best.
 
     The Jacobian gives the sole's twist relative to the torso. Its linear rows
     are divided by the length of the stretched leg, so that both kinds of rows
     are radians.
 
     Args:
-        robot: The biped.
-        theta: Joint angles [rad], shape ``(n, 12)``.
+        leg: Geometry of the leg.
+        theta: Joint angles [rad], shape ``(n, 6)``.
 
     Returns:
-        Left and right leg, shape ``(n, 2)``.
+        One number a sample, shape ``(n,)``.
     """
-    model, data = robot.model, robot.model.createData()
-    q = pin.neutral(model)
-    first = model.nv - 12
-    matrices = np.empty((len(theta), 2, 6, 6))
-    for k in range(len(theta)):
-        q[-12:] = theta[k]
-        pin.computeJointJacobians(model, data, q)
-        pin.updateFramePlacements(model, data)
-        for j, side in enumerate(SIDES):
-            frame = pin.getFrameJacobian(
-                model, data, robot.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
-            )
-            matrices[k, j] = frame[:, first + 6 * j : first + 6 * j + 6]
-    for j, side in enumerate(SIDES):
-        leg = robot.specification.leg(side)
-        matrices[:, j, :3] /= leg.x_3 + leg.x_4
-    values = np.linalg.svd(matrices, compute_uv=False)
-    return values[..., -1] / values[..., 0]
+    theta = finite_array("theta", theta, None, 6)
+    screws, sole = LegScrews(leg, theta), leg_forward_kinematics(leg, theta)[:, :3, 3].T
+    still = np.zeros((3, len(theta)))
+    rows = []
+    # A row of the Jacobian is the torques of a unit force or moment on the sole.
+    for axis in np.eye(3):
+        unit = still + axis[:, None]
+        forced = screws.torques(unit, np.cross(sole, unit, axis=0)) / (leg.x_3 + leg.x_4)
+        rows += [forced, screws.torques(still, unit)]
+    values = np.linalg.svd(np.array(rows).transpose(2, 0, 1), compute_uv=False)
+    return np.asarray(values[:, -1] / values[:, 0])

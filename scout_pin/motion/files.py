@@ -17,6 +17,7 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.gait import BODIES, Gait, Phase
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.samples import Line, check_increasing, check_width, numbers, read_rows
 from thesis_pin.model.specification import Key, Positive, Strict, read_toml
 from thesis_pin.numeric.checks import choice
@@ -77,7 +78,7 @@ class GaitFile(Strict):
     torso: BodyCurves
     left_foot: BodyCurves
     right_foot: BodyCurves
-    phases: Annotated[tuple[Phase, ...], Field(min_length=1)]
+    phases: Annotated[tuple[Phase, ...], Field(min_length=1, max_length=LIMITS.phases)]
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Phases follow each other; segments do, with as many values as nodes."""
@@ -252,6 +253,13 @@ def _from_csv(path: Path, method: str) -> Gait:
         if name.endswith(("pitch", "roll", "yaw")):
             values[name] = np.unwrap(values[name])
     phases = tuple(_csv_phases(rows, columns.index("support"), t))
+    if len(phases) > LIMITS.phases:
+        raise TrajectoryError(
+            f"support changes {len(phases) - 1:,} times",
+            where=str(path),
+            allowed=f"at most {LIMITS.phases:,} phases",
+            remedy="A sensor's noise isn't a phase: filter the column first",
+        )
     absent = np.zeros(len(t))
     curves = {
         body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in POSE_NAMES)

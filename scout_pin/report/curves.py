@@ -228,7 +228,8 @@ def joint_angles(report: GaitReport, keep: Samples, side: str = "") -> Plot:
 
 
 def _conditioning(report: GaitReport, keep: Samples) -> Plot:
-    good = leg_conditioning(report.robot, report.joints.q[keep])
+    legs, angles = report.robot.legs, report.joints.q[keep].reshape(-1, 2, 6)
+    good = [leg_conditioning(legs[side], angles[:, k]) for k, side in enumerate(SIDES)]
     return _over_time(
         report,
         keep,
@@ -236,7 +237,7 @@ def _conditioning(report: GaitReport, keep: Samples) -> Plot:
         "Smallest over largest singular value of each leg's Jacobian (lengths divided by "
         "the stretched leg's); 0 is singular.",
         "reciprocal condition [-]",
-        [Curve(f"{n} leg", good[:, k], c, d) for k, (n, c, d) in enumerate(_FEET)],
+        [Curve(f"{n} leg", good[k], c, d) for k, (n, c, d) in enumerate(_FEET)],
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -116,11 +115,10 @@ class GaitReport(GaitNumbers):
         columns["margin_m"] = self.margin
         return columns
 
-    def summary(self) -> dict[str, Any]:
+    def summary(self) -> dict[str, object]:
         """Peaks, margins, limits and the verdict; without the samples."""
         a, d = self.actuators, self.dynamics
         sample, violation = self.worst_contact
-        used = d.friction_used
         return {
             "within_limits": self.within_limits,
             "can_walk": self.can_walk,
@@ -144,7 +142,7 @@ class GaitReport(GaitNumbers):
             "admissible_share": float(d.admissible.mean()),
             "least_violation": violation,
             "least_violation_time": float(self.joints.time[sample]),
-            "peak_friction_used": float(np.nanmax(used)) if np.isfinite(used).any() else None,
+            "peak_friction_used": self.peak_friction_used,
             "swing_clearance": self.clearance,
             "rate_jumps": [
                 {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}

@@ -58,7 +58,7 @@ class GaitNumbers:
             np.abs(self.dynamics.torque) / self.robot.stall_torque
             + np.abs(self.joints.v) / self.robot.no_load_speed
         )
-        return share.max(axis=0)
+        return np.asarray(share.max(axis=0))
 
     @cached_property
     def fastest(self) -> FastestTimeUnit:
@@ -78,6 +78,12 @@ class GaitNumbers:
     def rate_jumps(self) -> list[RateJump]:
         """Instants at which a planned rate jumps, largest first."""
         return self.gait.rate_jumps(self.time_unit)
+
+    @cached_property
+    def peak_friction_used(self) -> float | None:
+        """Largest share of the admissible friction in use; None if no foot bears load."""
+        used = self.dynamics.friction_used
+        return float(np.nanmax(used)) if np.isfinite(used).any() else None
 
     @cached_property
     def worst_contact(self) -> tuple[int, float]:

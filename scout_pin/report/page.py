@@ -8,7 +8,15 @@ from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
 from scout_pin.report.view import gait_scene
 from scout_pin.specification import JOINT_SYMBOLS
-from thesis_pin.pages.page import Page, Table, Tile, assumptions_table, html, software
+from thesis_pin.pages.page import (
+    Page,
+    Table,
+    Tile,
+    assumptions_table,
+    html,
+    parameters_table,
+    software,
+)
 from thesis_pin.pages.scene import thinned
 
 MOST_SAMPLES = 1201
@@ -39,7 +47,7 @@ def gait_page(report: GaitReport) -> bytes:
 
 def _tiles(report: GaitReport) -> list[Tile]:
     use, fastest = report.servo_use.max(), report.fastest.line
-    used = report.summary()["peak_friction_used"]
+    used = report.peak_friction_used
     return [
         Tile(
             "worst ZMP margin", f"{report.margin.min() * 1e3:.1f} mm", bool(report.margin.min() > 0)
@@ -84,7 +92,7 @@ def _tables(report: GaitReport) -> list[Table]:
                 f"{a.peak_speed[k]:.2f}",
                 f"{a.peak_power[k]:.3f}",
                 f"{a.positive_work[k] * 1e3:.1f}",
-                f"{a.negative_work[k] * 1e3 + 0.0:.1f}",
+                f"{a.negative_work[k] * 1e3:z.1f}",
                 f"{report.servo_use[k]:.0%}",
             )
             for k, name in enumerate(a.names)
@@ -95,12 +103,7 @@ def _tables(report: GaitReport) -> list[Table]:
         joints,
         *_impacts(report),
         assumptions_table(report.assumptions()),
-        Table(
-            "Parameters",
-            ("parameter", "value"),
-            [(name.replace("_", " "), str(value)) for name, value in report.parameters.items()],
-            prose=True,
-        ),
+        parameters_table(report.parameters),
         software(),
     ]
 
@@ -112,10 +115,10 @@ def _impacts(report: GaitReport) -> list[Table]:
         (
             impact.side,
             f"{impact.t * report.time_unit:.3f}",
-            f"{-impact.foot_velocity[2] * 1e3:.0f}",
-            f"{impact.impulse[0, 2] * 1e3:.1f}",
+            f"{-impact.foot_velocity[2] * 1e3:z.0f}",
+            f"{impact.impulse[0, 2] * 1e3:z.1f}",
             f"{np.abs(impact.velocity_jump).max():.2f}",
-            f"{impact.energy_lost * 1e3:.2f}",
+            f"{impact.energy_lost * 1e3:z.2f}",
         )
         for impact in report.impacts
     ]

@@ -42,7 +42,7 @@ def print_report(report: GaitReport) -> None:
     )
     s, f = report.robot, report.fastest
     torque, line = (f"{x:.4f} s" if x is not None else "none" for x in (f.torque, f.line))
-    used = report.summary()["peak_friction_used"]
+    used = report.peak_friction_used
     print_text(
         f"Servo limits: {s.stall_torque.min():g} N·m, {s.no_load_speed.min():g} rad/s; "
         "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
@@ -50,7 +50,7 @@ def print_report(report: GaitReport) -> None:
         f"ZMP margin: worst {report.margin.min() * 1e3:.1f} mm; stable in "
         f"{report.stable_share:.1%} of the time.",
         f"Floor wrench: admissible in {report.dynamics.admissible.mean():.1%} of samples; "
-        f"friction used up to {used:.0%}.",
+        "friction used up to " + ("–." if used is None else f"{used:.0%}."),
         f"Lowest corner of a swinging sole: {report.clearance * 1e3:.1f} mm above the floor.",
     )
     for impact in report.impacts:

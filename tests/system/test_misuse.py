@@ -14,7 +14,7 @@ import pytest
 import pollard_pin
 import scout_pin
 from pollard_pin.dynamics.inverse import tree_torques
-from pollard_pin.motion import path as pollard_path
+from pollard_pin.motion import curves as pollard_curves
 from pollard_pin.thesis import ExplicitModel as PollardExplicit
 from scout_pin.thesis import ExplicitModel as ScoutExplicit
 from thesis_pin.errors import BadInput, ThesisPinError
@@ -104,14 +104,23 @@ CALLS = {
     "Gait.rate_jumps": (GAIT.rate_jumps, {"time_unit": 0.1}),
     "Gait.body": (GAIT.body, {"name": "torso", "t": TIMES, "time_unit": 0.1}),
     "Gait.sample": (GAIT.sample, {"t": TIMES, "time_unit": 0.1}),
-    "scout joint_trajectory": (scout_pin.joint_trajectory, {"robot": SCOUT, "motion": MOTION}),
+    "scout joint_trajectory": (
+        scout_pin.joint_trajectory,
+        {
+            "robot": SCOUT,
+            "motion": MOTION,
+            "branch": ("+++", "-+-"),
+            "reference": np.zeros(12),
+        },
+    ),
+    "configuration": (SCOUT.configuration, {"torso": np.eye(4), "angles": np.zeros(12)}),
     "scout inverse_dynamics": (
         scout_pin.inverse_dynamics,
         {"robot": SCOUT, "motion": MOTION, "joints": scout_pin.joint_trajectory(SCOUT, MOTION)},
     ),
     "gait_report": (
         scout_pin.gait_report,
-        {"robot": SCOUT, "gait": GAIT, "samples": 5, "time_unit": 0.1},
+        {"robot": SCOUT, "gait": GAIT, "samples": 5, "time_unit": 0.1, "branch": "+++,-+-"},
     ),
     "touchdown_impact": (
         scout_pin.touchdown_impact,
@@ -209,11 +218,11 @@ CALLS = {
     "Path.at": (PATH.at, {"time": [0.0, 1.0]}),
     "Path.sample": (PATH.sample, {"count": 5}),
     "line": (
-        pollard_path.line,
+        pollard_curves.line,
         {"start": POSE, "end": END, "duration": 1.0, "timing": "rest-to-rest"},
     ),
     "arc": (
-        pollard_path.arc,
+        pollard_curves.arc,
         {
             "start": POSE,
             "via": [0.47, 0.05, 0.1],
@@ -223,10 +232,10 @@ CALLS = {
         },
     ),
     "through": (
-        pollard_path.through,
+        pollard_curves.through,
         {"time": [0, 1, 2], "poses": np.zeros((3, 6)), "method": "cubic"},
     ),
-    "joined": (pollard_path.joined, {"paths": [PATH]}),
+    "joined": (pollard_curves.joined, {"paths": [PATH]}),
     "load_path": (pollard_pin.load_path, {"file": str(EXAMPLES / "spray_arch.toml")}),
     "trajectory_report": (
         pollard_pin.trajectory_report,

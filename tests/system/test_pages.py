@@ -1,6 +1,7 @@
 """Pages in a real browser: they draw, move, obey, and ask nothing of any network."""
 
 import signal
+import socket
 import subprocess
 import sys
 import urllib.request
@@ -334,6 +335,25 @@ def test_plots_follow_the_animation_and_a_click_goes_to_its_moment(browser, repo
         "document.querySelectorAll('.plot .canvas')[1].emit('plotly_click', {points: [{x: 1.25}]})"
     )
     assert browser.run("player.time") == pytest.approx(1.25)
+
+
+def test_a_page_cannot_be_made_to_ask_any_network(browser, view_file, report_file):
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        listening.setblocking(False)
+        address = f"http://127.0.0.1:{listening.getsockname()[1]}/"
+        for file in (view_file, report_file):
+            browser.open(file.as_uri())
+            browser.until("window.player && player.framesDrawn > 0")
+            asked = f"fetch('{address}').then(() => 'sent', (error) => String(error))"
+            assert "TypeError" in browser.run(asked)
+            browser.run(
+                "new Promise((done) => { const image = new Image(); image.onerror = () => done();"
+                f"image.src = '{address}'; }})"
+            )
+            refused = [text for text in browser.complaints() if "Content Security Policy" in text]
+            assert len(refused) >= 2, browser.complaints()
+        with pytest.raises(BlockingIOError):
+            listening.accept()
 
 
 EVIL = "</script><script>window.stolen = 1</script><img src=x onerror='window.stolen = 2'>"

@@ -8,7 +8,7 @@ import pytest
 from chromium import differing, share_drawn
 
 import pollard_pin
-from pollard_pin.motion.path import appendix_b, line
+from pollard_pin.motion.curves import appendix_b, line
 from pollard_pin.report import curves
 from pollard_pin.report.limits import MARGIN_BOUNDS
 from pollard_pin.report.page import trajectory_page

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.rows import HOLDS, AuditReport, Row
@@ -11,7 +10,7 @@ from thesis_pin.audit.rows import HOLDS, AuditReport, Row
 SCHEMA, VERSION = "thesis-pin/audit", 2
 
 
-def document(report: AuditReport) -> dict[str, Any]:
+def document(report: AuditReport) -> dict[str, object]:
     """The report for :func:`thesis_pin.report.writers.json_bytes`.
 
     A residual of a formula that can't be evaluated is null, and ``reason`` says why.
@@ -53,7 +52,7 @@ def document(report: AuditReport) -> dict[str, Any]:
     }
 
 
-def row_document(row: Row) -> dict[str, Any]:
+def row_document(row: Row) -> dict[str, object]:
     """One row as JSON."""
     return {
         "id": row.id,

@@ -1,8 +1,12 @@
-"""A slip that several printed lines share, explained once."""
+"""Slips that several printed lines share, each explained once, in a file beside the equations."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
+
+from thesis_pin.model.specification import Key, Strict, read_toml
 
 
 @dataclass(frozen=True)
@@ -18,3 +22,30 @@ class Cause:
     title: str
     enters: str
     explanation: str
+
+
+class _Entry(Strict):
+    name: str
+    title: str
+    enters: str
+    explanation: str
+
+
+class _CauseFile(Strict):
+    cause: tuple[_Entry, ...]
+
+    def cross_check(self) -> Iterator[tuple[Key, str, object]]:
+        names = [entry.name for entry in self.cause]
+        for k, name in enumerate(names):
+            if name in names[:k]:
+                yield ("cause", k, "name"), "used twice", name
+
+
+def read_causes(path: Path) -> dict[str, Cause]:
+    """Causes by the name that the equations' ``cause`` has, in the file's order.
+
+    Raises:
+        SpecificationError: The file breaks the schema; lists every problem.
+    """
+    file = read_toml("causes", _CauseFile, path)
+    return {one.name: Cause(one.title, one.enters, one.explanation) for one in file.cause}

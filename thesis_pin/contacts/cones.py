@@ -84,7 +84,7 @@ class Contact:
 
     def scale(self, wrench: np.ndarray) -> np.ndarray:
         """Wrenches with forces multiplied by :attr:`length` [N·m], ``(..., 6)``."""
-        return finite_array("wrench", wrench, 6) * np.repeat([self.length, 1.0], 3)
+        return np.asarray(finite_array("wrench", wrench, 6) * np.repeat([self.length, 1.0], 3))
 
     def margin(self, wrench: np.ndarray) -> np.ndarray:
         """How far wrenches are inside the cone [N·m], negative outside.
@@ -127,7 +127,7 @@ class Contact:
         wrench = finite_array("wrench", wrench, 6)
         loaded = wrench[..., 2] > 0
         limit = self.friction * np.where(loaded, wrench[..., 2], np.nan)
-        return np.hypot(wrench[..., 0], wrench[..., 1]) / limit
+        return np.asarray(np.hypot(wrench[..., 0], wrench[..., 1]) / limit)
 
     def centre_of_pressure(self, wrench: np.ndarray) -> np.ndarray:
         """Point of the sole where the pressure acts [m], ``(..., 6)`` → ``(..., 2)``."""

@@ -81,7 +81,7 @@ def kinetic_energy(body: Body, rates: np.ndarray) -> np.ndarray:
     velocity = (body.linear @ rates[..., None])[..., 0]
     omega = (body.angular @ rates[..., None])[..., 0]
     spin = (body.inertia @ omega[..., None])[..., 0]
-    return 0.5 * (body.mass * (velocity * velocity).sum(-1) + (omega * spin).sum(-1))
+    return np.asarray(0.5 * (body.mass * (velocity * velocity).sum(-1) + (omega * spin).sum(-1)))
 
 
 def exact_rates(moved: Sequence[Body]) -> np.ndarray:

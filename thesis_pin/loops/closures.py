@@ -30,7 +30,7 @@ from thesis_pin.errors import BadInput, ModelError, UnknownName
 from thesis_pin.loops.joint_types import replace_joints
 from thesis_pin.loops.yaml_text import parse_yaml
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.loading import LoadedRobot, frame_id
+from thesis_pin.model.loading import LoadedRobot, RootJoint, frame_id
 from thesis_pin.model.source import read_bytes, read_text
 from thesis_pin.model.specification import Key, Strict, validate
 from thesis_pin.numeric.checks import shown
@@ -38,7 +38,7 @@ from thesis_pin.numeric.checks import shown
 FILE_KIND = "closure file"
 
 _Entry = TypeVar("_Entry")
-Bounded = Annotated[tuple[_Entry, ...], Field(max_length=LIMITS.joints)]
+Bounded = Annotated[tuple[_Entry, ...], Field(max_length=LIMITS.entries)]
 
 
 class Extra(Strict):
@@ -133,7 +133,9 @@ class Loop:
         """Number of equations, 3 or 6."""
         return int(self.kind[0])
 
-    def constraint_model(self, model: pin.Model) -> Any:
+    def constraint_model(
+        self, model: pin.Model
+    ) -> pin.PointAnchorConstraintModel | pin.FrameAnchorConstraintModel:
         """The loop as a ``PointAnchorConstraintModel`` or ``FrameAnchorConstraintModel``.
 
         Its residual is the second frame seen from the first. Of a point anchor the
@@ -145,7 +147,7 @@ class Loop:
         kind = pin.PointAnchorConstraintModel if self.size == 3 else pin.FrameAnchorConstraintModel
         return kind(model, one.parentJoint, one.placement, two.parentJoint, two.placement)
 
-    def rigid_constraint_model(self, model: pin.Model) -> Any:
+    def rigid_constraint_model(self, model: pin.Model) -> pin.RigidConstraintModel:
         """The loop as a ``RigidConstraintModel``, which ``constraintDynamics`` asks for."""
         one, two = (model.frames[k] for k in self.ids)
         kind = pin.ContactType.CONTACT_3D if self.size == 3 else pin.ContactType.CONTACT_6D
@@ -178,7 +180,7 @@ class ClosedRobot(LoadedRobot):
         self,
         urdf: str | bytes,
         closures: ClosureFile,
-        root_joint: Any = None,
+        root_joint: RootJoint = None,
         *,
         where: str = FILE_KIND,
         source: Path | None = None,
@@ -227,7 +229,7 @@ class ClosedRobot(LoadedRobot):
         """Number of closure equations; some may depend on others."""
         return sum(loop.size for loop in self.loops)
 
-    def rigid_constraint_models(self) -> Any:
+    def rigid_constraint_models(self) -> pin.StdVec_RigidConstraintModel:
         """A fresh ``StdVec_RigidConstraintModel`` for ``constraintDynamics``."""
         models = pin.StdVec_RigidConstraintModel()
         for loop in self.loops:
@@ -235,7 +237,7 @@ class ClosedRobot(LoadedRobot):
         return models
 
 
-def load(urdf: str | Path, closures: str | Path, root_joint: Any = None) -> ClosedRobot:
+def load(urdf: str | Path, closures: str | Path, root_joint: RootJoint = None) -> ClosedRobot:
     """Load a looped robot from a URDF file and the closure file beside it.
 
     Args:

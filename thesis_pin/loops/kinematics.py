@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -251,7 +250,9 @@ def constraint_drift(
     return np.concatenate(parts)
 
 
-def newton_close(robot: ClosedRobot, q: np.ndarray, movable: Any, iterations: int) -> np.ndarray:
+def newton_close(
+    robot: ClosedRobot, q: np.ndarray, movable: slice | np.ndarray, iterations: int
+) -> np.ndarray:
     """Newton steps of the movable joints from q ``(nq,)`` until the loops are closed."""
     data, best, size = robot.model.createData(), q, math.inf
     for _ in range(iterations):

@@ -28,7 +28,7 @@ def parallel_axis(mass: float, com: np.ndarray) -> np.ndarray:
     # Summed term by term: a BLAS dot product rounds differently from processor to
     # processor, and these numbers are written into generated files.
     x, y, z = com
-    return mass * ((x * x + y * y + z * z) * np.eye(3) - np.outer(com, com))
+    return np.asarray(mass * ((x * x + y * y + z * z) * np.eye(3) - np.outer(com, com)))
 
 
 def centroidal_inertia(
@@ -60,7 +60,7 @@ def centroidal_inertia(
         return tensor
     if convention == "products_about_joint":
         tensor = 2 * np.diag(np.diag(tensor)) - tensor
-    return tensor - parallel_axis(mass, np.asarray(com, dtype=float))
+    return np.asarray(tensor - parallel_axis(mass, np.asarray(com, dtype=float)))
 
 
 def pseudo_inertia(mass: float, com: np.ndarray, centroidal: np.ndarray) -> np.ndarray:

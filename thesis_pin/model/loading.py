@@ -6,8 +6,9 @@ import functools
 import shutil
 import tempfile
 import weakref
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pinocchio as pin
@@ -18,8 +19,8 @@ from thesis_pin.model.formats.urdf import read_urdf
 from thesis_pin.model.soundness import check_agreement, check_description
 from thesis_pin.numeric.checks import instance, shown
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+RootJoint: TypeAlias = pin.JointModel | Sequence[tuple[str, pin.JointModel]] | None
+"""Joint between world and root link; several (name, joint) in series; None to fix it."""
 
 
 def model_folder(robot: str) -> Path:
@@ -58,7 +59,7 @@ def check_urdf(urdf: str | bytes, *, where: str = "URDF") -> Description:
 
 def load_model(
     urdf: str | bytes | Description,
-    root_joint: pin.JointModel | Sequence[tuple[str, object]] | None = None,
+    root_joint: RootJoint = None,
     *,
     where: str = "URDF",
 ) -> pin.Model:
@@ -80,7 +81,7 @@ def load_model(
     try:
         if root_joint is None:
             model = pin.buildModelFromXML(description.text)
-        elif isinstance(root_joint, list):
+        elif isinstance(root_joint, list | tuple):
             roots = len(root_joint)
             model = _on_chain(root_joint, pin.buildModelFromXML(description.text))
         else:
@@ -98,7 +99,7 @@ def load_model(
     return model
 
 
-def _on_chain(joints: list[tuple[str, Any]], model: pin.Model) -> pin.Model:
+def _on_chain(joints: Sequence[tuple[str, pin.JointModel]], model: pin.Model) -> pin.Model:
     """A fixed model set upon joints in series."""
     base, parent = pin.Model(), 0
     for name, joint in joints:
@@ -145,7 +146,7 @@ class LoadedRobot:
         self,
         urdf: str | bytes,
         meshes: Mapping[str, str],
-        root_joint: pin.JointModel | Sequence[tuple[str, object]] | None = None,
+        root_joint: RootJoint = None,
         *,
         where: str = "URDF",
     ) -> None:

@@ -57,8 +57,13 @@ def read_rows(kind: str, file: str | Path) -> list[Line]:
     name, count = str(file), 0
     try:
         for cells in reader:
-            _check_size(kind, f"{name}:{reader.line_num}", len(cells), count, len(rows))
-            stripped = tuple(cell.strip() for cell in cells)
+            if (
+                len(cells) > LIMITS.columns
+                or count + len(cells) > LIMITS.cells
+                or len(rows) >= LIMITS.rows
+            ):
+                _refuse_size(kind, f"{name}:{reader.line_num}", len(cells), count, len(rows))
+            stripped = tuple([cell.strip() for cell in cells])  # faster than a generator
             if any(stripped) and not stripped[0].startswith("#"):
                 rows.append(Line(name, reader.line_num, stripped))
                 count += len(stripped)
@@ -70,7 +75,7 @@ def read_rows(kind: str, file: str | Path) -> list[Line]:
     return rows
 
 
-def _check_size(kind: str, where: str, columns: int, cells: int, rows: int) -> None:
+def _refuse_size(kind: str, where: str, columns: int, cells: int, rows: int) -> None:
     for what, count, most in (
         ("columns", columns, LIMITS.columns),
         ("cells", cells + columns, LIMITS.cells),
@@ -122,6 +127,15 @@ def numbers(rows: Sequence[Line], columns: Sequence[int], names: Sequence[str]) 
         BadInput: A cell isn't a finite number; says line and column.
     """
     table = np.empty((len(rows), len(columns)))
+    try:  # a column at a time, which is several times faster
+        for j, column in enumerate(columns):
+            cells = [row.cells[column] for row in rows]
+            table[:, j] = list(map(float, cells))
+            table[["_" in cell for cell in cells], j] = np.nan
+        if (np.abs(table) <= LIMITS.magnitude).all():
+            return table
+    except ValueError:
+        pass  # found again below, with its place
     for k, row in enumerate(rows):
         for j, column in enumerate(columns):
             value = finite(row.cells[column])

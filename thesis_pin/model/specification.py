@@ -7,7 +7,6 @@ allowed there.
 
 from __future__ import annotations
 
-import math
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
@@ -17,11 +16,10 @@ from typing import Annotated, Any, TypeVar
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from thesis_pin.errors import BadInput, Problem, SpecificationError
-from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.limits import LIMITS, bounded
+from thesis_pin.model.limits import Key as Key
 from thesis_pin.model.source import read_text
 from thesis_pin.numeric.checks import brief, shown
-
-Key = tuple[str | int, ...]
 
 
 class Strict(BaseModel):
@@ -110,7 +108,7 @@ def _check_dots(kind: str, text: str, where: str) -> None:
 def validate(
     kind: str,
     schema: type[File],
-    data: Any,
+    data: object,
     *,
     where: str = "<data>",
     lines: dict[Key, int] | None = None,
@@ -160,45 +158,6 @@ def validate(
     if found:
         raise SpecificationError(kind, found)
     return result
-
-
-def bounded(data: object) -> tuple[Any, list[tuple[Key, str, object]]]:
-    """Data with tuples for lists, and what passes :data:`~thesis_pin.model.limits.LIMITS`.
-
-    Args:
-        data: Nested dicts and lists.
-
-    Returns:
-        The same data with tuples for its lists, and key, complaint and value of
-        everything that is too large, too long, too deep or too much.
-    """
-    problems: list[tuple[Key, str, object]] = []
-    count = 0
-
-    def copy(value: object, key: Key) -> object:
-        nonlocal count
-        count += 1
-        if count > LIMITS.values:
-            if count == LIMITS.values + 1:
-                problems.append((key[:1], f"holds more than {LIMITS.values:,} values", None))
-            return None
-        if len(key) > LIMITS.nesting:
-            problems.append((key[:3], f"is nested deeper than {LIMITS.nesting} levels", None))
-            return None
-        if isinstance(value, dict):
-            for name in value:
-                if len(str(name)) > LIMITS.key:
-                    problems.append((key, f"a key is longer than {LIMITS.key} characters", name))
-            return {name: copy(one, (*key, name)) for name, one in value.items()}
-        if isinstance(value, list | tuple):
-            return tuple(copy(one, (*key, k)) for k, one in enumerate(value))
-        if isinstance(value, str) and len(value) > LIMITS.text:
-            problems.append((key, f"is longer than {LIMITS.text:,} characters", value))
-        if isinstance(value, int | float) and LIMITS.magnitude < abs(value) < math.inf:
-            problems.append((key, f"its magnitude must be at most {LIMITS.magnitude:g}", value))
-        return value
-
-    return copy(data, ()), problems
 
 
 def key_lines(text: str) -> dict[Key, int]:

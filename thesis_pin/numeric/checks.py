@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import reprlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from numbers import Integral, Real
 from typing import Any, TypeVar
 
@@ -116,8 +116,8 @@ def whole(name: str, value: object, least: int, *, error: type[BadInput] = BadIn
     return int(value)
 
 
-def function(name: str, value: object, form: str) -> Callable[..., Any]:
-    """Something that can be called.
+def function(name: str, value: object, form: str) -> None:
+    """Refuse what can't be called.
 
     Args:
         name: Name of the argument, for messages.
@@ -129,7 +129,6 @@ def function(name: str, value: object, form: str) -> Callable[..., Any]:
     """
     if not callable(value):
         raise BadInput(f"{name} is {shown(value)}", allowed=f"a function, {form}")
-    return value
 
 
 def element(index: object, shape: tuple[int, ...], what: str) -> tuple[int, ...]:

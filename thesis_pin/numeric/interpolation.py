@@ -15,6 +15,10 @@ from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice
+from thesis_pin.tolerances import TOLERANCES
+
+MOST_COEFFICIENTS = 32
+"""Coefficients of a polynomial at most; more can't be evaluated in doubles anyway."""
 
 
 def _nodes(t: ArrayLike, value: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
@@ -25,11 +29,12 @@ def _nodes(t: ArrayLike, value: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
             f"{nodes.size} nodes and {values.size} values",
             allowed="as many values as nodes, at least 2",
         )
-    if (np.diff(nodes) <= 0).any():
-        k = int(np.argmax(np.diff(nodes) <= 0))
+    short = ~(np.diff(nodes) >= TOLERANCES.step)
+    if short.any():
+        k = int(np.argmax(short))
         raise TrajectoryError(
-            f"time goes from {nodes[k]:g} to {nodes[k + 1]:g} at node {k + 1}",
-            allowed="strictly increasing t",
+            f"time goes from {nodes[k]:.12g} to {nodes[k + 1]:.12g} at node {k + 1}",
+            allowed=f"strictly increasing t, in steps of at least {TOLERANCES.step:g}",
         )
     return nodes, values
 
@@ -120,7 +125,18 @@ def polynomial(start: float, end: float, coefficients: Sequence[float]) -> PPoly
 
     The theses print their splines that way; PPoly counts from a piece's start.
     """
-    shifted = np.poly1d(coefficients)(np.poly1d([1.0, start]))
+    if len(coefficients) > MOST_COEFFICIENTS:
+        raise TrajectoryError(
+            f"a polynomial has {len(coefficients)} coefficients",
+            allowed=f"at most {MOST_COEFFICIENTS}",
+        )
+    with np.errstate(over="ignore", invalid="ignore"):
+        shifted = np.poly1d(coefficients)(np.poly1d([1.0, start]))
+    if not np.isfinite(np.poly1d(shifted).coeffs).all():
+        raise TrajectoryError(
+            f"a polynomial overflows between t = {start:g} and {end:g}",
+            remedy="Give coefficients and times of usual size",
+        )
     return PPoly(np.atleast_1d(np.poly1d(shifted).coeffs)[:, None], np.array([start, end]))
 
 
@@ -131,7 +147,7 @@ def jumps(curve: PPoly, order: int = 0) -> np.ndarray:
     before = np.zeros(len(width))
     for coefficient in derivative.c[:, :-1]:
         before = before * width + coefficient
-    return derivative(curve.x[1:-1]) - before
+    return np.asarray(derivative(curve.x[1:-1]) - before)
 
 
 def join(pieces: Sequence[PPoly]) -> PPoly:

@@ -120,5 +120,14 @@ def assumptions_table(assumptions: Iterable[Mapping[str, object]]) -> Table:
     return Table("Assumptions", ("what", "value", "why"), rows, prose=True)
 
 
+def parameters_table(parameters: Mapping[str, object]) -> Table:
+    """What a report was asked for; nothing where it was left open."""
+    rows = [
+        (name.replace("_", " "), "–" if value is None else str(value))
+        for name, value in parameters.items()
+    ]
+    return Table("Parameters", ("parameter", "value"), rows, prose=True)
+
+
 def _json(document: object) -> bytes:
     return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()

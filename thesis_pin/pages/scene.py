@@ -313,9 +313,9 @@ def thinned(time: np.ndarray, most: int) -> np.ndarray:
     moment = np.round((time - time[0]) / (time[-1] - time[0]) * 1e6)
     apart = np.unique(moment, return_index=True)[1]
     apart[-1] = len(time) - 1
-    return apart[
-        np.unique(np.linspace(0, len(apart) - 1, min(len(apart), most)).round().astype(int))
-    ]
+    return np.asarray(
+        apart[np.unique(np.linspace(0, len(apart) - 1, min(len(apart), most)).round().astype(int))]
+    )
 
 
 def frames(duration: float) -> int:
@@ -325,7 +325,7 @@ def frames(duration: float) -> int:
 
 def levels(values: np.ndarray, bounds: Sequence[float]) -> np.ndarray:
     """Index of the band each value lies in: 0 below the first bound, and so on up."""
-    return np.digitize(values, bounds).astype(float)
+    return np.asarray(np.digitize(values, bounds).astype(float))
 
 
 def _level(level: np.ndarray | None) -> Sampled:

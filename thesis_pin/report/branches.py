@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Protocol
 
 import numpy as np
 
 VERSION = 2
 """Of the schema ``…/inverse-kinematics``; docs/conventions.md describes it."""
+
+
+class Solutions(Protocol):
+    """What both robots' solutions say of each branch; the branch is the first axis."""
+
+    @property
+    def reachable(self) -> np.ndarray: ...
+    @property
+    def valid(self) -> np.ndarray: ...
+    @property
+    def angles(self) -> np.ndarray: ...
+    @property
+    def position_residual(self) -> np.ndarray: ...
+    @property
+    def rotation_residual(self) -> np.ndarray: ...
 
 
 def label(signs: Sequence[int]) -> str:
@@ -23,9 +38,9 @@ def document(
     joints: Sequence[str],
     coordinates: Sequence[str],
     pose: np.ndarray,
-    branches: Sequence[Mapping[str, Any]],
+    branches: Sequence[Mapping[str, object]],
     explanation: str,
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """Inverse kinematics of one pose on several branches, JSON-ready.
 
     Args:
@@ -50,8 +65,8 @@ def document(
 
 
 def branch(
-    solutions: Any, k: int, name: str, explanation: str, **own: tuple[Any, bool]
-) -> dict[str, Any]:
+    solutions: Solutions, k: int, name: str, explanation: str, **own: tuple[np.ndarray, bool]
+) -> dict[str, object]:
     """One branch of the document.
 
     Args:
@@ -64,7 +79,7 @@ def branch(
     """
     exists = bool(solutions.reachable[k])
 
-    def said(values: Any, always: bool = False) -> Any:
+    def said(values: np.ndarray, always: bool = False) -> np.ndarray | float | None:
         value = np.asarray(values[k])
         if not (always or exists) or not np.isfinite(value).all():
             return None

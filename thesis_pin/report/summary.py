@@ -33,7 +33,7 @@ class ActuatorSummary:
     @property
     def net_work(self) -> np.ndarray:
         """Work given minus work taken back [J]."""
-        return self.positive_work + self.negative_work
+        return np.asarray(self.positive_work + self.negative_work)
 
 
 def summarise(

@@ -15,7 +15,7 @@ import pinocchio as pin
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.dynamics.three_motors import three_torques
 from pollard_pin.model import Pollard, load
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.specification import ACTUATORS
 from pollard_pin.thesis.claims.robot import Check
 from pollard_pin.thesis.explicit import ExplicitModel

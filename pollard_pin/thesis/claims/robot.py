@@ -16,7 +16,7 @@ import numpy as np
 
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.model import Pollard, load
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.specification import LINK_NAMES, SKEWED_PATH, Specification
 from pollard_pin.thesis.references import References
 from thesis_pin.audit.verdicts import ClaimResult

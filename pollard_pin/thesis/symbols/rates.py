@@ -27,9 +27,10 @@ Along = Mapping[str, float | np.ndarray]
 _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarray]]]
 
 
-def derivative(of: Callable[[State], Any], state: State, along: Along) -> np.ndarray:
+def derivative(of: Callable[[State], object], state: State, along: Along) -> np.ndarray:
     """Exact derivative of a product of transforms along a direction, at complex states too."""
-    return dual(of(replace(state, along={None: along}))).along(None)
+    found: Any = of(replace(state, along={None: along}))
+    return dual(found).along(None)
 
 
 def _first(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:

@@ -14,7 +14,7 @@ from pollard_pin.dynamics.inverse import inverse_dynamics_at, loop_forces
 from pollard_pin.dynamics.reactions import joint_reactions
 from pollard_pin.dynamics.three_motors import three_torques
 from pollard_pin.kinematics.screws import Posture
-from pollard_pin.motion.path import line
+from pollard_pin.motion.curves import line
 from pollard_pin.specification import ACTUATORS
 from pollard_pin.urdf import JOINT_AXES
 from thesis_pin.errors import BadInput, SingularPose

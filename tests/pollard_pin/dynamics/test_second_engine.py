@@ -10,7 +10,7 @@ import pytest
 
 import pollard_pin
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.specification import SKEWED_PATH, Specification
 from pollard_pin.urdf import files

@@ -5,7 +5,7 @@ import pytest
 
 import pollard_pin
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
-from pollard_pin.motion.path import line
+from pollard_pin.motion.curves import line
 from pollard_pin.motion.trajectory import joint_trajectory
 
 

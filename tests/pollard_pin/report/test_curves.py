@@ -5,7 +5,7 @@ import plotly.graph_objects
 import pytest
 
 import pollard_pin
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.report import curves
 from pollard_pin.report.figures import figures
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_SYMBOLS

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import pollard_pin
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.report.document import trajectory_report
 from pollard_pin.report.limits import MotorUse
 

@@ -8,7 +8,7 @@ import pytest
 import pollard_pin
 from pollard_pin import DEFAULT_BRANCH
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
-from pollard_pin.motion.path import appendix_b, line
+from pollard_pin.motion.curves import appendix_b, line
 from pollard_pin.report.document import SCHEMA, VERSION, trajectory_report
 from thesis_pin.errors import SingularPose, UnknownName, Unreachable
 from thesis_pin.report.writers import json_bytes

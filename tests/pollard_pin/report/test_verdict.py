@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import pollard_pin
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.report.page import trajectory_page
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.model import load
-from pollard_pin.motion.path import appendix_b
+from pollard_pin.motion.curves import appendix_b
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import audit
 from pollard_pin.thesis.claims.path import best_margins, path_points

@@ -12,6 +12,7 @@ from scout_pin.thesis.audit import CAUSES, NUMBERS, THESIS, audit, states
 from scout_pin.thesis.references import References
 from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
+from thesis_pin.audit.rows import HOLDS
 from thesis_pin.audit.verdicts import residual
 
 DOCUMENT = Path(__file__).parents[3] / "docs" / "audit" / "scout.md"
@@ -180,6 +181,16 @@ def test_residuals_leave_no_doubt_between_right_and_wrong(report):
     corrected = [r.residual_corrected for r in report.failures]
     assert max(corrected) < 1e-9
     assert any(math.isinf(x) for x in printed)
+
+
+def test_no_number_of_the_document_stands_where_rounding_could_turn_a_digit(report):
+    """Two digits are written: another processor's last bits must not reach them."""
+    for row in report.failures:
+        numbers = [v for v in row.effect.values() if isinstance(v, float)]
+        numbers += [x for x in (row.residual_printed, row.residual_corrected) if x and x > HOLDS]
+        for x in numbers:
+            ends = {f"{x * (1 + change):.1e}" for change in (-1e-6, 1e-6)}
+            assert len(ends) == 1, (row.id, x)
 
 
 @pytest.mark.bytes

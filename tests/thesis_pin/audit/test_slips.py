@@ -10,8 +10,9 @@ from thesis_pin.audit import document as audit_json
 from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
 from thesis_pin.audit.rows import AuditReport, Row
-from thesis_pin.audit.slips import Cause
+from thesis_pin.audit.slips import Cause, read_causes
 from thesis_pin.command.audit import _TITLE
+from thesis_pin.errors import SpecificationError
 
 ROBOTS = [
     (scout_pin.thesis.audit, scout_pin.thesis),
@@ -85,3 +86,16 @@ def test_the_cause_of_most_lines_comes_first_and_the_page_finds_its_lines():
         assert page.count('data-text="robot:1:') == 4
     assert page.index("a slip") < page.index("another")
     assert SLIP.explanation in page
+
+
+def test_a_file_of_causes_is_read_in_its_order_and_every_mistake_is_said(tmp_path):
+    entry = '[[cause]]\nname = "{}"\ntitle = "t"\nenters = "(1)"\nexplanation = "e."\n'
+    good, bad = tmp_path / "good.toml", tmp_path / "bad.toml"
+    good.write_text(entry.format("b") + entry.format("a"), encoding="utf-8")
+    assert list(read_causes(good).items()) == [(name, Cause("t", "(1)", "e.")) for name in "ba"]
+    bad.write_text(entry.format("b") * 2 + 'colour = "red"\n', encoding="utf-8")
+    with pytest.raises(SpecificationError, match="colour"):
+        read_causes(bad)
+    bad.write_text(entry.format("b") * 2, encoding="utf-8")
+    with pytest.raises(SpecificationError, match="used twice"):
+        read_causes(bad)

@@ -73,7 +73,7 @@ def test_what_is_not_plain_is_refused_in_a_short_message(text, says):
     assert len(str(caught.value)) < 500
 
 
-def test_a_list_longer_than_a_robots_joints_is_refused():
-    names = ", ".join(f"j{k}" for k in range(LIMITS.joints + 1))
+def test_a_list_longer_than_the_limit_is_refused():
+    names = ", ".join(f"j{k}" for k in range(LIMITS.entries + 1))
     with pytest.raises(SpecificationError, match=r"joint_name.* at most 1000 items"):
         ClosureFile.parse(f"closed_loop: []\ntype: []\nname_mot: [a]\njoint_name: [{names}]\n")

@@ -3,8 +3,8 @@
 import pytest
 
 from thesis_pin.errors import BadInput, SpecificationError
-from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.specification import Positive, Strict, bounded, key_lines, parse_toml
+from thesis_pin.model.limits import LIMITS, bounded
+from thesis_pin.model.specification import Positive, Strict, key_lines, parse_toml
 
 
 class Shape(Strict):

@@ -110,3 +110,12 @@ def test_printed_polynomials_and_joined_pieces_keep_their_values():
 def test_bad_nodes_are_refused(t, value, method, error, says):
     with pytest.raises(error, match=says):
         interpolate(t, value, method)
+
+
+def test_steps_too_short_and_polynomials_too_long_or_too_large_are_refused():
+    with pytest.raises(TrajectoryError, match="steps of at least 1e-09"):
+        interpolate([0.0, 1e-300], [0.0, 1.0])
+    with pytest.raises(TrajectoryError, match="40 coefficients; allowed: at most 32"):
+        polynomial(0.0, 1.0, [1.0] * 40)
+    with pytest.raises(TrajectoryError, match="a polynomial overflows"):
+        polynomial(1e12, 2e12, [1e12] * 30)

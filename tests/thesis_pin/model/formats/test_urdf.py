@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from thesis_pin.errors import ModelError, UnknownName
 from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.loading import load_model
 
 GOOD = """<robot name="r">
@@ -118,6 +119,15 @@ def test_chains_as_long_as_the_limit_load_and_longer_ones_are_refused():
     assert load_model(chain(900)).nv == 0
     with pytest.raises(ModelError, match="there are 10,002 links"):
         read_urdf(chain(10_001))
+
+
+def test_more_moving_joints_than_pinocchio_has_memory_for_are_refused():
+    joints = "".join(
+        f'<joint name="j{k}" type="continuous"><parent link="b"/><child link="l{k}"/></joint>'
+        for k in range(LIMITS.joints)
+    )
+    with pytest.raises(ModelError, match=r"201 joints move; allowed: at most 200"):
+        read_urdf(GOOD.replace("</robot>", f"{joints}</robot>"))
 
 
 @pytest.mark.parametrize("kind", ["hinge", "", "Revolute"])
