@@ -5,8 +5,6 @@ from __future__ import annotations
 import contextlib
 import sys
 
-from thesis_pin.command.readable import readable
-
 LONGEST = 1000
 """Characters of a line, beyond which a message is cut."""
 MOST_LINES = 200
@@ -24,7 +22,6 @@ def clean(text: str) -> str:
         (``\\x1b``), lines of at most :data:`LONGEST` characters and at most
         :data:`MOST_LINES` of them, with what is missing counted.
     """
-    text = readable(text, "utf-8")  # bytes of a name that are no text
     lines = text[: 2 * LONGEST * MOST_LINES].split("\n")
     shown = [_line(line) for line in lines[:MOST_LINES]]
     if len(lines) > MOST_LINES:

@@ -66,12 +66,10 @@ def prepare_streams() -> None:
     if sys.stderr is None:
         sys.stderr = io.StringIO()
     codecs.register_error("readable", _mend)
-    raw = getattr(sys.stdout, "buffer", None)
-    if isinstance(raw, io.RawIOBase):  # python -u: what a full disk cuts off wouldn't be noticed
-        sys.stdout = io.TextIOWrapper(io.BufferedWriter(raw), encoding=sys.stdout.encoding)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="readable")
+            # With python -u argparse would swallow that its help can't be written.
+            stream.reconfigure(errors="readable", write_through=False)
 
 
 def _mend(error: UnicodeError) -> tuple[str, int]:
