@@ -34,5 +34,5 @@ trap 'rm -rf "$outside"' EXIT
 "$bin/python" -m pip wheel --quiet --no-deps --wheel-dir "$outside" .
 "$python" -m venv "$outside/venv"
 "$outside/venv/bin/python" -m pip install --quiet "$outside"/*.whl
-cp tests/wheel_smoke.py "$outside"
-(cd "$outside" && env -u PYTHONPATH "$outside/venv/bin/python" wheel_smoke.py "$outside/venv/bin")
+cp -r tests/wheel_smoke.py examples urdf "$outside"
+(cd "$outside" && env -u PYTHONPATH "$outside/venv/bin/python" wheel_smoke.py)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thesis_pin.numeric.rotations import euler_rate_matrix, rotation
+from thesis_pin.tolerances import TOLERANCES
 
 POSE_NAMES = ("x", "y", "z", "psi", "theta", "phi")
 """Task coordinates of the thesis: spray tip [m] and angles [rad] (2.3)."""
@@ -30,7 +31,7 @@ def pose_from_placement(position: np.ndarray, matrix: np.ndarray) -> np.ndarray:
         Pose ``(..., 6)``; where cos ψ = 0 only θ ± φ is defined and φ = 0 is taken.
     """
     cosine = np.hypot(matrix[..., 0, 0], matrix[..., 0, 1])
-    lost = cosine < 1e-12
+    lost = cosine < TOLERANCES.singular
     theta = np.where(
         lost,
         np.arctan2(matrix[..., 2, 1], matrix[..., 1, 1]),

@@ -17,6 +17,7 @@ from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
 from thesis_pin.model.inertia import Reading
 from thesis_pin.model.urdf import number, numbers
 from thesis_pin.numeric.exact import cosine, sine
+from thesis_pin.tolerances import GRAVITY
 
 # MuJoCo's springs at their stiffest that its integrators still carry at 1 ms: a
 # time constant of 2 ms, and 0.9999 of the free acceleration taken away.
@@ -77,7 +78,7 @@ def mjcf(specification: Specification, anchors: np.ndarray, inertia: Reading = "
     return (
         f'<mujoco model="{specification.name}">\n'
         '  <compiler angle="radian" autolimits="true"/>\n'
-        '  <option gravity="0 0 -9.81" integrator="implicitfast"/>\n'
+        f'  <option gravity="0 0 {-GRAVITY}" integrator="implicitfast"/>\n'
         "  <worldbody>\n"
         '    <body name="base">\n'
         f"{''.join(content)}"

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+GRAVITY: float = 9.81
+"""Size of gravity, Pinocchio's default [m/s²]. Source: Scout thesis, 4.1; Pollard thesis, 3.3."""
+
 
 @dataclass(frozen=True)
 class Tolerances:
@@ -27,6 +30,12 @@ class Tolerances:
         step: Least distance of two nodes or samples: below it, rates are made of
             rounding [s], [-].
         static: Joint speed below which Coulomb friction is taken as zero [rad/s].
+        wrench: Distance outside a sole's wrench cone, forces scaled to moments, still
+            taken as on its border, where a quadratic programme stops [N·m].
+        impulse: Impulse of a landing still taken as none, per mass of the robot,
+            forces scaled to moments [m²/s].
+        clearance: Depth of a swinging sole's corner below the floor still taken as
+            touching it [m].
     """
 
     rotation_orthogonality: float = 1e-9
@@ -43,6 +52,9 @@ class Tolerances:
     rate_jump: float = 1e-6
     step: float = 1e-9
     static: float = 1e-9
+    wrench: float = 1e-7
+    impulse: float = 1e-9
+    clearance: float = 1e-9
 
 
 TOLERANCES = Tolerances()

@@ -27,6 +27,7 @@ from pollard_pin.specification import ACTUATORS
 from thesis_pin.errors import SingularPose, WrongShape
 from thesis_pin.numeric.arrays import finite_array, together
 from thesis_pin.numeric.checks import instance
+from thesis_pin.numeric.elementwise import LONG, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import Vector, cross, dot
 from thesis_pin.tolerances import TOLERANCES
@@ -49,12 +50,36 @@ class PollardDynamics:
     joint_force: np.ndarray
 
 
-def loop_forces(posture: Posture, tau: np.ndarray) -> tuple[Vector, Vector]:
+class LongDynamics(PollardDynamics):
+    """Of very many samples: RNEA's torques are worked out when asked for."""
+
+    def __init__(
+        self, torque: np.ndarray, loop_force: np.ndarray, robot: Pollard, joints: JointTrajectory
+    ) -> None:
+        values = {"torque": torque, "loop_force": loop_force, "_robot": robot, "_joints": joints}
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    _robot: Pollard
+    _joints: JointTrajectory
+
+    @property
+    def joint_force(self) -> np.ndarray:
+        """RNEA's torques of the open tree [N·m], shape ``(n, 12)``."""
+        found = np.empty(self._joints.q.shape)
+        for part in blocks(len(found)):
+            some = self._joints.part(part)
+            found[part] = _tree_torques(self._robot, some.q, some.v, some.a)
+        return found
+
+
+def loop_forces(posture: Posture, tau: np.ndarray, first: int = 0) -> tuple[Vector, Vector]:
     """Forces on the forearm at the two ball joints that leave every passive joint free.
 
     Args:
         posture: Closed posture of n samples.
         tau: RNEA's torques of the open tree [N·m], shape ``(12, n)``.
+        first: Number of the first sample, for messages.
 
     Returns:
         Two forces [N], each ``(3, n)``.
@@ -92,7 +117,7 @@ def loop_forces(posture: Posture, tau: np.ndarray) -> tuple[Vector, Vector]:
         sample = int(np.argmax(np.abs(sine) < TOLERANCES.near_singular))
         raise SingularPose(
             "the two rods pull the forearm in one direction: their forces aren't determined",
-            where=f"sample {sample}",
+            where=f"sample {first + sample}",
         )
     one = (rest[0] * pull[1][1] - pull[0][1] * rest[1]) / det
     two = (pull[0][0] * rest[1] - pull[1][0] * rest[0]) / det
@@ -156,9 +181,20 @@ def inverse_dynamics(
     instance("joints", joints, JointTrajectory, "joint_trajectory()")
     if np.shape(joints.q) != (len(motion.time), 12):
         raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
+    if not isinstance(joints, SolvedTrajectory):
+        return inverse_dynamics_at(robot, joints.q, joints.v, joints.a)
     # What joint_trajectory has solved is closed, and its posture known.
-    posture = joints.solutions.posture if isinstance(joints, SolvedTrajectory) else None
-    return inverse_dynamics_at(robot, joints.q, joints.v, joints.a, posture)
+    count = len(joints.q)
+    if count < LONG:
+        posture = joints.solutions.posture
+        return inverse_dynamics_at(robot, joints.q, joints.v, joints.a, posture)
+    found = LongDynamics(np.empty((count, 6)), np.empty((count, 2, 3)), robot, joints)
+    for part in blocks(count):
+        some, solved = joints.part(part), joints.solutions.angles[part]
+        posture = Posture.of(robot.geometry, solved)
+        here = _solve(robot, posture, some.q, some.v, some.a, part.start)
+        found.torque[part], found.loop_force[part] = here.torque, here.loop_force
+    return found
 
 
 def inverse_dynamics_at(
@@ -193,9 +229,16 @@ def inverse_dynamics_at(
         instance("posture", posture, Posture, "Pollard.posture()")
         if posture.shape != shape:
             raise WrongShape("q", angles.shape, f"{(*posture.shape, 12)}, as posture")
-    tau = _tree_torques(robot, *(x.reshape(-1, 12) for x in (angles, rates, accelerations)))
+    return _solve(robot, posture, angles, rates, accelerations)
+
+
+def _solve(
+    robot: Pollard, posture: Posture, q: np.ndarray, v: np.ndarray, a: np.ndarray, first: int = 0
+) -> PollardDynamics:
+    shape = q.shape[:-1]
+    tau = _tree_torques(robot, *(x.reshape(-1, 12) for x in (q, v, a)))
     rows = np.ascontiguousarray(tau.T)
-    one, two = loop_forces(posture, rows)
+    one, two = loop_forces(posture, rows, first)
     torque = motor_torques(posture, rows, (one, two))
     return PollardDynamics(
         np.ascontiguousarray(torque.T).reshape(*shape, 6),

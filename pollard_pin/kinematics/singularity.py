@@ -16,10 +16,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pollard_pin.kinematics.geometry import Geometry
 from pollard_pin.kinematics.rates import joint_rates, tool_twist
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import ACTUATORS
 from thesis_pin.errors import SingularPose
+from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.vectors import cross
 
 LENGTH = 0.1
@@ -87,6 +89,16 @@ def actuation(posture: Posture, length: float = LENGTH) -> Actuation:
         condition=np.linalg.cond(matrix),
         determinant=np.linalg.det(matrix),
         base_determinant=np.linalg.det(base_rows(posture) * length),
+    )
+
+
+def actuation_along(geometry: Geometry, angles: np.ndarray) -> Actuation:
+    """:func:`actuation` of many closed configurations ``(n, 12)``, block by block."""
+    parts = [actuation(Posture.of(geometry, angles[part])) for part in blocks(len(angles))]
+    return Actuation(
+        np.concatenate([part.condition for part in parts]),
+        np.concatenate([part.determinant for part in parts]),
+        np.concatenate([part.base_determinant for part in parts]),
     )
 
 

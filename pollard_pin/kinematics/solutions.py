@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,6 +15,7 @@ from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable, WrongShape
 from thesis_pin.numeric.checks import element
+from thesis_pin.numeric.elementwise import LONG, blocks
 from thesis_pin.tolerances import TOLERANCES
 
 _CONDITIONS = ("chain 0", "chain 1", "chain 2")
@@ -66,26 +68,46 @@ class Solutions:
         # NaN compares false, so unreachable poses drop out.
         return np.asarray(np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1))
 
-    @cached_property
+    @property
     def posture(self) -> Posture:
-        """Points and axes of the mechanism at the solutions."""
+        """Points and axes of the mechanism at the solutions; of long stacks not kept."""
+        if self.angles.size >= 12 * LONG:
+            return Posture.of(self.geometry, self.angles)
+        return self._posture
+
+    @cached_property
+    def _posture(self) -> Posture:
         return Posture.of(self.geometry, self.angles)
+
+    def _measured(self, measure: Callable[[Posture], np.ndarray]) -> np.ndarray:
+        """A measure of the posture, of a long stack block by block."""
+        if self.angles.size < 12 * LONG:
+            return measure(self.posture)
+        flat = self.angles.reshape(-1, 12)
+        parts = blocks(len(flat))
+        found = [measure(Posture.of(self.geometry, flat[part])) for part in parts]
+        whole = np.concatenate(found)
+        return whole.reshape(*self.angles.shape[:-1], *whole.shape[1:])
 
     @property
     def position_residual(self) -> np.ndarray:
         """Distance of the spray tip from the pose asked for [m], shape ``(...)``."""
-        return np.asarray(np.linalg.norm(self.posture.tip - self.pose[..., :3], axis=-1))
+        return np.asarray(
+            np.linalg.norm(
+                self._measured(lambda posture: posture.tip) - self.pose[..., :3], axis=-1
+            )
+        )
 
     @property
     def rotation_residual(self) -> np.ndarray:
         """Largest entry of the difference of the two orientations [-], shape ``(...)``."""
-        gap = self.posture.tool_rotation - pose_rotation(self.pose)
+        gap = self._measured(lambda posture: posture.tool_rotation) - pose_rotation(self.pose)
         return np.asarray(np.abs(gap).max(axis=(-1, -2)))
 
     @property
     def loop_residual(self) -> np.ndarray:
         """Opening of the two ball joints [m], shape ``(..., 2)``."""
-        return np.asarray(np.linalg.norm(self.posture.opening, axis=-1))
+        return np.asarray(np.linalg.norm(self._measured(lambda posture: posture.opening), axis=-1))
 
     @property
     def rod_angles(self) -> np.ndarray:

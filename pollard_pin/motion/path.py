@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
+from thesis_pin.numeric.elementwise import LONG, blocks
 
 Timing = Literal["constant-rate", "rest-to-rest"]
 TIMINGS: tuple[str, ...] = get_args(Timing)
@@ -54,6 +55,37 @@ class ToolMotion:
         )
 
 
+class LongMotion(ToolMotion):
+    """Very many samples of a path: rates and accelerations are worked out when asked for."""
+
+    def __init__(self, time: np.ndarray, pose: np.ndarray, path: ToolPath) -> None:
+        for name, value in (("time", time), ("pose", pose), ("path", path)):
+            object.__setattr__(self, name, value)
+
+    @property
+    def rate(self) -> np.ndarray:
+        """First time derivative, shape ``(n, 6)``."""
+        return self._whole().rate
+
+    @property
+    def acceleration(self) -> np.ndarray:
+        """Second time derivative, shape ``(n, 6)``."""
+        return self._whole().acceleration
+
+    def part(self, samples: slice) -> ToolMotion:
+        """Some consecutive samples."""
+        time = self.time[samples]
+        return ToolMotion(time, *self._path.function(time), self._path)
+
+    def _whole(self) -> ToolMotion:
+        return ToolMotion(self.time, *self._path.function(self.time), self._path)
+
+    @property
+    def _path(self) -> ToolPath:
+        assert self.path is not None
+        return self.path
+
+
 @dataclass(frozen=True)
 class ToolPath:
     """A pose over time.
@@ -82,7 +114,12 @@ class ToolPath:
                 where=f"path {self.name!r}",
                 allowed=f"0 to {self.duration:g} s",
             )
-        return ToolMotion(time, *self.function(time), self)
+        if len(time) < LONG:
+            return ToolMotion(time, *self.function(time), self)
+        pose = np.empty((len(time), 6))
+        for part in blocks(len(time)):
+            pose[part] = self.function(time[part])[0]
+        return LongMotion(time, pose, self)
 
     def sample(self, count: int) -> ToolMotion:
         """Evenly spaced samples from beginning to end.

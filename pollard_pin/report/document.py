@@ -14,6 +14,7 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
     actuation,
+    actuation_along,
     rate_jacobian,
     require_one_sign,
 )
@@ -203,8 +204,7 @@ def trajectory_report(
     joints = joint_trajectory(robot, motion, branch=branch)
     solutions = joints.solutions
     progress(2, 4)
-    posture = solutions.posture
-    holding = actuation(posture)
+    holding = actuation_along(robot.geometry, solutions.angles)
 
     def determinant(time: float) -> float:
         there = robot.inverse_kinematics(path.at(time).pose, branch)
@@ -216,7 +216,7 @@ def trajectory_report(
     progress(4, 4)
     three = None
     if motors == "three":
-        three = three_torques(rate_jacobian(posture, motion.pose), dynamics.joint_force)
+        three = three_torques(rate_jacobian(solutions.posture, motion.pose), dynamics.joint_force)
     return TrajectoryReport(
         robot, path, branch, motors, motion, joints, solutions, dynamics, holding, three
     )

@@ -24,6 +24,7 @@ from pollard_pin.specification import (
     ACTUATORS,
 )
 from thesis_pin.model.inertia import Reading
+from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
 
@@ -64,12 +65,12 @@ class TrajectoryNumbers:
         wrist = np.zeros((len(self.joints.time), 3))
         return np.concatenate([self.three.torque, wrist], axis=1)
 
-    @cached_property
+    @property
     def speed(self) -> np.ndarray:
         """Motor speeds [rad/s], shape ``(n, 6)``."""
         return np.ascontiguousarray(self.joints.v[:, ACTUATORS])
 
-    @cached_property
+    @property
     def power(self) -> np.ndarray:
         """Motor power [W], shape ``(n, 6)``."""
         return np.asarray(self.torque * self.speed)
@@ -149,5 +150,9 @@ class TrajectoryNumbers:
         """The other reading of the inertias and its peak torques of six motors [N·m]."""
         reading: Reading = "printed" if self.robot.inertia == "physical" else "physical"
         other = Pollard(self.robot.specification, reading)
-        found = inverse_dynamics_at(other, self.joints.q, self.joints.v, self.joints.a)
-        return reading, np.abs(found.torque).max(axis=0)
+        peaks = []
+        for part in blocks(len(self.joints.time)):
+            some = self.joints.part(part)
+            found = inverse_dynamics_at(other, some.q, some.v, some.a)
+            peaks.append(np.abs(found.torque).max(axis=0))
+        return reading, np.max(peaks, axis=0)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from pollard_pin.coordinates import POSE_NAMES
@@ -81,7 +79,7 @@ def _values(assumption: dict[str, object]) -> str:
     return f" ({', '.join(parts)})" if 0 < len(parts) <= 4 else ""
 
 
-def ik_document(robot: Pollard, solutions: Solutions) -> dict[str, Any]:
+def ik_document(robot: Pollard, solutions: Solutions) -> dict[str, object]:
     """Inverse kinematics of one pose on several branches, JSON-ready."""
     own = {
         "margin": (solutions.margin, True),
@@ -128,7 +126,7 @@ def _best(solutions: Solutions) -> str:
     )
 
 
-def fk_document(robot: Pollard, modes: Assemblies) -> dict[str, Any]:
+def fk_document(robot: Pollard, modes: Assemblies) -> dict[str, object]:
     """Assembly modes of one set of motor angles, JSON-ready."""
     return {
         "schema": "pollard-pin/forward-kinematics",

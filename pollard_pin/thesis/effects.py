@@ -111,7 +111,7 @@ class _Model:
     def change(self, equation: Equation) -> np.ndarray:
         """Change of the force by a line as printed, shape ``(states, 6)``."""
         force = self.force
-        return self._force(self.environment.following_print(equation.id)) - force
+        return np.asarray(self._force(self.environment.following_print(equation.id)) - force)
 
     def _force(self, environment: EditionEnvironment) -> np.ndarray:
         mass, velocity, gravity = (

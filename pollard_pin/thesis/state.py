@@ -110,7 +110,9 @@ class State:
         """A constant or variable; ``i`` stands for a trailing i of its name."""
         name = own_name(name, i)
         if name.startswith("signed_y_10"):
-            return self.constants[f"signo{name[-1]}"] * self.constants[f"y_10{name[-1]}"]
+            return np.asarray(
+                self.constants[f"signo{name[-1]}"] * self.constants[f"y_10{name[-1]}"]
+            )
         return self.variables[name] if name in self.variables else self.constants[name]
 
     def after(

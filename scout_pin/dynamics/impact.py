@@ -20,6 +20,7 @@ from thesis_pin.contacts.cones import in_sole_axes
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,7 @@ def touchdown_impact(
     local = [in_sole_axes(turn[None], p[None])[0] for turn, p in zip(turns, impulse, strict=True)]
     contacts = [robot.contacts[SIDES.index(s)] for s in held]
     # Impulses of a landing at rest are rounding; they ask nothing of the floor.
-    least = -1e-9 * robot.mass
+    least = -TOLERANCES.impulse * robot.mass
     fine = all(c.margin(p) >= least for c, p in zip(contacts, local, strict=True))
     return Impact(t, side, held, rows[side] @ v, after[6:] - v[6:], impulse, lost, fine)
 

@@ -127,7 +127,8 @@ class LegSolutions:
         )
         sine_knee = np.abs(np.sin(self.angles[..., 3] + leg.beta[3]))
         cosine_knee = np.cos(self.angles[..., 3] + leg.beta[3])
-        flat = sine_knee < TOLERANCES.near_singular
+        # There the arccosine knows the angle to half the digits only, the distance to all.
+        flat = (sine_knee < TOLERANCES.near_singular) | (np.abs(self.excess) <= TOLERANCES.reach)
         for name, which in (
             ("knee straight; ", flat & (cosine_knee > 0)),
             ("knee folded; ", flat & (cosine_knee < 0)),

@@ -197,7 +197,9 @@ class Gait:
             for order in range(min(3, len(curve.c))):
                 found[order, k] = curve(t, order) / unit**order
         rotation, omega, alpha = euler_placement("xyz", values[3:].T, rates[3:].T, second[3:].T)
-        return BodyMotion(rotation, values[:3].T, rates[:3].T, second[:3].T, omega, alpha)
+        # Copied: views would keep the angles alive as well.
+        place, velocity, acceleration = (part[:3].copy().T for part in found)
+        return BodyMotion(rotation, place, velocity, acceleration, omega, alpha)
 
     def sample(self, t: np.ndarray, time_unit: float | None = None) -> GaitMotion:
         """Sample the gait and check that it can be meant.

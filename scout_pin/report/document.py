@@ -18,6 +18,7 @@ from scout_pin.report import verdict
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin.numeric.checks import function, instance
+from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report.info import assumptions
 from thesis_pin.version import __version__
@@ -197,8 +198,11 @@ def gait_report(
     progress(2, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
     progress(3, 4)
-    com, rate = momentum(robot, *free_flyer_state(motion.torso, joints))
-    zmp = zero_moment_point(robot.mass, com, rate)
+    com, zmp = np.empty((len(motion.t), 3)), np.empty((len(motion.t), 2))
+    for part in blocks(len(motion.t)):
+        state = free_flyer_state(motion.torso.part(part), joints.part(part))
+        com[part], rate = momentum(robot, *state)
+        zmp[part] = zero_moment_point(robot.mass, com[part], rate, first=part.start)
     report = GaitReport(
         robot=robot,
         gait=gait,

@@ -18,6 +18,7 @@ from thesis_pin.pages.page import (
     software,
 )
 from thesis_pin.pages.scene import thinned
+from thesis_pin.tolerances import TOLERANCES
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -60,7 +61,9 @@ def _tiles(report: GaitReport) -> list[Tile]:
         Tile("worst use of a servo's torque-speed line", f"{use:.0%}", bool(use <= 1)),
         Tile("peak torque", f"{report.actuators.peak_torque.max():.3f} N·m"),
         Tile(
-            "lowest swinging corner", f"{report.clearance * 1e3:.1f} mm", report.clearance >= -1e-9
+            "lowest swinging corner",
+            f"{report.clearance * 1e3:.1f} mm",
+            report.clearance >= -TOLERANCES.clearance,
         ),
         Tile("fastest time unit", "none" if fastest is None else f"{fastest:.4f} s"),
         Tile("work of all servos", f"{report.actuators.positive_work.sum() * 1e3:.0f} mJ"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -67,7 +67,7 @@ def print_report(report: GaitReport) -> None:
 
 def ik_document(
     robot: Scout, solutions: LegSolutions, pose: np.ndarray, only: int | None = None
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """Inverse kinematics of one foot pose, JSON-ready.
 
     Args:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.report.numbers import GaitNumbers
+from thesis_pin.tolerances import TOLERANCES
 
 
 def servos_carry(numbers: GaitNumbers) -> bool:
@@ -17,7 +18,7 @@ def can_walk(numbers: GaitNumbers) -> bool:
     return bool(
         (numbers.margin > 0).all()
         and numbers.dynamics.admissible.all()
-        and numbers.clearance >= -1e-9
+        and numbers.clearance >= -TOLERANCES.clearance
         and not numbers.rate_jumps
     )
 
@@ -106,7 +107,7 @@ def _servos(numbers: GaitNumbers) -> list[str]:
 
 
 def _swing(numbers: GaitNumbers) -> list[str]:
-    if numbers.clearance < -1e-9:
+    if numbers.clearance < -TOLERANCES.clearance:
         return [f"A swinging sole goes {-numbers.clearance * 1e3:.1f} mm into the floor."]
     return []
 

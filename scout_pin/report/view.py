@@ -26,6 +26,7 @@ from thesis_pin.pages.scene import (
     thinned,
 )
 from thesis_pin.report.curves import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
+from thesis_pin.tolerances import GRAVITY
 
 YELLOW, BLACK, TORSO = "#F0E442", "#1A1A1A", "#5F6B76"
 
@@ -52,7 +53,7 @@ def gait_scene(report: GaitReport) -> Scene:
     q = free_flyer_state(report.motion.torso, report.joints)[0][keep]
     height = float(report.com[:, 2].mean())
     size = height / 0.11  # overlays fit the thesis's robot, whose CoM is 0.11 m high
-    force_scale = height / (robot.mass * 9.81)
+    force_scale = height / (robot.mass * GRAVITY)
     zone = levels(report.margin[keep], MARGIN_BOUNDS)
     return Scene(
         title=f"{robot.specification.name.capitalize()}, gait {report.gait.name}",

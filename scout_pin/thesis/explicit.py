@@ -127,7 +127,7 @@ class ExplicitModel(ExplicitTerms[References]):
         """Constraint forces (∂Φ/∂q)ᵀ λ, shape ``(..., 18)``. Source: (4.14)."""
         jacobian = self.dPhi_dq(q, interval)
         multipliers = finite_array("multipliers", multipliers, jacobian.shape[-2])
-        return (np.swapaxes(jacobian, -1, -2) @ multipliers[..., None])[..., 0]
+        return np.asarray((np.swapaxes(jacobian, -1, -2) @ multipliers[..., None])[..., 0])
 
     def solve(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, interval: Interval) -> Solution:
         """Torques and multipliers of (4.23).

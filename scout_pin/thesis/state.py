@@ -210,7 +210,7 @@ class State:
     def inertia(self, body: str) -> np.ndarray:
         """Centroidal inertia of a link in world axes, shape ``(N, J, 3, 3)``."""
         turned = self.frame(body).rotation
-        return turned @ self.parameters.values[f"I{body}"] @ np.swapaxes(turned, -1, -2)
+        return np.asarray(turned @ self.parameters.values[f"I{body}"] @ np.swapaxes(turned, -1, -2))
 
 
 def coordinate_index(name: str) -> int:

@@ -45,7 +45,7 @@ class Verb:
 
     def __call__(self, arguments: Arguments) -> int:
         """Run it; returns the exit code."""
-        call = found(self.run) if isinstance(self.run, str) else self.run
+        call: Any = found(self.run) if isinstance(self.run, str) else self.run
         return int(call(arguments))
 
 
@@ -96,10 +96,10 @@ class Command:
         return run(self.parser(), words)
 
 
-def found(name: str) -> Any:  # whatever the name names; callers say what they expect
+def found(name: str) -> object:
     """What ``module:name`` names; the name may have dots."""
     module, _, path = name.partition(":")
-    thing = import_module(module)
+    thing: object = import_module(module)
     for part in path.split("."):
         thing = getattr(thing, part)
     return thing

@@ -9,6 +9,7 @@ import numpy as np
 
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.numeric.checks import element
+from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,9 @@ class ContactDynamics:
         single = np.where(self.support, self.contact_margin, np.inf).min(axis=1)
         double = self.support.all(axis=1)
         # On the cone's border the margin is zero to rounding: a QP stops there.
-        return np.where(double, self.double_violation <= 1e-7, single >= -1e-7)
+        return np.where(
+            double, self.double_violation <= TOLERANCES.wrench, single >= -TOLERANCES.wrench
+        )
 
     @cached_property
     def friction_used(self) -> np.ndarray:

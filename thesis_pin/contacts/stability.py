@@ -14,9 +14,7 @@ from thesis_pin.errors import BadInput, NoSupportForce
 from thesis_pin.model.loading import LoadedRobot
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import real
-
-GRAVITY = 9.81
-"""Pinocchio's default, [m/s²]."""
+from thesis_pin.tolerances import GRAVITY
 
 
 def zero_moment_point(
@@ -24,6 +22,8 @@ def zero_moment_point(
     com: np.ndarray,
     momentum_rate: np.ndarray,
     ground_height: float = 0.0,
+    *,
+    first: int = 0,
 ) -> np.ndarray:
     """Zero-moment point on a horizontal floor.
 
@@ -33,6 +33,7 @@ def zero_moment_point(
         momentum_rate: Time derivative of linear then angular momentum about
             the world origin [N], [N·m], shape ``(..., 6)``.
         ground_height: Height of the floor [m].
+        first: Number of the first sample, for messages.
 
     Returns:
         Point on the floor [m], shape ``(..., 2)``.
@@ -52,7 +53,7 @@ def zero_moment_point(
         k = int(np.argmax(np.atleast_1d(normal <= 0)))
         raise NoSupportForce(
             f"the floor would have to pull with {-float(np.atleast_1d(normal)[k]):.3g} N",
-            where=f"sample {k}",
+            where=f"sample {first + k}",
             remedy="The motion falls faster than gravity: slow it down (a larger time unit)",
         )
     x = (weight * com[..., 0] + ground_height * rate[..., 0] - rate[..., 4]) / normal
@@ -120,7 +121,9 @@ def signed_margin(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
     border = shapely.LinearRing(polygon)
     place = shapely.points(points)
     distance = shapely.distance(border, place)
-    return np.where(shapely.contains(shapely.Polygon(polygon), place), distance, -distance)
+    return np.asarray(
+        np.where(shapely.contains(shapely.Polygon(polygon), place), distance, -distance)
+    )
 
 
 def support_polygon(*soles: ArrayLike) -> np.ndarray:
@@ -139,4 +142,4 @@ def support_polygon(*soles: ArrayLike) -> np.ndarray:
     if not soles:
         raise BadInput("there is no sole", allowed="the corners of at least one")
     points = np.concatenate([corners("sole", sole)[:, :2] for sole in soles])
-    return points[ConvexHull(points).vertices]
+    return np.asarray(points[ConvexHull(points).vertices])

@@ -18,9 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thesis_pin.equations.values import STEP
-
-GRAVITY = 9.81
-"""Gravitational acceleration of both theses [m/s²]. Source: Scout thesis, 4.1; Pollard, 3.3."""
+from thesis_pin.tolerances import GRAVITY
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.model.inertia import parallel_axis
+from thesis_pin.model.supplement import Supplement
 
 Array = NDArray[np.float64]
 
@@ -80,19 +81,27 @@ class Joint:
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """Links and joints of a file.
+    """A robot: its tree, as links and joints and as URDF, and what a URDF can't say.
 
     Attributes:
         name: The robot's name.
         links: By name, in the file's order.
         joints: By name, in the file's order.
-        text: The file's text, in a form every reader takes.
+        text: The tree as a URDF: the file's own text where it is one, else written from it.
+        supplement: Closures, couplings, motors and all else that the text can't hold.
+        mesh_folders: Where relative names of meshes are looked for, in this order.
+        warnings: What is odd about the file, each with its place, and doesn't make it wrong.
+        passed_over: What the file says and nothing here uses, each with its place.
     """
 
     name: str
     links: dict[str, Link]
     joints: dict[str, Joint]
     text: str = field(default="", repr=False)
+    supplement: Supplement = field(default_factory=Supplement)
+    mesh_folders: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    passed_over: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

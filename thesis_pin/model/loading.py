@@ -116,7 +116,7 @@ def frame_id(model: pin.Model, name: str, *, where: str = "") -> int:
     instance("model", model, pin.Model, "load_model()")
     if not isinstance(name, str) or not model.existFrame(name):
         raise UnknownName("frame", name, [frame.name for frame in model.frames], where=where)
-    return model.getFrameId(name)
+    return int(model.getFrameId(name))
 
 
 def joint_id(model: pin.Model, name: str, *, where: str = "") -> int:
@@ -124,7 +124,7 @@ def joint_id(model: pin.Model, name: str, *, where: str = "") -> int:
     instance("model", model, pin.Model, "load_model()")
     if not isinstance(name, str) or not model.existJointName(name):
         raise UnknownName("joint", name, list(model.names)[1:], where=where)
-    return model.getJointId(name)
+    return int(model.getJointId(name))
 
 
 class LoadedRobot:

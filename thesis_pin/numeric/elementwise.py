@@ -20,6 +20,9 @@ FEW = 16
 BLOCK = 4096
 """Samples whose intermediates stay in a core's cache."""
 
+LONG = 16 * BLOCK
+"""Samples from which what can be worked out again isn't kept: memory counts, not speed."""
+
 Number: TypeAlias = float | np.ndarray
 """One number, or an array of them."""
 

@@ -108,7 +108,7 @@ def _entry(letter: str, row: int, column: int) -> _Part:
 
 
 def _along(state: State, axis: int, i: str) -> np.ndarray:
-    return side(state, 4 if i else 2, i)[:, axis]
+    return np.asarray(side(state, 4 if i else 2, i)[:, axis])
 
 
 _TANGENTS: dict[str, tuple[_Part, _Part]] = {

@@ -53,7 +53,7 @@ def centre(state: State, body: str) -> Matrices:
 def inertia(state: State, body: str) -> np.ndarray:
     """Inertia of a body about its centre of gravity in the base frame's axes [kg·m²]."""
     rotation = turned(state, *own_frame(body))
-    return rotation @ state.constants[f"inertia {body}"] @ np.swapaxes(rotation, -1, -2)
+    return np.asarray(rotation @ state.constants[f"inertia {body}"] @ np.swapaxes(rotation, -1, -2))
 
 
 def bodies(state: State) -> dict[str, lagrangian.Body]:

@@ -19,8 +19,8 @@ from pollard_pin.thesis.symbols.bodies import BODIES, bodies, inertia, own_frame
 from pollard_pin.thesis.symbols.k import KSymbols
 from thesis_pin.equations import lagrangian
 from thesis_pin.equations.formula import Node, Symbol
-from thesis_pin.equations.lagrangian import GRAVITY
 from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
+from thesis_pin.tolerances import GRAVITY
 
 MOTORS = ("theta_21", "theta_211", "theta_212")
 """Angles the three base motors turn (3.146)."""

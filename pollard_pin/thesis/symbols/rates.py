@@ -49,7 +49,7 @@ def _second(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndar
 
     def numerator(along: Along) -> np.ndarray:
         rate = derivative(lambda s: side(s, which, i), state, along)
-        return -rate[..., 2] * np.cos(theta) - rate[..., 0] * np.sin(theta)
+        return np.asarray(-rate[..., 2] * np.cos(theta) - rate[..., 0] * np.sin(theta))
 
     return at[..., 0] * np.cos(theta) - at[..., 2] * np.sin(theta), numerator
 
@@ -64,7 +64,7 @@ def _third(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarr
         rate = derivative(lambda s: side(s, which, i), state, along)
         turned = along.get(other + i, 0.0)
         plain = (rate[..., 1] * x - rate[..., 0] * y) * np.cos(bend)
-        return square * (plain - turned * x * y * np.sin(bend))
+        return np.asarray(square * (plain - turned * x * y * np.sin(bend)))
 
     return x**2, numerator
 
@@ -86,7 +86,7 @@ def _quotient(
 
         def numerator(along: Along) -> np.ndarray:
             change = derivative(up, state, along) * second - first * derivative(down, state, along)
-            return sign * square * change
+            return np.asarray(sign * square * change)
 
         return second**2, numerator
 
@@ -105,7 +105,7 @@ def _yaw(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray
         )
         turned = along.get("theta_1817", 0.0) / np.tan(last)
         change = b_13 * rate_11 - b_11 * rate_13 + b_11 * b_13 * turned
-        return -(np.cos(theta) ** 2) * change / np.sin(last)
+        return np.asarray(-(np.cos(theta) ** 2) * change / np.sin(last))
 
     return b_11**2, numerator
 

@@ -26,6 +26,7 @@ from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import NoSolution
 from thesis_pin.model.inertia import Reading
+from thesis_pin.tolerances import GRAVITY
 
 SEED = 20100
 
@@ -171,7 +172,7 @@ def _sole_jacobians(robot: Scout, q: np.ndarray, interval: Interval) -> np.ndarr
 def _law() -> ClaimResult:
     """(4.23) as printed for the robot standing still, and corrected along the gait."""
     robot = load()
-    weight = robot.mass * 9.81
+    weight = robot.mass * GRAVITY
     times = np.linspace(0.5, 39.5, 40)
     motion, q, v, a = gait_in_thesis_coordinates(robot, times)
     expected = inverse_dynamics(robot, motion).torque

@@ -9,9 +9,9 @@ import numpy as np
 from scout_pin.thesis.state import BODIES, COORDINATES, State, coordinate_index
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Node, Symbol
-from thesis_pin.equations.lagrangian import GRAVITY
 from thesis_pin.equations.symbols import Symbols
 from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
+from thesis_pin.tolerances import GRAVITY
 
 # Arguments in the definitions of functions, as in T_z1(x): any number will do.
 DUMMIES = {"x": 0.3, "y": -0.7, "z": 1.1, "theta_x": 0.4, "theta_y": -0.9, "theta_z": 1.3}

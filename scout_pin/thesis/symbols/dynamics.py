@@ -13,8 +13,8 @@ from scout_pin.thesis.symbols.vectors import Vectors
 from thesis_pin.equations import lagrangian
 from thesis_pin.equations.dual import vee
 from thesis_pin.equations.formula import Node, Symbol
-from thesis_pin.equations.lagrangian import GRAVITY
 from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
+from thesis_pin.tolerances import GRAVITY
 
 
 class Dynamics(Vectors):
@@ -92,7 +92,7 @@ class Dynamics(Vectors):
 
     def _potential(self, body: str) -> np.ndarray:
         mass = self.state.parameters.values[f"m_{body}"]
-        return GRAVITY * mass * self.bodies[body].centre[..., 2]
+        return np.asarray(GRAVITY * mass * self.bodies[body].centre[..., 2])
 
     def _of_L(self, symbol: Symbol, i: str) -> Value | None:
         bodies = [symbol.sub] if symbol.sub in BODIES else list(BODIES) if not symbol.sub else []
@@ -169,11 +169,13 @@ class Dynamics(Vectors):
             ..., joints
         ]
         if rates:
-            return (jacobian @ state.v[..., joints, None])[..., 0]
+            return np.asarray((jacobian @ state.v[..., joints, None])[..., 0])
         later = self.moved(None).state
         moved = np.concatenate([later.point(f"7{i}")[1], later.angular(f"7{i}")], axis=-2)
         change = np.imag(moved[..., joints]) / STEP
-        return (jacobian @ state.a[..., joints, None] + change @ state.v[..., joints, None])[..., 0]
+        return np.asarray(
+            (jacobian @ state.a[..., joints, None] + change @ state.v[..., joints, None])[..., 0]
+        )
 
     def _of_cal_P(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots or symbol.sub not in ("", "x", "y", "z"):

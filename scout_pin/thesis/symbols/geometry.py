@@ -23,7 +23,7 @@ class Geometry(Coordinates):
     def _rate(self, frame: Dual) -> np.ndarray:
         """Ṙ Rᵀ of a frame."""
         total = sum(frame.along(k) * self.state.v[..., k, None, None] for k in range(18))
-        return np.asarray(total)[..., :3, :3] @ np.swapaxes(frame.rotation, -1, -2)
+        return np.asarray(np.asarray(total)[..., :3, :3] @ np.swapaxes(frame.rotation, -1, -2))
 
     def _body(self, sub: str) -> str | None:
         """Link whose frame the thesis numbers so: "B", "31" (link 2, left), "1" (sole)."""
@@ -117,8 +117,8 @@ class Geometry(Coordinates):
 def _arctan2(y: np.ndarray, x: np.ndarray) -> np.ndarray:
     """atan2 that carries a complex step."""
     if not (np.iscomplexobj(y) or np.iscomplexobj(x)):
-        return np.arctan2(y, x)
+        return np.asarray(np.arctan2(y, x))
     slope = (np.real(x) * np.imag(y) - np.real(y) * np.imag(x)) / (
         np.real(x) ** 2 + np.real(y) ** 2
     )
-    return np.arctan2(np.real(y), np.real(x)) + 1j * slope
+    return np.asarray(np.arctan2(np.real(y), np.real(x)) + 1j * slope)

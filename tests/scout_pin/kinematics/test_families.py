@@ -160,3 +160,12 @@ def test_the_reference_is_kept_where_it_is_one_of_the_members(degrees):
     if sines > 1e-3:  # else another angle is known to rounding only
         assert np.nanmin(gap) < 1e-9
     assert solutions.valid.any()
+
+
+def test_a_folded_knee_is_named_so_and_a_straight_one_isnt(scout):
+    leg = scout.legs["left"]
+    theta = np.array([0.1, 0.2, 0.3, 0.0, 0.4, 0.1])
+    for gamma, name in ((0.0, "knee straight"), (np.pi, "knee folded")):
+        theta[3] = gamma - leg.beta[3]
+        found = leg_inverse_kinematics(leg, leg_forward_kinematics(leg, theta))
+        assert str(found.singularity) == name
