@@ -52,7 +52,12 @@ def read_mjcf(path: str | Path) -> Description:
     included = _included(root, folder, where)
     spec = _spec(text, included, folder, where)
     warnings, passed_over = _strip(spec, where)
-    return describe(_compile(spec, where), spec, where, warnings, passed_over)
+    model = _compile(spec, where)
+    lines = (
+        {body.name: line_of(body) for body in spec.bodies},
+        {joint.name: line_of(joint) for joint in spec.joints},
+    )
+    return describe(model, where, warnings, passed_over, lines)
 
 
 def has_mujoco() -> bool:
@@ -105,8 +110,8 @@ def _included(root: Element, folder: Path, where: str) -> dict[str, bytes]:
         for include in element.iter("include"):
             assert isinstance(include, Element)
             name, here = include.get("file", ""), f"{source}:{include.line}"
-            if not name or name in found:
-                raise ModelError(f"it includes the file {name!r} twice or not at all", where=here)
+            if name in found:
+                raise ModelError(f"it includes the file {name!r} twice", where=here)
             if len(found) == _MOST_FILES:
                 raise ModelError("it includes more files", where=here, allowed=f"{_MOST_FILES}")
             content = read_bytes(KIND, folder / name, LIMITS.urdf_bytes)
@@ -147,17 +152,14 @@ def _strip(spec: mujoco.MjSpec, where: str) -> tuple[list[str], list[str]]:
         if actuator.trntype not in on_joints:
             kind = str(actuator.trntype).rpartition("mjTRN_")[2].lower()
             passed.append(
-                f"{where}:{line_of(actuator)}: actuator {actuator.name!r}, "
-                f"which acts on a {kind}"
+                f"{where}:{line_of(actuator)}: actuator {actuator.name!r}, which acts on a {kind}"
             )
             spec.delete(actuator)
     known = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD, mujoco.mjtEq.mjEQ_JOINT)
     for equality in list(spec.equalities):
         if equality.type not in known:
             kind = str(equality.type).rpartition("mjEQ_")[2].lower()
-            passed.append(
-                f"{where}:{line_of(equality)}: equality {equality.name!r} of a {kind}"
-            )
+            passed.append(f"{where}:{line_of(equality)}: equality {equality.name!r} of a {kind}")
             spec.delete(equality)
     for kind in _UNSEEN:
         for item in list(getattr(spec, kind)):
@@ -200,8 +202,8 @@ def _strip_geometry(spec: mujoco.MjSpec, warnings: list[str], where: str) -> set
     if missing:
         names = ", ".join(sorted(missing)[:5]) + (" …" if len(missing) > 5 else "")
         warnings.append(
-            f"{where}: {len(missing)} meshes are missing and left out; the bodies have inertials: "
-            f"{names}"
+            f"{where}: missing meshes are left out, which is harmless as the bodies have "
+            f"inertials: {names}"
         )
     return needed
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -48,11 +49,18 @@ class Forces:
             passed_over.append(f"{where}: forces of the fluid around it (density, viscosity)")
         for what in ("jnt_stiffnesspoly", "dof_dampingpoly", "jnt_springyield"):
             if np.any(getattr(model, what, 0.0)):
-                passed_over.append(f"{where}: {what.partition('_')[2]}: springs and dampers are linear")
+                passed_over.append(
+                    f"{where}: {what.partition('_')[2]}: springs and dampers are linear"
+                )
         self.motors: dict[int, Motor] = {}
         self._added_damping: dict[int, float] = {}
         for actuator in range(model.nu if not hasattr(model, "nactuator") else model.nactuator):
             self._actuator(actuator)
+        for joint, motor in self.motors.items():
+            if model.jnt_actfrclimited[joint]:
+                least, most = (float(force) for force in model.jnt_actfrcrange[joint])
+                effort = max(motor.effort[0], least), min(motor.effort[1], most)
+                self.motors[joint] = replace(motor, effort=effort)
 
     def _switched_off(self, *flags: str) -> bool:
         import mujoco
@@ -77,9 +85,7 @@ class Forces:
             name, gear = before.name, before.gear
             lower, upper = lower + before.effort[0], upper + before.effort[1]
             armature += before.armature
-        self.motors[joint] = Motor(
-            name, self.names[joint], gear, armature, (lower, upper)
-        )
+        self.motors[joint] = Motor(name, self.names[joint], gear, armature, (lower, upper))
 
     def _range(self, k: int) -> tuple[float, float]:
         """Least and greatest force of an actuator."""
@@ -97,9 +103,6 @@ class Forces:
         text: bytes = self.model.names
         start = int(self.model.name_actuatoradr[k])
         return text[start : text.index(b"\0", start)].decode("utf-8", "replace")
-
-    def limited(self) -> Iterator[Motor]:
-        """The motors, within what their joints take from all actuators together."""
 
     def effort(self, joint: int) -> float:
         """Greatest torque of a joint's motor [N·m] or force [N]; infinite without one."""
@@ -119,14 +122,18 @@ class Forces:
         self, kept: Mapping[int, str]
     ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
         """Armature of every joint; damping and friction of those of several freedoms."""
-        armature, damping, friction = {}, {}, {}
+        armature: dict[str, float] = {}
+        damping: dict[str, float] = {}
+        friction: dict[str, float] = {}
         for number, name in kept.items():
             if value := float(self.model.dof_armature[self.model.jnt_dofadr[number]]):
                 armature[name] = value
             if self.model.jnt_type[number] not in _SCALAR:
                 damped, rough = self.losses(number)
-                damping |= {name: damped} if damped else {}
-                friction |= {name: rough} if rough else {}
+                if damped:
+                    damping[name] = damped
+                if rough:
+                    friction[name] = rough
         return armature, damping, friction
 
     def springs(self, kept: Mapping[int, str]) -> Iterator[Spring]:

@@ -7,6 +7,7 @@ one body become a chain of massless links.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +36,7 @@ def describe(
     where: str,
     warnings: list[str],
     passed_over: list[str],
-    lines: tuple[dict[int, int], dict[int, int]] = ({}, {}),
+    lines: tuple[Mapping[str, int], Mapping[str, int]] = ({}, {}),
 ) -> Description:
     """Read a compiled model.
 
@@ -44,7 +45,7 @@ def describe(
         where: File name for messages.
         warnings: What is odd already; more may be added.
         passed_over: What isn't used already; more may be added.
-        lines: Of the bodies and joints by their numbers, where they are known.
+        lines: Of the bodies and joints by their names, where they are known.
     """
     reading = _Reading(model, where, warnings, passed_over, lines)
     reading.read_bodies()
@@ -95,7 +96,7 @@ class _Reading:
         where: str,
         warnings: list[str],
         passed_over: list[str],
-        lines: tuple[dict[int, int], dict[int, int]],
+        lines: tuple[Mapping[str, int], Mapping[str, int]],
     ) -> None:
         self.model, self.where = model, where
         self.warnings, self.passed_over, self.lines = warnings, passed_over, lines
@@ -150,12 +151,12 @@ class _Reading:
             )
 
     def _place(self, body: int) -> str:
-        line = self.lines[0].get(body, 0)
+        line = self.lines[0].get(self.bodies[body], 0)
         return f"{self.where}:{line}: body {self.bodies[body]!r}"
 
     def _body(self, body: int) -> None:
         model, name = self.model, self.bodies[body]
-        line = self.lines[0].get(body, 0)
+        line = self.lines[0].get(self.bodies[body], 0)
         self.made.links[name] = Link(name, line, _inertial(model, body))
         parent = self.bodies[int(model.body_parentid[body])]
         numbers = range(
@@ -202,7 +203,7 @@ class _Reading:
         effort = self.forces.effort(number)
         self.made.joints[name] = Joint(
             name,
-            self.lines[1].get(number, 0),
+            self.lines[1].get(name, 0),
             word,
             parent,
             child,
