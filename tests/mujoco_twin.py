@@ -7,7 +7,7 @@ import numpy as np
 import pinocchio as pin
 
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.model.formats.mjcf import read_mjcf
+from thesis_pin.model.formats.mjcf.reading import read_mjcf
 
 
 @dataclass

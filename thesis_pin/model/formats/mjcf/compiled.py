@@ -14,9 +14,11 @@ import numpy as np
 
 from thesis_pin.model.description import Array, Description, Inertial, Joint, Link
 from thesis_pin.model.formats.cutting import Cutter, fresh
-from thesis_pin.model.formats.mjcf_forces import Forces
+from thesis_pin.model.formats.mjcf.equalities import Equalities
+from thesis_pin.model.formats.mjcf.forces import Forces
+from thesis_pin.model.formats.mjcf.names import about, name_at, names_of, turned
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT, UNLIMITED, pose, write_urdf
-from thesis_pin.model.supplement import Closure, Coupling, Mask, Supplement
+from thesis_pin.model.supplement import Supplement
 
 if TYPE_CHECKING:
     import mujoco
@@ -26,9 +28,6 @@ FREE, BALL, SLIDE, HINGE = range(4)
 
 ROOT_JOINT = "root_joint"
 """What a free root's coordinates are called."""
-
-_POINT: Mask = (True, True, True, False, False, False)
-_WELD: Mask = (True, True, True, True, True, True)
 
 
 def describe(
@@ -49,8 +48,8 @@ def describe(
     """
     reading = _Reading(model, where, warnings, passed_over, lines)
     reading.read_bodies()
-    closures = tuple(reading.closures())
-    couplings = tuple(reading.couplings())
+    closures = tuple(reading.equalities.closures(reading.made))
+    couplings = tuple(reading.equalities.couplings())
     forces, free = reading.forces, reading.free_body >= 0
     armature, damping, friction = forces.by_joint(reading.kept)
     supplement = Supplement(
@@ -100,32 +99,24 @@ class _Reading:
     ) -> None:
         self.model, self.where = model, where
         self.warnings, self.passed_over, self.lines = warnings, passed_over, lines
-        self.bodies = _names(model, "body", model.nbody)
-        self.joint_names = _names(model, "jnt", model.njnt)
+        self.bodies = names_of(model, "body", model.nbody)
+        self.joint_names = names_of(model, "jnt", model.njnt)
+        self.forces = Forces(model, self.joint_names, where, warnings, passed_over)
+        self.equalities = Equalities(
+            model, self.bodies, self.joint_names, where, self.forces.without_equalities, passed_over
+        )
         self.free_body = self._free_root()
         self.kept: dict[int, str] = {}
         self.types: dict[str, str] = {}
         self.made = Cutter({}, {}, {*self.bodies, *self.joint_names}, where)
-        self.forces = Forces(model, self.joint_names, where, warnings, passed_over)
 
     def _free_root(self) -> int:
         model = self.model
         roots = [k for k in range(1, model.nbody) if model.body_parentid[k] == 0]
         moving = {int(model.body_rootid[k]) for k in np.asarray(model.jnt_bodyid)}
         free = [k for k in roots if k in moving and model.jnt_type[model.body_jntadr[k]] == FREE]
-        tied = {int(model.body_rootid[b]) for pair in self._tied_bodies() for b in pair}
+        tied = {int(model.body_rootid[b]) for pair in self.equalities.tied_bodies() for b in pair}
         return free[0] if len(free) == 1 and moving | tied <= {free[0]} else -1
-
-    def _tied_bodies(self) -> list[tuple[int, int]]:
-        model = self.model
-        pairs = []
-        for k in range(model.neq):
-            if model.eq_type[k] in (_CONNECT, _WELDED):
-                ends = (int(model.eq_obj1id[k]), int(model.eq_obj2id[k]))
-                if _on_sites(model, k):
-                    ends = (int(model.site_bodyid[ends[0]]), int(model.site_bodyid[ends[1]]))
-                pairs.append(ends)
-        return pairs
 
     def read_bodies(self) -> None:
         """Links and joints, from the root outwards."""
@@ -214,59 +205,11 @@ class _Reading:
             friction,
         )
 
-    def closures(self) -> list[Closure]:
-        """Connects and welds; two frames are made for each."""
-        model, found = self.model, []
-        for k in range(model.neq):
-            if model.eq_type[k] not in (_CONNECT, _WELDED) or not self._active(k):
-                continue
-            one, other, first, second = _anchors(model, k)
-            name = _equality_name(model, k, f"{self.bodies[one]} – {self.bodies[other]}")
-            stem = name.replace(" – ", "_")
-            frames = (
-                self.made.frame(f"{stem}_1", self.bodies[one], first, 0),
-                self.made.frame(f"{stem}_2", self.bodies[other], second, 0),
-            )
-            rows = _POINT if model.eq_type[k] == _CONNECT else _WELD
-            found.append(Closure(name, frames, rows))
-        return found
-
-    def couplings(self) -> list[Coupling]:
-        """Joint equalities that are linear: q₁ − q₁⁰ = a₀ + a₁ (q₂ − q₂⁰)."""
-        model, found = self.model, []
-        for k in range(model.neq):
-            if model.eq_type[k] != _JOINTS or not self._active(k):
-                continue
-            one, other = int(model.eq_obj1id[k]), int(model.eq_obj2id[k])
-            shift, factor, *more = (float(a) for a in model.eq_data[k][:5])
-            names = [self.joint_names[j] for j in (one, other) if j >= 0]
-            name = _equality_name(model, k, " – ".join(names))
-            if other >= 0 and any(more):
-                self.passed_over.append(
-                    f"{self.where}: equality {name!r}, which ties joints by a polynomial of a "
-                    "higher degree than 1"
-                )
-                continue
-            start = model.qpos0[model.jnt_qposadr]
-            coefficients, constant = {names[0]: 1.0}, float(start[one]) + shift
-            if other >= 0:
-                coefficients[names[1]] = -factor
-                constant -= factor * float(start[other])
-            found.append(Coupling(name, coefficients, constant))
-        return found
-
-    def _active(self, equality: int) -> bool:
-        if self.model.eq_active0[equality] and not self.forces.without_equalities:
-            return True
-        name = _equality_name(self.model, equality, f"number {equality}")
-        self.passed_over.append(f"{self.where}: equality {name!r}, which isn't active")
-        return False
-
     def poses(self) -> dict[str, dict[str, tuple[float, ...]]]:
         """The reference pose ``qpos0``, and the keyframes."""
         found = {"qpos0": self._pose(self.model.qpos0)}
         for k in range(self.model.nkey):
-            name = fresh(_name_at(self.model, self.model.name_keyadr[k]) or f"key{k}", found)
+            name = fresh(name_at(self.model, self.model.name_keyadr[k]) or f"key{k}", found)
             found[name] = self._pose(self.model.key_qpos[k])
         return found
 
@@ -285,67 +228,9 @@ class _Reading:
         return values
 
 
-_CONNECT, _WELDED, _JOINTS = 0, 1, 2
-"""MuJoCo's types of equalities, ``mjtEq``."""
-
-_SITE = 6
-"""``mjtObj`` of a site."""
-
-
-def turned(quaternion: Array) -> Array:
-    """Rotation of a quaternion w, x, y, z, shape ``(3, 3)``."""
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-def about(axis: Array, angle: float) -> Array:
-    """Rotation about an axis of length 1 [rad], shape ``(3, 3)``."""
-    return turned(np.r_[np.cos(angle / 2), np.sin(angle / 2) * axis])
-
-
 def _inertial(model: mujoco.MjModel, body: int) -> Inertial | None:
     mass, moments = float(model.body_mass[body]), np.array(model.body_inertia[body])
     if mass == 0.0 and not moments.any():
         return None
     place = pose(model.body_ipos[body], turned(model.body_iquat[body]))
     return Inertial(mass, place, np.diag(moments))
-
-
-def _on_sites(model: mujoco.MjModel, equality: int) -> bool:
-    return int(model.eq_objtype[equality]) == _SITE
-
-
-def _anchors(model: mujoco.MjModel, k: int) -> tuple[int, int, Array, Array]:
-    """Bodies of a connect or weld, and its frame on each."""
-    ends, data = (int(model.eq_obj1id[k]), int(model.eq_obj2id[k])), model.eq_data[k]
-    if _on_sites(model, k):
-        first, second = (pose(model.site_pos[s], turned(model.site_quat[s])) for s in ends)
-        return int(model.site_bodyid[ends[0]]), int(model.site_bodyid[ends[1]]), first, second
-    if model.eq_type[k] == _CONNECT:
-        return *ends, pose(data[:3]), pose(data[3:6])
-    # A weld's data: its anchor on the second body, then where that stands on the first.
-    return *ends, pose(data[3:6], turned(data[6:10])), pose(data[:3])
-
-
-def _equality_name(model: mujoco.MjModel, k: int, otherwise: str) -> str:
-    return _name_at(model, model.name_eqadr[k]) or otherwise
-
-
-def _names(model: mujoco.MjModel, kind: str, count: int) -> list[str]:
-    """A name for each body or joint, no two alike."""
-    names: dict[str, None] = {}
-    given = [_name_at(model, getattr(model, f"name_{kind}adr")[k]) for k in range(count)]
-    for k, name in enumerate(given):
-        names[name or fresh(f"{'joint' if kind == 'jnt' else kind}{k}", {*names, *given})] = None
-    return list(names)
-
-
-def _name_at(model: mujoco.MjModel, address: int) -> str:
-    text: bytes = model.names
-    return text[address : text.index(b"\0", address)].decode("utf-8", "replace")

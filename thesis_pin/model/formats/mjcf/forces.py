@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from thesis_pin.model.formats.mjcf.names import name_at
 from thesis_pin.model.supplement import Motor, Spring
 
 if TYPE_CHECKING:
@@ -100,9 +101,7 @@ class Forces:
         return -inf, inf
 
     def _actuator_name(self, k: int) -> str:
-        text: bytes = self.model.names
-        start = int(self.model.name_actuatoradr[k])
-        return text[start : text.index(b"\0", start)].decode("utf-8", "replace")
+        return name_at(self.model, self.model.name_actuatoradr[k])
 
     def effort(self, joint: int) -> float:
         """Greatest torque of a joint's motor [N·m] or force [N]; infinite without one."""

@@ -1,7 +1,7 @@
 """MJCF → description, through MuJoCo's own compiler.
 
 The compiler resolves defaults, angles, frames, includes and inertias from geometry;
-what it compiles is read by :mod:`thesis_pin.model.formats.mjcf_model`. Whatever
+what it compiles is read by :mod:`thesis_pin.model.formats.mjcf.compiled`. Whatever
 doesn't move bodies (meshes and geometry of bodies that have inertials, textures,
 sensors, cameras) is taken out before, so that files without their meshes load.
 """
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.model.description import Description
-from thesis_pin.model.formats.mjcf_model import describe
+from thesis_pin.model.formats.mjcf.compiled import describe
 from thesis_pin.model.formats.xml import Element, parse_xml
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.source import read_bytes
@@ -66,13 +66,13 @@ def has_mujoco() -> bool:
         import mujoco
     except ImportError:
         return False
-    return hasattr(mujoco, "MjSpec")
+    return hasattr(mujoco, "MjSpec") and hasattr(mujoco.MjSpec, "delete")
 
 
 def _spec(text: str, included: dict[str, bytes], folder: Path, where: str) -> mujoco.MjSpec:
     if not has_mujoco():
         raise BadInput(
-            "MJCF is read through MuJoCo's compiler, which isn't installed",
+            "MJCF is read through MuJoCo's compiler, which isn't installed (or is older than 3.4)",
             where=where,
             remedy="pip install 'thesis-pin[mujoco]'",
         )
