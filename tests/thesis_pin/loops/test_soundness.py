@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from thesis_pin.loops import soundness
-from thesis_pin.loops.loading import load
 from thesis_pin.loops.kinematics import residual
+from thesis_pin.loops.loading import load
 
 DATA = Path(__file__).parent / "data"
 
