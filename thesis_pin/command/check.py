@@ -7,7 +7,7 @@ import argparse
 from thesis_pin.command.exits import ExitCode
 from thesis_pin.command.output import print_table, print_text
 from thesis_pin.command.verbs import Answer, give
-from thesis_pin.loops.closures import load
+from thesis_pin.loops.loading import load
 from thesis_pin.loops.soundness import Soundness, check
 
 
@@ -16,7 +16,7 @@ def run(arguments: argparse.Namespace) -> ExitCode:
 
     def answer() -> Answer:
         found = check(load(arguments.urdf, arguments.closures))
-        return Answer(found.document, lambda: _tell(found), yes=found.closes)
+        return Answer(found.document, lambda: _tell(found), yes=found.sound)
 
     return give(arguments, answer, "checking")
 

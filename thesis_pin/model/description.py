@@ -63,7 +63,8 @@ class Joint:
             None without a limit.
         damping: Viscous friction [N·m·s/rad] or [N·s/m].
         friction: Coulomb friction [N·m] or [N].
-        mimics: Whether it says that it follows another joint.
+        mimic: What joint it says it follows: its name, factor [-] and offset [rad] or [m];
+            None if it follows none.
     """
 
     name: str
@@ -76,7 +77,7 @@ class Joint:
     limit: tuple[float, float, float, float] | None = None
     damping: float = 0.0
     friction: float = 0.0
-    mimics: bool = False
+    mimic: tuple[str, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +89,7 @@ class Description:
         links: By name, in the file's order.
         joints: By name, in the file's order.
         text: The tree as a URDF: the file's own text where it is one, else written from it.
+        where: The file's name, for messages.
         supplement: Closures, couplings, motors and all else that the text can't hold.
         mesh_folders: Where relative names of meshes are looked for, in this order.
         warnings: What is odd about the file, each with its place, and doesn't make it wrong.
@@ -98,6 +100,7 @@ class Description:
     links: dict[str, Link]
     joints: dict[str, Joint]
     text: str = field(default="", repr=False)
+    where: str = "URDF"
     supplement: Supplement = field(default_factory=Supplement)
     mesh_folders: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()

@@ -1,5 +1,6 @@
 """Reading a URDF and a closure file: what is accepted, kept and refused."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -7,8 +8,12 @@ import pinocchio as pin
 import pytest
 
 from thesis_pin.errors import BadInput, ModelError, SpecificationError, UnknownName
-from thesis_pin.loops.closures import ClosureFile, load
 from thesis_pin.loops.joint_types import replace_joints
+from thesis_pin.loops.kinematics import close
+from thesis_pin.loops.loading import load
+from thesis_pin.model.closure_types import word_of
+from thesis_pin.model.formats.closure_file import ClosureFile
+from thesis_pin.model.formats.urdf import read
 
 DATA = Path(__file__).parent / "data"
 
@@ -179,18 +184,40 @@ def test_a_motor_on_a_ball_joint_is_refused(tmp_path):
         with_closures(tmp_path, text, "rssr")
 
 
-def test_a_link_with_two_parents_is_refused_with_both_joints(tmp_path):
-    text = (DATA / "five_bar.urdf").read_text()
-    # The loop drawn whole: both bars carry one and the same tip.
-    looped = text.replace('<child link="right_tip"/>', '<child link="left_tip"/>').replace(
-        '  <link name="right_tip"/>\n', ""
+def test_a_link_with_two_parents_is_cut_where_the_file_says_and_moves_as_the_tree_with_its_file(
+    tmp_path,
+):
+    """The loop drawn whole: the left bar's tip turns on the right bar."""
+    pin_joint = (
+        'right_tip_joint" type="revolute"><axis xyz="0 1 0"/>'
+        '<limit lower="-3" upper="3" effort="1" velocity="1"/>'
+    )
+    looped = (
+        (DATA / "five_bar.urdf")
+        .read_text()
+        .replace('<child link="right_tip"/>', '<child link="left_tip"/>')
+        .replace('  <link name="right_tip"/>\n', "")
+        .replace('right_tip_joint" type="fixed">', pin_joint)
     )
     (tmp_path / "looped.urdf").write_text(looped)
-    says = r"looped\.urdf:67: link 'left_tip' has two parents"
-    with pytest.raises(ModelError, match=says) as caught:
-        load(tmp_path / "looped.urdf", DATA / "five_bar.yaml")
-    assert "'left_tip_joint' and 'right_tip_joint'" in str(caught.value)
-    assert "closure file" in caught.value.remedy
+    found = read(tmp_path / "looped.urdf")
+    (closure,) = found.supplement.closures
+    assert word_of(closure.rows) == "hinge_z"
+    (note,) = found.warnings
+    assert re.search(r"looped\.urdf:\d+: joint 'right_tip_joint': the loop is cut here", note)
+    whole = load(DATA / "five_bar.urdf", DATA / "five_bar.yaml")
+    closed = close(whole, np.array([0.5, 0.3, -0.4, 0.2]))
+    tree = pin.buildModelFromXML(found.text)
+    q = np.zeros(tree.nq)
+    for name in list(tree.names)[1:]:
+        joint, other = tree.getJointId(name), whole.model.getJointId(name)
+        q[tree.idx_qs[joint]] = closed[whole.model.idx_qs[other]]
+    data = tree.createData()
+    pin.framesForwardKinematics(tree, data, q)
+    one, other = (data.oMf[tree.getFrameId(frame)] for frame in closure.frames)
+    np.testing.assert_allclose(one.translation, other.translation, atol=1e-9)
+    np.testing.assert_allclose(one.rotation[:, 2], other.rotation[:, 2], atol=1e-9)
+    np.testing.assert_allclose(one.rotation[:, 2], [0, 1, 0], atol=1e-9)
 
 
 @pytest.mark.parametrize("text", ["closed_loop: [[", "a: b: c", "- 1\n- 2\n", ""])
@@ -218,7 +245,9 @@ def test_parse_and_read_agree():
 
 
 def test_a_free_flying_looped_robot_loads():
-    found = load(DATA / "five_bar.urdf", DATA / "five_bar.yaml", pin.JointModelFreeFlyer())
+    found = load(
+        DATA / "five_bar.urdf", DATA / "five_bar.yaml", root_joint=pin.JointModelFreeFlyer()
+    )
     assert found.model.nv == 10
     np.testing.assert_array_equal(found.actuated, [8, 6])
 
