@@ -1,8 +1,8 @@
 """Summaries of actuators against integrals done by hand."""
 
 import numpy as np
-from scipy.integrate import trapezoid
 import pytest
+from scipy.integrate import trapezoid
 
 from thesis_pin.report.summary import summarise, summarise_parts
 
