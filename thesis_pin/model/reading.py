@@ -1,0 +1,74 @@
+"""Any file of a robot → description, by the reader that its content asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from xml.parsers import expat
+
+from thesis_pin.errors import ModelError
+from thesis_pin.model.description import Description
+from thesis_pin.model.examples import PREFIX, example
+from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.source import read_bytes
+
+FORMATS = {"robot": "URDF", "mujoco": "MJCF", "sdf": "SDF"}
+"""Root element of a file → its format."""
+
+
+def read_description(file: str | Path, *, motors: Sequence[str] = ()) -> Description:
+    """Read a robot's file, whatever it is.
+
+    Args:
+        file: URDF, URDF+, MJCF or SDF; or ``example:NAME`` of example-robot-data.
+        motors: Joints, or parts of their names, that aren't cut if a loop has others.
+
+    Returns:
+        What it says; not yet whether that makes sense.
+
+    Raises:
+        BadInput: It can't be read, there is no such example, or what reads it isn't installed.
+        ModelError: It isn't a robot's file, or isn't written as its format asks.
+        UnknownName: A name in it isn't there.
+    """
+    path = example(file.removeprefix(PREFIX)) if is_example(file) else file
+    content = read_bytes("robot's file", path, LIMITS.urdf_bytes)
+    kind = root_element(content)
+    if kind == "mujoco":
+        from thesis_pin.model.formats.mjcf.reading import read_mjcf
+
+        return read_mjcf(path)
+    if kind == "sdf":
+        from thesis_pin.model.formats.sdf.reading import read_sdf
+
+        return read_sdf(path)
+    if kind not in ("robot", ""):
+        raise ModelError(
+            f"the root element is <{kind}>",
+            where=str(path),
+            allowed=", ".join(f"<{tag}> ({name})" for tag, name in FORMATS.items()),
+        )
+    found = read_urdf(content, where=str(path), motors=motors)
+    return replace(found, mesh_folders=(str(Path(path).resolve().parent),))
+
+
+def is_example(file: object) -> bool:
+    """Whether a file is named as an example: no file is called so."""
+    return isinstance(file, str) and file.startswith(PREFIX) and not Path(file).exists()
+
+
+def root_element(content: bytes) -> str:
+    """Tag of an XML document's root; empty if it isn't one."""
+    tags: list[str] = []
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = lambda tag, _: tags.append(tag)
+    for start in range(0, len(content), 4096):
+        try:
+            parser.Parse(content[start : start + 4096], False)
+        except (expat.ExpatError, LookupError, ValueError):
+            break
+        if tags:
+            break
+    return tags[0] if tags else ""
