@@ -49,9 +49,7 @@ def with_mesh_paths(
     return canonical(root)
 
 
-def _found(
-    name: str, folders: Sequence[str], environment: Mapping[str, str], where: str
-) -> str:
+def _found(name: str, folders: Sequence[str], environment: Mapping[str, str], where: str) -> str:
     tried: list[str] = []
     for candidate in _candidates(name, folders, environment):
         if candidate.is_file():

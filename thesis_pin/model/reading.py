@@ -14,6 +14,7 @@ from thesis_pin.model.formats.urdf import read_urdf
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.source import read_bytes
 
+_KINDS = {".urdf": "URDF", ".sdf": "SDF"}
 FORMATS = {"robot": "URDF", "mujoco": "MJCF", "sdf": "SDF"}
 """Root element of a file → its format."""
 
@@ -33,17 +34,16 @@ def read_description(file: str | Path, *, motors: Sequence[str] = ()) -> Descrip
         ModelError: It isn't a robot's file, or isn't written as its format asks.
         UnknownName: A name in it isn't there.
     """
-    path = example(file.removeprefix(PREFIX)) if is_example(file) else file
-    content = read_bytes("robot's file", path, LIMITS.urdf_bytes)
+    if isinstance(file, str) and is_example(file):
+        path: str | Path = example(file.removeprefix(PREFIX))
+    else:
+        path = file
+    content = read_bytes(_KINDS.get(Path(path).suffix, "robot's file"), path, LIMITS.urdf_bytes)
     kind = root_element(content)
     if kind == "mujoco":
         from thesis_pin.model.formats.mjcf.reading import read_mjcf
 
         return read_mjcf(path)
-    if kind == "sdf":
-        from thesis_pin.model.formats.sdf.reading import read_sdf
-
-        return read_sdf(path)
     if kind not in ("robot", ""):
         raise ModelError(
             f"the root element is <{kind}>",
@@ -61,14 +61,20 @@ def is_example(file: object) -> bool:
 
 def root_element(content: bytes) -> str:
     """Tag of an XML document's root; empty if it isn't one."""
-    tags: list[str] = []
     parser = expat.ParserCreate()
-    parser.StartElementHandler = lambda tag, _: tags.append(tag)
-    for start in range(0, len(content), 4096):
-        try:
-            parser.Parse(content[start : start + 4096], False)
-        except (expat.ExpatError, LookupError, ValueError):
-            break
-        if tags:
-            break
-    return tags[0] if tags else ""
+    parser.StartElementHandler = _stop
+    try:
+        parser.Parse(content, True)
+    except _Root as found:
+        return str(found)
+    except (expat.ExpatError, LookupError, ValueError):
+        pass
+    return ""
+
+
+class _Root(Exception):
+    """The root element has begun; nothing behind it is looked at."""
+
+
+def _stop(tag: str, _: dict[str, str]) -> None:
+    raise _Root(tag)

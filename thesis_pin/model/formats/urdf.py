@@ -134,7 +134,7 @@ def _motors(root: Element, joints: dict[str, Joint], supplement: Supplement) -> 
     single = [
         name
         for name, joint in joints.items()
-        if joint.kind in ("revolute", "continuous", "prismatic")
+        if joint.kind in ("revolute", "prismatic")
     ]
     if marked := independent(root):
         return tuple(Motor(name, name) for name in single if name in marked)
