@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 import pollard_pin
-from thesis_pin.loops.closures import load
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.loops.kinematics import close, follow
+from thesis_pin.loops.loading import load
 
 
 def torques(urdf, closures, guess):

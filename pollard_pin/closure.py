@@ -9,7 +9,7 @@ from pathlib import Path
 
 from pollard_pin.specification import Specification
 from pollard_pin.urdf import closure_file
-from thesis_pin.loops.closures import ClosureFile
+from thesis_pin.model.formats.closure_file import ClosureFile
 from thesis_pin.model.loading import model_folder
 
 BODIES, JOINTS, FREEDOMS = 8, 9, 18

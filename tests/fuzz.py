@@ -94,8 +94,8 @@ def targets() -> dict[str, tuple[str, str, Callable[[Path], object]]]:
 
     import pollard_pin
     import scout_pin
-    from thesis_pin.loops import closures
     from thesis_pin.loops.kinematics import mobility
+    from thesis_pin.loops.loading import load
 
     scout, pollard = scout_pin.load(), pollard_pin.load()
     pose = [0.45, 0.05, 0.05, 0.1, 0.2, 0.1]
@@ -114,11 +114,11 @@ def targets() -> dict[str, tuple[str, str, Callable[[Path], object]]]:
         return pollard_pin.trajectory_report(pollard, pollard_pin.load_path(path), samples=5)
 
     def loops(path: Path) -> object:
-        robot = closures.load(LOOPS / "five_bar.urdf", path)
+        robot = load(LOOPS / "five_bar.urdf", path)
         return mobility(robot, robot.q0)
 
     def tree(path: Path) -> object:
-        robot = closures.load(path, LOOPS / "five_bar.yaml")
+        robot = load(path, LOOPS / "five_bar.yaml")
         return mobility(robot, robot.q0)
 
     time = np.linspace(0, 1, 9)

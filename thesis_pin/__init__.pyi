@@ -1,9 +1,10 @@
 # Robots with closed loops
 from .loops.closures import (
     ClosedRobot as ClosedRobot,
-    ClosureFile as ClosureFile,
     Loop as Loop,
 )
+from .loops.loading import load as load
+from .model.formats.closure_file import ClosureFile as ClosureFile
 from .loops.dynamics import (
     ForwardDynamics as ForwardDynamics,
     LoopDynamics as LoopDynamics,

@@ -63,7 +63,7 @@ def path_scene(report: TrajectoryReport) -> Scene:
         groups=_groups(largest, force_scale),
         items=(
             *robot_items(robot.model, robot.visual_model, q, group="robot", colour=_colour),
-            *closure_items(robot.model, robot.closures.closed_loop, q, "loops", 0.011),
+            *closure_items(robot.model, [loop.frames for loop in robot.loops], q, "loops", 0.011),
             *_tool(report, keep, q, zone),
             *_motors(report, keep, moves, largest),
             *_loop_forces(report, keep, q, force_scale),
@@ -170,11 +170,11 @@ def _loop_forces(
         Arrow(
             f"loop_force_{i + 1}",
             "forces",
-            frame_placements(report.robot.model, frame, q)[:, :3],
+            frame_placements(report.robot.model, loop.frames[0], q)[:, :3],
             report.dynamics.loop_force[keep, i],
             scale,
             4e-3,
             VERMILLION,
         )
-        for i, (frame, _) in enumerate(report.robot.closures.closed_loop)
+        for i, loop in enumerate(report.robot.loops)
     ]

@@ -10,7 +10,7 @@ import yaml
 import pollard_pin
 from pollard_pin.specification import JOINT_NAMES, LINK_NAMES, SKEWED_PATH, Specification
 from pollard_pin.urdf import files, urdf
-from thesis_pin.loops.closures import load
+from thesis_pin.loops.loading import load
 from thesis_pin.model.loading import model_folder
 
 SPECIFICATIONS = [None, SKEWED_PATH]

@@ -18,9 +18,9 @@ from pollard_pin.motion import curves as pollard_curves
 from pollard_pin.thesis import ExplicitModel as PollardExplicit
 from scout_pin.thesis import ExplicitModel as ScoutExplicit
 from thesis_pin.errors import BadInput, ThesisPinError
-from thesis_pin.loops import closures
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
+from thesis_pin.loops.loading import load as load_looped
 from thesis_pin.model import inertia, loading
 from thesis_pin.numeric.interpolation import cubic, interpolate
 
@@ -274,9 +274,9 @@ CALLS = {
         loop_dynamics.inverse_dynamics,
         {"robot": POLLARD, "q": Q, "v": V, "a": A},
     ),
-    "closures.load": (
-        closures.load,
-        {"urdf": DATA / "five_bar.urdf", "closures": DATA / "five_bar.yaml", "root_joint": None},
+    "load": (
+        load_looped,
+        {"file": DATA / "five_bar.urdf", "closures": DATA / "five_bar.yaml", "root_joint": None},
     ),
     "load_model": (
         loading.load_model,

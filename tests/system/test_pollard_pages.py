@@ -77,7 +77,7 @@ def test_loops_look_closed_at_the_ball_joints_pinocchio_finds(view, report, samp
     view.run(f"player.time = {report.joints.time[sample]}")
     model, data = report.robot.model, report.robot.model.createData()
     pin.framesForwardKinematics(model, data, report.joints.q[sample])
-    for pair in report.robot.closures.closed_loop:
+    for pair in [loop.frames for loop in report.robot.loops]:
         first, second = (view.vertices(name).mean(axis=0) for name in pair)
         place = data.oMf[model.getFrameId(pair[0])].translation
         np.testing.assert_allclose(first, second, atol=2e-4)
@@ -92,7 +92,7 @@ def test_arrows_have_the_size_and_direction_of_the_ball_joint_forces(view, repor
     model, data = report.robot.model, report.robot.model.createData()
     pin.framesForwardKinematics(model, data, report.joints.q[sample])
     largest = np.linalg.norm(report.dynamics.loop_force, axis=-1).max()
-    for i, (anchor, _) in enumerate(report.robot.closures.closed_loop):
+    for i, (anchor, _) in enumerate([loop.frames for loop in report.robot.loops]):
         start = data.oMf[model.getFrameId(anchor)].translation
         force = report.dynamics.loop_force[sample, i]
         points = view.vertices(f"loop_force_{i + 1}")

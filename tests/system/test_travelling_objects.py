@@ -15,14 +15,14 @@ import thesis_pin
 from scout_pin.report.verdict import sentences
 from scout_pin.report.view import gait_scene
 from thesis_pin import errors
-from thesis_pin.loops.closures import load
+from thesis_pin.loops.loading import load
 
 ROOT = Path(__file__).parents[2]
 LOOPED = ROOT / "tests" / "thesis_pin" / "loops" / "data"
 
 
 def looped(root=None):
-    return load(LOOPED / "four_bar.urdf", LOOPED / "four_bar.yaml", root)
+    return load(LOOPED / "four_bar.urdf", LOOPED / "four_bar.yaml", root_joint=root)
 
 
 def gait_report():
@@ -42,6 +42,7 @@ def torque_block(package):
     return next(iter(pollard_pin.torque_blocks(robot, path, np.linspace(0, path.duration, 21))))
 
 
+FIVE_BAR = LOOPED / "five_bar.yaml"
 MAKERS = {
     "Scout": scout_pin.load,
     "Scout in the thesis's coordinates": lambda: scout_pin.load(root="thesis", inertia="printed"),
@@ -64,7 +65,8 @@ MAKERS = {
     "TrajectoryReport": trajectory_report,
     "TorqueBlock of Scout": lambda: torque_block(scout_pin),
     "TorqueBlock of Pollard": lambda: torque_block(pollard_pin),
-    "ClosureFile": lambda: looped().closures,
+    "ClosureFile": lambda: thesis_pin.ClosureFile.read(FIVE_BAR),
+    "Description": lambda: looped().description,
     "Loop": lambda: looped().loops[0],
     "ForwardDynamics": lambda: thesis_pin.ForwardDynamics(looped()),
     "Scene": lambda: gait_scene(gait_report()),

@@ -1,14 +1,4 @@
-"""URDF and closure file → a checked robot with closed loops.
-
-A URDF can only describe a tree. The parallel-robots community writes the rest
-beside it, in YAML::
-
-    closed_loop: [[frame_on_one_body, frame_on_another], ...]
-    type: ['3d', '6d', ...]        # ball joint, or rigid weld
-    name_mot: [joint, ...]         # motors: names, or parts of names
-    joint_name: [joint, ...]       # joints whose type a URDF can't express
-    joint_type: ['SPHERICAL', ...] # or CARDAN, FIXED
-    thesis_pin: {format: 1, names: [...]}   # ours, optional; others skip it
+"""Description → a checked robot with closed loops.
 
 Signs: the residual of a loop is where its second frame stands, seen from the
 first; the force reported for a loop acts on the first frame's body.
@@ -16,100 +6,19 @@ first; the force reported for a loop acts on the first frame's body.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pinocchio as pin
-from pydantic import Field, field_validator
 
-from thesis_pin.errors import BadInput, ModelError, UnknownName
+from thesis_pin.errors import ModelError, UnknownName
 from thesis_pin.loops.joint_types import replace_joints
-from thesis_pin.loops.yaml_text import parse_yaml
-from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.loading import LoadedRobot, RootJoint, frame_id
-from thesis_pin.model.source import read_bytes, read_text
-from thesis_pin.model.specification import Key, Strict, validate
-from thesis_pin.numeric.checks import shown
-
-FILE_KIND = "closure file"
-
-_Entry = TypeVar("_Entry")
-Bounded = Annotated[tuple[_Entry, ...], Field(max_length=LIMITS.entries)]
-
-
-class Extra(Strict):
-    """What we add to the community's schema."""
-
-    format: Literal[1]
-    robot: str = ""
-    names: tuple[str, ...] = ()
-
-
-class ClosureFile(Strict):
-    """Content of a closure file."""
-
-    closed_loop: Bounded[tuple[str, str]]
-    type: Bounded[Literal["3d", "6d"]]
-    name_mot: Annotated[Bounded[str], Field(min_length=1)]
-    joint_name: Bounded[str] = ()
-    joint_type: Bounded[Literal["SPHERICAL", "CARDAN", "FIXED"]] = ()
-    thesis_pin: Extra | None = None
-
-    @field_validator("type", mode="before")
-    @classmethod
-    def _small(cls, value: Any) -> Any:
-        if isinstance(value, list | tuple):
-            return tuple(item.lower() if isinstance(item, str) else item for item in value)
-        return value
-
-    @field_validator("name_mot", mode="before")
-    @classmethod
-    def _one_or_many(cls, value: Any) -> Any:
-        return (value,) if isinstance(value, str) else value
-
-    @classmethod
-    def read(cls, path: str | Path) -> ClosureFile:
-        """Read and validate a file.
-
-        Raises:
-            BadInput: It can't be read or isn't YAML.
-            SpecificationError: It breaks the schema; carries every problem.
-        """
-        return cls.parse(read_text(FILE_KIND, path, LIMITS.yaml_bytes), where=str(path))
-
-    @classmethod
-    def parse(cls, text: str, *, where: str = "<text>") -> ClosureFile:
-        """The same for text already in memory."""
-        if not isinstance(text, str):
-            raise BadInput(f"the {FILE_KIND} is {shown(text)}", allowed="text", where=where)
-        data, lines = parse_yaml(FILE_KIND, text, where=where)
-        return validate(FILE_KIND, cls, data, where=where, lines=lines)
-
-    def cross_check(self) -> Iterator[tuple[Key, str, object]]:
-        """Lists that belong together have equal lengths; nothing is named twice."""
-        loops, types = len(self.closed_loop), len(self.type)
-        if loops != types:
-            yield ("type",), f"has {types} entries for {loops} loops in closed_loop", None
-        names, kinds = len(self.joint_name), len(self.joint_type)
-        if names != kinds:
-            yield ("joint_type",), f"has {kinds} entries for {names} joints in joint_name", None
-        if self.thesis_pin and self.thesis_pin.names and len(self.thesis_pin.names) != loops:
-            count = len(self.thesis_pin.names)
-            yield ("thesis_pin", "names"), f"has {count} entries for {loops} loops", None
-        for key in ("name_mot", "joint_name"):
-            counts = Counter(getattr(self, key))
-            for name in sorted(name for name, count in counts.items() if count > 1):
-                yield (key,), "names a joint twice", name
-        for number, (first, second) in enumerate(self.closed_loop):
-            if first == second:
-                yield ("closed_loop", number), "closes a frame onto itself", first
-        pairs = [frozenset(pair) for pair in self.closed_loop]
-        if len(set(pairs)) < len(pairs):
-            yield ("closed_loop",), "names the same pair of frames twice", None
+from thesis_pin.model.closure_types import word_of
+from thesis_pin.model.description import Description
+from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
+from thesis_pin.model.loading import LoadedRobot, RootJoint, check_urdf, frame_id
+from thesis_pin.model.supplement import Closure, Motor, Supplement
 
 
 @dataclass(frozen=True)
@@ -167,8 +76,16 @@ class Loop:
 class ClosedRobot(LoadedRobot):
     """A tree with closed loops and motors; its calculus is in :mod:`thesis_pin.loops.kinematics`.
 
+    Args:
+        robot: The description, or the URDF of the tree.
+        closures: What closes it, if the URDF alone is given; None if nothing does.
+        root_joint: Joint between world and root link; None for what the description says.
+        where: Closure file, for messages.
+
     Attributes:
+        description: What it was made from.
         loops: The closed loops, in the file's order.
+        motors: What is known of each motor, in the file's order.
         actuators: Names of the motor joints, in the file's order.
         actuated: Their places in a velocity vector, shape ``(motors,)``.
         actuated_q: Their places in a configuration vector, shape ``(motors,)``.
@@ -178,23 +95,26 @@ class ClosedRobot(LoadedRobot):
 
     def __init__(
         self,
-        urdf: str | bytes,
-        closures: ClosureFile,
+        robot: Description | str | bytes,
+        closures: ClosureFile | None = None,
         root_joint: RootJoint = None,
         *,
         where: str = FILE_KIND,
-        source: Path | None = None,
     ) -> None:
-        super().__init__(urdf, {}, root_joint, where="URDF" if source is None else str(source))
-        self._urdf_folder = None if source is None else source.resolve().parent
-        if closures.joint_name:
-            kinds = dict(zip(closures.joint_name, closures.joint_type, strict=True))
-            self.model = replace_joints(self.model, kinds, where=where)
+        described = robot if isinstance(robot, Description) else check_urdf(robot)
+        if closures is not None:
+            described = replace(described, supplement=closures.supplement())
+        beside = described.supplement
+        if root_joint is None and beside.free_root:
+            root_joint = pin.JointModelFreeFlyer()
+        super().__init__(described, {}, root_joint, where=described.where)
+        if beside.joint_types:
+            self.model = replace_joints(self.model, beside.joint_types, where=where)
             self.data = self.model.createData()
             self.q0, self.v0 = pin.neutral(self.model), np.zeros(self.model.nv)
-        self.closures = closures
-        self.loops = _loops(self.model, closures, where)
-        self.actuators = _motors(self.model, closures.name_mot, where)
+        self.loops = tuple(_loop(self.model, one, where) for one in beside.closures)
+        self.motors = _motors(self.model, beside.motors, where)
+        self.actuators = tuple(motor.joint for motor in self.motors)
         joints = [self.model.joints[self.model.getJointId(name)] for name in self.actuators]
         for name, joint in zip(self.actuators, joints, strict=True):
             if joint.nq != 1 or joint.nv != 1:
@@ -203,10 +123,15 @@ class ClosedRobot(LoadedRobot):
                     where=f"{where}: name_mot",
                     allowed="revolute and prismatic joints with limits",
                 )
-        self.actuated = np.array([joint.idx_v for joint in joints])
-        self.actuated_q = np.array([joint.idx_q for joint in joints])
+        self.actuated = np.array([joint.idx_v for joint in joints], dtype=int)
+        self.actuated_q = np.array([joint.idx_q for joint in joints], dtype=int)
         self.passive = np.setdiff1d(np.arange(self.model.nv), self.actuated)
         self.constraint_models = [loop.constraint_model(self.model) for loop in self.loops]
+
+    @property
+    def supplement(self) -> Supplement:
+        """What its URDF can't say."""
+        return self.description.supplement
 
     def __getstate__(self) -> dict[str, object]:
         state = super().__getstate__()
@@ -216,13 +141,6 @@ class ClosedRobot(LoadedRobot):
     def __setstate__(self, state: dict[str, object]) -> None:
         super().__setstate__(state)
         self.constraint_models = [loop.constraint_model(self.model) for loop in self.loops]
-
-    def _geometry(self, kind: Any) -> pin.GeometryModel:
-        """Geometry; meshes are looked for beside the URDF and in the folder above."""
-        if self._urdf_folder is None:
-            return super()._geometry(kind)
-        folders = [str(self._urdf_folder), str(self._urdf_folder.parent)]
-        return pin.buildGeomFromUrdfString(self.model, self.urdf, kind, package_dirs=folders)
 
     @property
     def equations(self) -> int:
@@ -237,59 +155,35 @@ class ClosedRobot(LoadedRobot):
         return models
 
 
-def load(urdf: str | Path, closures: str | Path, root_joint: RootJoint = None) -> ClosedRobot:
-    """Load a looped robot from a URDF file and the closure file beside it.
-
-    Args:
-        urdf: Path of the URDF of the tree.
-        closures: Path of the closure file.
-        root_joint: Joint between world and root link, ``None`` to fix it.
-
-    Returns:
-        The robot: Pinocchio model, loops, motors.
-
-    Raises:
-        BadInput: A file can't be read.
-        SpecificationError: The closure file breaks its schema.
-        UnknownName: It names a frame or joint the URDF doesn't have.
-        ModelError: The URDF isn't a sound tree, or a motor or loop makes no sense.
-    """
-    text = read_bytes("URDF", urdf, LIMITS.urdf_bytes)
-    content = ClosureFile.read(closures)
-    return ClosedRobot(text, content, root_joint, where=str(closures), source=Path(urdf))
+def _loop(model: pin.Model, closure: Closure, where: str) -> Loop:
+    one, other = closure.frames
+    here = f"{where}: closure {closure.name!r}"
+    ids = (frame_id(model, one, where=here), frame_id(model, other, where=here))
+    if model.frames[ids[0]].parentJoint == model.frames[ids[1]].parentJoint:
+        raise ModelError(
+            f"frames {one!r} and {other!r} are on the same body",
+            where=here,
+            allowed="frames on two bodies that can move against each other",
+        )
+    return Loop(closure.name, word_of(closure.rows), closure.frames, ids)
 
 
-def _loops(model: pin.Model, closures: ClosureFile, where: str) -> tuple[Loop, ...]:
-    names = closures.thesis_pin.names if closures.thesis_pin else ()
-    loops = []
-    for number, (pair, kind) in enumerate(zip(closures.closed_loop, closures.type, strict=True)):
-        here = f"{where}: closed_loop[{number}]"
-        ids = (frame_id(model, pair[0], where=here), frame_id(model, pair[1], where=here))
-        if model.frames[ids[0]].parentJoint == model.frames[ids[1]].parentJoint:
-            raise ModelError(
-                f"frames {pair[0]!r} and {pair[1]!r} are on the same body",
-                where=here,
-                allowed="frames on two bodies that can move against each other",
-            )
-        name = names[number] if names else f"{pair[0]} – {pair[1]}"
-        loops.append(Loop(name, kind, pair, ids))
-    return tuple(loops)
-
-
-def _motors(model: pin.Model, identifiers: Sequence[str], where: str) -> tuple[str, ...]:
-    """Joints the identifiers stand for, in their order; an exact name beats a part of one."""
+def _motors(model: pin.Model, given: Sequence[Motor], where: str) -> tuple[Motor, ...]:
+    """Motors of the joints that are named whole or in part; a whole name beats a part."""
     known = dict.fromkeys(list(model.names)[1:])
-    motors: dict[str, None] = {}
-    for identifier in identifiers:
-        matches = [identifier] if identifier in known else [n for n in known if identifier in n]
+    motors: dict[str, Motor] = {}
+    for motor in given:
+        part = motor.joint
+        matches = [part] if part in known else [name for name in known if part in name]
         if not matches:
-            raise UnknownName("joint", identifier, list(known), where=f"{where}: name_mot")
-        for name in matches:
-            if name in motors:
+            raise UnknownName("joint", part, list(known), where=f"{where}: name_mot")
+        for joint in matches:
+            if joint in motors:
                 raise ModelError(
-                    f"{identifier!r} stands for motor {name!r}, which is already named",
+                    f"{part!r} stands for motor {joint!r}, which is already named",
                     where=f"{where}: name_mot",
                     remedy="Write each motor's full name once",
                 )
-            motors[name] = None
-    return tuple(motors)
+            name = joint if motor.name == part else motor.name
+            motors[joint] = replace(motor, joint=joint, name=name)
+    return tuple(motors.values())

@@ -90,7 +90,7 @@ def inverse_dynamics(
     Raises:
         BadInput: The motion opens a loop (see :func:`close`, :func:`follow`).
     """
-    model = instance("robot", robot, ClosedRobot, "closures.load()").model
+    model = instance("robot", robot, ClosedRobot, "load()").model
     q, v, a = together(
         q=finite_array("q", q, model.nq),
         v=finite_array("v", v, model.nv),
@@ -128,7 +128,7 @@ def forward_dynamics(
     Pinocchio's ``constraintDynamics``; the loops' own drift isn't corrected here, see
     :func:`simulate`.
     """
-    instance("robot", robot, ClosedRobot, "closures.load()")
+    instance("robot", robot, ClosedRobot, "load()")
     return each(robot, ForwardDynamics(robot), q=q, v=v, torque=torque)
 
 
@@ -195,7 +195,7 @@ def simulate(
             fails or returns something else than ``(motors,)`` finite numbers.
         Unreachable: A step left the loops too far open to close again.
     """
-    model = instance("robot", robot, ClosedRobot, "closures.load()").model
+    model = instance("robot", robot, ClosedRobot, "load()").model
     duration = real("duration", duration, low=_SHORTEST, unit="s")
     step = real("step", step, low=_SHORTEST, unit="s")
     asked = _asked(torque, len(robot.actuators))

@@ -87,7 +87,7 @@ class Mobility:
 
 def mobility(robot: ClosedRobot, q: ArrayLike) -> Mobility:
     """Degrees of freedom at one configuration ``(nq,)``."""
-    instance("robot", robot, ClosedRobot, "closures.load()")
+    instance("robot", robot, ClosedRobot, "load()")
     _, values, rows = np.linalg.svd(jacobian(robot, vector("q", q, robot.model.nq)))
     rank = int((values > TOLERANCES.rank * values[0]).sum()) if values.size else 0
     nv = robot.model.nv
@@ -160,7 +160,7 @@ def follow(
         Unreachable: A sample can't be closed.
         SingularPose: The motors don't determine the passive joints at a sample.
     """
-    instance("robot", robot, ClosedRobot, "closures.load()")
+    instance("robot", robot, ClosedRobot, "load()")
     count, nv = len(robot.actuators), robot.model.nv
     motors, rates, accelerations = (
         finite_array(name, value, None, count)
@@ -203,7 +203,7 @@ def each(
     Raises:
         BadInput: A vector has another size or isn't finite, stacks differ or are empty.
     """
-    model = instance("robot", robot, ClosedRobot, "closures.load()").model
+    model = instance("robot", robot, ClosedRobot, "load()").model
     sizes = {"q": model.nq, "guess": model.nq, "v": model.nv}
     motors = len(robot.actuators)
     given = {name: finite_array(name, x, sizes.get(name, motors)) for name, x in vectors.items()}

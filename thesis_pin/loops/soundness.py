@@ -93,7 +93,7 @@ def check(robot: ClosedRobot) -> Soundness:
     """Look for a closed configuration of a robot, and count its freedom there.
 
     Args:
-        robot: From :func:`thesis_pin.loops.closures.load`.
+        robot: From :func:`thesis_pin.loops.loading.load`.
 
     Returns:
         What was found; the same for the same robot.

@@ -88,6 +88,7 @@ class Description:
         links: By name, in the file's order.
         joints: By name, in the file's order.
         text: The tree as a URDF: the file's own text where it is one, else written from it.
+        where: The file's name, for messages.
         supplement: Closures, couplings, motors and all else that the text can't hold.
         mesh_folders: Where relative names of meshes are looked for, in this order.
         warnings: What is odd about the file, each with its place, and doesn't make it wrong.
@@ -98,6 +99,7 @@ class Description:
     links: dict[str, Link]
     joints: dict[str, Joint]
     text: str = field(default="", repr=False)
+    where: str = "URDF"
     supplement: Supplement = field(default_factory=Supplement)
     mesh_folders: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()

@@ -135,6 +135,7 @@ class LoadedRobot:
     ``wrapper`` is a real one. Geometry is read on first use: most runs need none.
 
     Attributes:
+        description: What was read.
         urdf: The URDF text.
         model: Pinocchio model.
         data: Its data; methods of this class don't use it, so it is the caller's.
@@ -144,13 +145,14 @@ class LoadedRobot:
 
     def __init__(
         self,
-        urdf: str | bytes,
+        urdf: str | bytes | Description,
         meshes: Mapping[str, str],
         root_joint: RootJoint = None,
         *,
         where: str = "URDF",
     ) -> None:
-        description = check_urdf(urdf, where=where)
+        description = urdf if isinstance(urdf, Description) else check_urdf(urdf, where=where)
+        self.description = description
         self.urdf = description.text
         self._meshes = dict(meshes)
         self.model = load_model(description, root_joint, where=where)
@@ -184,6 +186,10 @@ class LoadedRobot:
         return folder
 
     def _geometry(self, kind: Any) -> pin.GeometryModel:
+        folders = list(self.description.mesh_folders)
+        if folders:
+            folders += [str(Path(folder).parent) for folder in folders]
+            return pin.buildGeomFromUrdfString(self.model, self.urdf, kind, package_dirs=folders)
         text = self.urdf.replace('filename="', f'filename="{self._folder}/')
         return pin.buildGeomFromUrdfString(self.model, text, kind)
 

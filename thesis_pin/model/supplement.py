@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
 
-Rows = tuple[bool, bool, bool, bool, bool, bool]
+Mask = tuple[bool, bool, bool, bool, bool, bool]
 """Which of tx, ty, tz, rx, ry, rz of a relative twist are zero."""
 
 
@@ -29,7 +29,7 @@ class Closure:
 
     name: str
     frames: tuple[str, str]
-    rows: Rows
+    rows: Mask
     length: float | None = None
 
 

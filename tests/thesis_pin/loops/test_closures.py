@@ -7,8 +7,9 @@ import pinocchio as pin
 import pytest
 
 from thesis_pin.errors import BadInput, ModelError, SpecificationError, UnknownName
-from thesis_pin.loops.closures import ClosureFile, load
 from thesis_pin.loops.joint_types import replace_joints
+from thesis_pin.loops.loading import load
+from thesis_pin.model.formats.closure_file import ClosureFile
 
 DATA = Path(__file__).parent / "data"
 
@@ -218,7 +219,9 @@ def test_parse_and_read_agree():
 
 
 def test_a_free_flying_looped_robot_loads():
-    found = load(DATA / "five_bar.urdf", DATA / "five_bar.yaml", pin.JointModelFreeFlyer())
+    found = load(
+        DATA / "five_bar.urdf", DATA / "five_bar.yaml", root_joint=pin.JointModelFreeFlyer()
+    )
     assert found.model.nv == 10
     np.testing.assert_array_equal(found.actuated, [8, 6])
 

@@ -9,7 +9,7 @@ import pytest
 from thesis_pin.errors import BadInput, SingularPose, Unreachable
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
-from thesis_pin.loops.closures import load
+from thesis_pin.loops.loading import load
 
 DATA = Path(__file__).parent / "data"
 STARTS = {"five_bar": [-1.9, 1.2, -1.2, -1.2], "four_bar": [0.2, -1.3, -1.8, -2.4]}

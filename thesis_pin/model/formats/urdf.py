@@ -54,7 +54,7 @@ def read_urdf(content: bytes | str, *, where: str = "URDF") -> Description:
     joints = {name: _joint(name, e, where) for name, e in _named(root, "joint", where).items()}
     if not links:
         raise ModelError("there is no <link>", where=where)
-    return Description(root.get("name", ""), links, joints, text)
+    return Description(root.get("name", ""), links, joints, text, where)
 
 
 def _refuse_xacro(root: Element, where: str) -> None:

@@ -4,8 +4,8 @@ import pytest
 import yaml
 
 from thesis_pin.errors import BadInput, SpecificationError
-from thesis_pin.loops.closures import ClosureFile
-from thesis_pin.loops.yaml_text import parse_yaml
+from thesis_pin.model.formats.closure_file import ClosureFile
+from thesis_pin.model.formats.yaml_text import parse_yaml
 from thesis_pin.model.limits import LIMITS
 
 PLAIN = """\

@@ -1,0 +1,40 @@
+"""Any file of a robot → a checked robot with closed loops."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
+from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.loading import RootJoint, check_urdf
+from thesis_pin.model.source import read_bytes
+
+
+def load(
+    file: str | Path, closures: str | Path | None = None, *, root_joint: RootJoint = None
+) -> ClosedRobot:
+    """Load a robot with closed loops.
+
+    Args:
+        file: Path of its description.
+        closures: Path of the closure file, for what the description can't say.
+        root_joint: Joint between world and root link, ``None`` for what the files say.
+
+    Returns:
+        The robot: Pinocchio model, loops, motors.
+
+    Raises:
+        BadInput: A file can't be read.
+        SpecificationError: The closure file breaks its schema.
+        UnknownName: It names a frame or joint the URDF doesn't have.
+        ModelError: The URDF isn't a sound tree, or a motor or loop makes no sense.
+    """
+    text = read_bytes("URDF", file, LIMITS.urdf_bytes)
+    described = check_urdf(text, where=str(file))
+    described = replace(described, mesh_folders=(str(Path(file).resolve().parent),))
+    if closures is not None:
+        described = replace(described, supplement=ClosureFile.read(closures).supplement())
+    where = FILE_KIND if closures is None else str(closures)
+    return ClosedRobot(described, root_joint=root_joint, where=where)
