@@ -16,7 +16,7 @@ def run(arguments: argparse.Namespace) -> ExitCode:
 
     def answer() -> Answer:
         found = check(load(arguments.urdf, arguments.closures))
-        return Answer(found.document, lambda: _tell(found), yes=found.closes)
+        return Answer(found.document, lambda: _tell(found), yes=found.sound)
 
     return give(arguments, answer, "checking")
 

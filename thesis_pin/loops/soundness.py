@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from thesis_pin.errors import Unreachable
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.kinematics import Mobility, close, mobility
+from thesis_pin.model.second_reading import second_reading
 
 SCHEMA, VERSION = "thesis-pin/check", 1
 GUESSES = 20
@@ -26,11 +27,18 @@ class Soundness:
         robot: The robot.
         closed: A closed configuration, shape ``(nq,)``; None if none was found.
         mobility: How it moves there; None likewise.
+        differences: Where yourdfpy reads the URDF differently from us.
     """
 
     robot: ClosedRobot
     closed: NDArray[np.float64] | None
     mobility: Mobility | None
+    differences: tuple[str, ...] = ()
+
+    @property
+    def sound(self) -> bool:
+        """Whether it closes, and means the same to whoever reads it."""
+        return self.closes and not self.differences
 
     @property
     def closes(self) -> bool:
@@ -50,7 +58,9 @@ class Soundness:
                 {"name": loop.name, "type": loop.kind, "frames": list(loop.frames)}
                 for loop in robot.loops
             ],
+            "sound": self.sound,
             "closes": self.closes,
+            "differences": list(self.differences),
             "freedom": None
             if found is None
             else {
@@ -67,13 +77,15 @@ class Soundness:
     def sentences(self) -> tuple[str, ...]:
         """What was found, in words."""
         found = self.mobility
+        doubts = tuple(f"Another reader (yourdfpy) differs: {one}." for one in self.differences)
         if found is None:
-            return (f"No closed configuration was found from {GUESSES} random guesses.",)
+            return (f"No closed configuration was found from {GUESSES} random guesses.", *doubts)
         return (
             f"Degrees of freedom: {found.freedom} by rank "
             f"({found.independent} of {found.equations} loop equations are independent), "
             f"{found.counted} by counting.",
             _held(len(self.robot.actuators), found),
+            *doubts,
         )
 
 
@@ -90,14 +102,18 @@ def _held(motors: int, found: Mobility) -> str:
 
 
 def check(robot: ClosedRobot) -> Soundness:
-    """Look for a closed configuration of a robot, and count its freedom there.
+    """Look for a closed configuration of a robot, count its freedom, read it a second time.
 
     Args:
         robot: From :func:`thesis_pin.loops.loading.load`.
 
     Returns:
         What was found; the same for the same robot.
+
+    Raises:
+        ModelError: yourdfpy can't read the URDF.
     """
+    differences = tuple(second_reading(robot.description))
     generator = np.random.default_rng(0)
     for _ in range(GUESSES):
         step = generator.uniform(-_SPREAD, _SPREAD, robot.model.nv)
@@ -105,5 +121,5 @@ def check(robot: ClosedRobot) -> Soundness:
             closed = close(robot, pin.integrate(robot.model, robot.q0, step))
         except Unreachable:
             continue
-        return Soundness(robot, closed, mobility(robot, closed))
-    return Soundness(robot, None, None)
+        return Soundness(robot, closed, mobility(robot, closed), differences)
+    return Soundness(robot, None, None, differences)

@@ -9,12 +9,12 @@ import numpy as np
 
 from thesis_pin.errors import ModelError
 from thesis_pin.model.description import Array, Joint, Link
-from thesis_pin.model.supplement import Closure, Rows
+from thesis_pin.model.supplement import Closure, Mask
 from thesis_pin.numeric.arrays import skew
 from thesis_pin.numeric.rotations import invert
 
-_ALL: Rows = (True, True, True, True, True, True)
-_ROWS: dict[str, tuple[str, Rows]] = {
+_ALL: Mask = (True, True, True, True, True, True)
+_ROWS: dict[str, tuple[str, Mask]] = {
     "fixed": ("weld", _ALL),
     "revolute": ("hinge", (True, True, True, True, True, False)),
     "continuous": ("hinge", (True, True, True, True, True, False)),
