@@ -182,9 +182,7 @@ def loop_gaps(robot: ClosedRobot, gap: Array) -> Array:
 def place_motors(robot: ClosedRobot, q: Array, positions: Array) -> Array:
     """A configuration ``(nq,)`` with its motors turned to positions ``(motors,)``."""
     q = q.copy()
-    for place, joint_v, position in zip(
-        robot.actuated_q, robot.actuated, positions, strict=True
-    ):
+    for place, joint_v, position in zip(robot.actuated_q, robot.actuated, positions, strict=True):
         if robot.turning[joint_v]:
             q[place : place + 2] = np.cos(position), np.sin(position)
         else:
@@ -273,22 +271,22 @@ def _followed(
 ) -> Following:
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     count = len(robot.actuators)
-    time = finite_array("time", time, None)
+    times = finite_array("time", time, None)
     columns = [
         finite_array(name, value, None, count)
         for name, value in (("motors", motors), ("rates", rates), ("accelerations", accelerations))
     ]
-    shapes = [x.shape for x in (time, *columns)]
-    if shapes != [(len(time),), *[(len(time), count)] * 3] or not len(time):
+    shapes = [x.shape for x in (times, *columns)]
+    if shapes != [(len(times),), *[(len(times), count)] * 3] or not len(times):
         raise BadInput(
             f"time, motors, rates and accelerations have shapes {', '.join(map(str, shapes))}",
             allowed=f"(n,), then three times (n, {count}), n at least 1",
         )
     current = vector("guess", guess, model.nq).copy()
-    flying = _base(robot, base, len(time), current)
-    q, (v, a) = np.empty((len(time), model.nq)), np.zeros((2, len(time), model.nv))
+    flying = _base(robot, base, len(times), current)
+    q, (v, a) = np.empty((len(times), model.nq)), np.zeros((2, len(times), model.nv))
     reasons, data = [], model.createData()
-    for k in range(len(time)):
+    for k in range(len(times)):
         if len(robot.base):
             current[:7] = flying[0][k]
             v[k, robot.base], a[k, robot.base] = flying[1][k], flying[2][k]
@@ -309,7 +307,7 @@ def _followed(
             reason = str(error)
         reasons.append(reason)
     valid = np.array([not reason for reason in reasons])
-    return Following(JointTrajectory(time, q, v, a), valid, tuple(reasons))
+    return Following(JointTrajectory(times, q, v, a), valid, tuple(reasons))
 
 
 def _at(error: ThesisPinError, sample: int) -> ThesisPinError:
@@ -328,15 +326,14 @@ def _base(
 ) -> tuple[Array, Array, Array]:
     """Poses, rates and accelerations of the base, sample by sample."""
     if base is None:
-        poses = np.tile(guess[:7] if len(robot.base) else np.zeros(7), (count, 1))
-        return poses, np.zeros((count, 6)), np.zeros((count, 6))
+        still = np.tile(guess[:7] if len(robot.base) else np.zeros(7), (count, 1))
+        return still, np.zeros((count, 6)), np.zeros((count, 6))
     if not len(robot.base):
         raise BadInput("base is given for a robot that stands fixed", allowed="None")
-    poses, rates, accelerations = base
     arrays = (
-        finite_array("base poses", poses, count, 7),
-        finite_array("base rates", rates, count, 6),
-        finite_array("base accelerations", accelerations, count, 6),
+        finite_array("base poses", base[0], count, 7),
+        finite_array("base rates", base[1], count, 6),
+        finite_array("base accelerations", base[2], count, 6),
     )
     size = np.linalg.norm(arrays[0][:, 3:], axis=1)
     if np.abs(size - 1.0).max() > TOLERANCES.rotation_orthogonality:

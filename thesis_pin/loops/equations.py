@@ -95,7 +95,7 @@ class Equations:
         return factors, np.array([coupling.constant for coupling in self.couplings])
 
     def poses(self, data: pin.Data, q: Array, v: Array | None = None) -> Poses:
-        """Where the frames are at configurations ``(n, nq)``, with velocities if drift is wanted."""
+        """Where the frames are at configurations ``(n, nq)``; drift needs velocities."""
         model, count, many = self.model, len(q), len(self._joints)
         columns = np.empty((count, 6, model.nv))
         rates = None if v is None else np.empty_like(columns)
@@ -142,7 +142,7 @@ class Equations:
         if self.couplings:
             shape = (count, *self.factors.shape)
             result = np.concatenate([result, np.broadcast_to(self.factors, shape)], axis=1)
-        return result
+        return np.asarray(result)
 
     def _direction(self, poses: Poses, k: int, loop: Loop) -> Array:
         """What a rod or a universal joint forbids, in the first frame's axes, ``(n, 3)``."""
@@ -193,6 +193,26 @@ class Equations:
             result[:, row] = total
         return result
 
+    def wrenches(self, poses: Poses, multipliers: Array) -> Array:
+        """Force, then moment, that each loop's rows do work with: ``(n, loops, 6)``.
+
+        In the first frame's axes, at the second frame's origin, on the second body.
+        """
+        count = len(multipliers)
+        result = np.zeros((count, len(self.loops), 6))
+        for k, (loop, rows) in enumerate(zip(self.loops, self.rows, strict=True)):
+            if loop.length is None and not loop.perpendicular:
+                result[:, k, list(loop.rows)] = multipliers[:, rows]
+        for row, k, loop in self._special:
+            push = multipliers[:, row, None] * self._direction(poses, k, loop)
+            if loop.length is not None:
+                result[:, k, :3] = push
+            else:
+                shifts = np.flatnonzero(loop.rows[:3])
+                result[:, k, shifts] = multipliers[:, self.rows[k].start : row]
+                result[:, k, 3:] = push
+        return result
+
     def drift(self, poses: Poses, v: Array) -> Array:
         """Ȧ v: acceleration of every row at v̇ = 0, shape ``(n, equations)``."""
         assert poses.rates is not None
@@ -206,7 +226,9 @@ class Equations:
         relative = second - first
         speed = second[..., :3] + np.cross(second[..., 3:], point)
         shift = relative[..., :3] - np.cross(point, relative[..., 3:])
-        pull = change[..., :3] - np.cross(point, change[..., 3:]) - np.cross(speed, relative[..., 3:])
+        pull = (
+            change[..., :3] - np.cross(point, change[..., 3:]) - np.cross(speed, relative[..., 3:])
+        )
         inverse = np.swapaxes(poses.turns[:, 0], -1, -2)
 
         def seen(vectors: Array) -> Array:
@@ -226,9 +248,7 @@ class Equations:
                 assert loop.perpendicular is not None
                 axis = (inverse[:, k] @ poses.turns[:, 1, k])[:, :, loop.perpendicular[1]]
                 turning = seen(relative[..., 3:])[:, k]
-                change_of_row = np.cross(
-                    np.eye(3)[loop.perpendicular[0]], np.cross(turning, axis)
-                )
+                change_of_row = np.cross(np.eye(3)[loop.perpendicular[0]], np.cross(turning, axis))
                 result[:, row] = (direction * angular[:, k] + change_of_row * turning).sum(axis=1)
         return np.concatenate([result, np.zeros((count, len(self.couplings)))], axis=1)
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from thesis_pin.errors import BadInput, SingularPose
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.equations import Poses
-from thesis_pin.loops.survey import FLOOR, Survey
+from thesis_pin.loops.survey import Survey
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -84,7 +84,13 @@ def weakest_motion(survey: Survey, scaled: Array, passive: Array) -> tuple[Array
 
 
 def refuse_opening(
-    robot: ClosedRobot, survey: Survey, poses: Poses, matrices: Array, v: Array, a: Array, first: int
+    robot: ClosedRobot,
+    survey: Survey,
+    poses: Poses,
+    matrices: Array,
+    v: Array,
+    a: Array,
+    first: int,
 ) -> None:
     """Refuse motions that open the loops by more than rounding does.
 
@@ -141,5 +147,4 @@ def refuse_opening(
 
 def is_uncertain(survey: Survey, weakest: Array) -> NDArray[np.bool_]:
     """Where the file's noise may move torques by more than it is large, ``(n,)``."""
-    noise = survey.noise if survey.noise > FLOOR else 0.0
-    return np.asarray(noise > 1e-3 * weakest**2)
+    return np.asarray(survey.noise > 1e-3 * weakest**2)

@@ -38,9 +38,7 @@ def passive_forces(robot: ClosedRobot, q: Array, v: Array) -> Array:
     return np.asarray(forces)
 
 
-def open_tree_forces(
-    robot: ClosedRobot, data: pin.Data, q: Array, v: Array, a: Array
-) -> Array:
+def open_tree_forces(robot: ClosedRobot, data: pin.Data, q: Array, v: Array, a: Array) -> Array:
     """Generalized forces that the motion of the open tree needs, shape ``(n, nv)``."""
     tau = np.empty_like(v)
     for k in range(len(q)):

@@ -151,9 +151,7 @@ def _by_rank(
     motions = basis[:, rank:]
     shares, condition = np.zeros((count, len(driven))), np.full(count, np.inf)
     if nv > rank and len(driven):
-        inner, singular, outer = np.linalg.svd(
-            motions[:, :, driven] * weights, full_matrices=False
-        )
+        inner, singular, outer = np.linalg.svd(motions[:, :, driven] * weights, full_matrices=False)
         strong = singular > 1e-9 * singular[:, :1]
         parts = np.where(strong, 1.0 / np.where(strong, singular, 1.0), 0.0)
         free = (motions @ load[:, :, None])[..., 0]

@@ -191,9 +191,7 @@ class _Walk:
         self.matrices: Array = np.array(matrices)
 
     def _closed(self, q: Array, iterations: int = 60) -> Settled:
-        return settle(
-            self.equations, self.scale, self.data, q, self.every, self.cut, iterations
-        )
+        return settle(self.equations, self.scale, self.data, q, self.every, self.cut, iterations)
 
     def _matrix(self, q: Array) -> Array:
         poses = self.equations.poses(self.data, q[None])
