@@ -70,6 +70,7 @@ class ClosedRobot(LoadedRobot):
             self.model = replace_joints(self.model, beside.joint_types, where=where)
             self.data = self.model.createData()
             self.q0, self.v0 = pin.neutral(self.model), np.zeros(self.model.nv)
+        self.model.gravity.linear = np.array(beside.gravity)
         self.loops = tuple(_loop(self.model, one, where) for one in beside.closures)
         self.motors = _motors(self.model, beside.motors, where)
         self.actuators = tuple(motor.joint for motor in self.motors)

@@ -58,7 +58,8 @@ def replace_joints(
         if kind in (None, "FIXED"):
             _copy_limits(model, model.joints[old], new, new.joints[image[old]])
     for frame in list(model.frames)[1:]:
-        above = new.getFrameId(model.frames[frame.parentFrame].name)
+        holder = model.frames[frame.parentFrame]
+        above = new.getFrameId(holder.name, holder.type)  # a link and a joint may share a name
         new.addFrame(
             pin.Frame(frame.name, image[frame.parentJoint], above, frame.placement, frame.type),
             False,
