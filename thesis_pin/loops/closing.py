@@ -154,7 +154,8 @@ def _closed(
         raise
     if settled.scaled > 1e-12:
         finer = settle(equations, scale, data, settled.q, movable, 10 * survey.noise, iterations)
-        settled = finer if finer.scaled < settled.scaled else settled
+        if finer.converged or finer.scaled < settled.scaled:
+            settled = finer
     if is_closed(robot, survey, settled.gap):
         return settled, ""
     reason = describe_gap(equations, settled.gap)
@@ -170,13 +171,19 @@ def is_closed(robot: ClosedRobot, survey: Survey, gap: Array) -> bool:
 
 
 def loop_gaps(robot: ClosedRobot, gap: Array) -> Array:
-    """Distance [m] and angle [rad] by which each loop is open, shape ``(loops, 2)``."""
-    rows = robot.system.rows
-    pairs = [
-        split_gap(loop.rows, loop.length, gap[part])
-        for loop, part in zip(robot.loops, rows, strict=True)
-    ]
-    return np.array(pairs).reshape(len(pairs), 2)
+    """Distance [m] and angle [rad] by which each loop is open.
+
+    Args:
+        robot: The robot.
+        gap: Opening of every equation, shape ``(..., equations)``.
+
+    Returns:
+        Shape ``(..., loops, 2)``.
+    """
+    result = np.empty((*gap.shape[:-1], len(robot.loops), 2))
+    for k, (loop, rows) in enumerate(zip(robot.loops, robot.system.rows, strict=True)):
+        result[..., k, :] = split_gap(loop, gap[..., rows])
+    return result
 
 
 def place_motors(robot: ClosedRobot, q: Array, positions: Array) -> Array:

@@ -13,7 +13,7 @@ torques. How many equations are independent is known from a walk through the ass
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import pinocchio as pin
@@ -204,12 +204,11 @@ class _Work:
         try:
             refuse_singular(self.survey, scaled, scaled[:, passive], where)
             return self.survey.rank
-        except Contradiction:
-            other = assembly(robot, poses.q[k], self.precision, again=True)
-        refuse_singular(other, scaled, scaled[:, passive], where)
+        except SingularPose as error:
+            other = self._another(error, poses.q[k], scaled, where)
         one = slice(k, k + 1)
         again = solve(other, robot.scale, matrices[one], tau[one], self.driven, passive)
-        if again.forbidden[0] > other.threshold:
+        if self.check and again.forbidden[0] > other.threshold:
             raise SingularPose(
                 "the equations forbid a motion of the motors that they allow elsewhere",
                 where=where,
@@ -217,6 +216,24 @@ class _Work:
         for item in fields(Solved):
             getattr(solved, item.name)[one] = getattr(again, item.name)
         return other.rank
+
+    def _another(self, error: SingularPose, q: Array, scaled: Array, where: str) -> Survey:
+        """The assembly of a pose that isn't generic in the one surveyed before.
+
+        Without checks a singular pose is taken for what it is at that instant.
+        """
+        try:
+            if not isinstance(error, Contradiction):
+                raise error
+            other = assembly(self.robot, q, self.precision, again=True)
+            refuse_singular(other, scaled, scaled[:, self.robot.passive], where)
+            return other
+        except BadInput:
+            if self.check:
+                raise
+        values = np.linalg.svd(scaled, compute_uv=False)
+        rank = int((values > 10 * self.survey.noise).sum())
+        return replace(self.survey, rank=rank, passive_rank=-1, idle=())
 
     def _uncertainty(
         self,
@@ -255,7 +272,7 @@ class _Work:
             share = 5 * change / np.where(largest > 0, largest, 1.0)
             result[some] = np.maximum(result[some], share)
         result[some] = np.where(survey.noise > 1e-3 * values**2, result[some], 0.0)
-        if (result > REFUSED).any():
+        if self.check and (result > REFUSED).any():
             k = int(np.argmax(result > REFUSED))
             raise SingularPose(
                 f"the file's digits may turn the torques over: uncertainty {result[k]:.0%}, "
@@ -308,7 +325,7 @@ class _Work:
             "freedom": robot.model.nv - rank,
             "condition": solved.condition,
             "uncertainty": uncertainty,
-            "gaps": np.array([loop_gaps(robot, gap) for gap in robot.system.gap(poses)]),
+            "gaps": loop_gaps(robot, robot.system.gap(poses)),
             "unique": np.full(count, driven),
             "determined": rank == robot.equations,
         }

@@ -127,6 +127,8 @@ class ForwardDynamics:
         """Allowed motions, the acceleration that keeps the loops closed, and the mass matrix."""
         robot, scale, data = self.robot, self.robot.scale, self.data
         survey = assembly(robot, q, self.precision)
+        if survey.freedom and not survey.moves:
+            raise SingularPose("the robot moves only infinitesimally: no acceleration is its own")
         poses = robot.system.poses(data, q[None], v[None])
         matrix = scale.rows[:, None] * robot.system.jacobian(poses)[0] * scale.columns
         left, values, right = np.linalg.svd(matrix)
@@ -140,8 +142,6 @@ class ForwardDynamics:
         known = left[:, :rank].T @ (scale.rows * robot.system.drift(poses, v[None])[0])
         opened = -scale.columns * (right[:rank].T @ (known / values[:rank]))
         allowed = scale.columns[:, None] * right[rank:].T
-        if not survey.moves:
-            allowed = allowed[:, :0]
         mass = pin.crba(robot.model, data, q)
         return allowed, opened, np.triu(mass) + np.triu(mass, 1).T
 

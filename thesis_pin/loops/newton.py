@@ -7,7 +7,7 @@ walk; steps cut at a singular value never see them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pinocchio as pin
@@ -32,7 +32,7 @@ class Settled:
     """Where the steps ended.
 
     Attributes:
-        q: Configuration with the smallest gap seen, shape ``(nq,)``.
+        q: Where the steps vanished, else where the gap was smallest, shape ``(nq,)``.
         gap: Opening of every equation there [m], [rad], shape ``(equations,)``.
         scaled: Largest scaled opening there [-].
         step: The last step's length [rad].
@@ -77,12 +77,14 @@ def settle(
         poses = equations.poses(data, q[None])
         gap = equations.gap(poses)[0]
         size = float(np.abs(gap * scale.rows).max(initial=0.0))
-        if size < best.scaled:
+        # Once steps vanish the last pose is the best: the gap left over is the file's rounding,
+        # in which the rest of the way doesn't show.
+        if size < best.scaled or last < _VANISHED:
             best = Settled(q, gap, size, last, taken)
         if size == 0.0 or not movable.size:
-            last = 0.0
+            return replace(best, step=0.0)
         if last < 1e-15 or taken == iterations:
-            break
+            return replace(best, step=last)
         matrix = scale.rows[:, None] * equations.jacobian(poses)[0][:, movable] * columns
         left, values, right = np.linalg.svd(matrix, full_matrices=False)
         strong = values > cut
@@ -91,9 +93,8 @@ def settle(
         length = float(np.linalg.norm(scaled_step))
         # Quadratic convergence ends in rounding: stop when a step no longer helps.
         if length >= last and last < _VANISHED:
-            break
+            return replace(best, step=last)
         last = length
         step = np.zeros(model.nv)
         step[movable] = columns * scaled_step * min(1.0, _LONGEST / max(length, 1e-300))
         q, taken = pin.integrate(model, q, step), taken + 1
-    return Settled(best.q, best.gap, best.scaled, last, taken)

@@ -18,6 +18,7 @@ from thesis_pin.errors import ModelError, Unreachable
 from thesis_pin.loops.equations import Equations
 from thesis_pin.loops.idle import IdleGroup, connected, idle_groups
 from thesis_pin.loops.newton import CUT, Settled, settle
+from thesis_pin.loops.rows import Loop
 from thesis_pin.loops.scale import Scale
 from thesis_pin.tolerances import TOLERANCES
 
@@ -241,7 +242,7 @@ def describe_gap(equations: Equations, gap: Array) -> str:
     """The widest open loop of a configuration, in words."""
     worst, words = -1.0, "by nothing"
     for loop, rows in zip(equations.loops, equations.rows, strict=True):
-        metres, radians = split_gap(loop.rows, loop.length, gap[rows])
+        metres, radians = split_gap(loop, gap[rows]).tolist()
         if max(metres, radians) > worst:
             worst = max(metres, radians)
             one, two = loop.frames
@@ -253,7 +254,9 @@ def describe_gap(equations: Equations, gap: Array) -> str:
     return words
 
 
-def split_gap(mask: tuple[bool, ...], length: float | None, gap: Array) -> tuple[float, float]:
-    """Distance [m] and angle [rad] of one loop's equations ``(..., size)``."""
-    metres = 1 if length is not None else sum(mask[:3])
-    return float(np.linalg.norm(gap[:metres])), float(np.linalg.norm(gap[metres:]))
+def split_gap(loop: Loop, gap: Array) -> Array:
+    """Distance [m] and angle [rad] of one loop's equations: ``(..., size)`` → ``(..., 2)``."""
+    metres = 1 if loop.length is not None else sum(loop.rows[:3])
+    squares = gap**2
+    parts = squares[..., :metres].sum(axis=-1), squares[..., metres:].sum(axis=-1)
+    return np.sqrt(np.stack(parts, axis=-1))
