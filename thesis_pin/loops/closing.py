@@ -9,11 +9,11 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput, ThesisPinError, Unreachable
-from thesis_pin.loops.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.newton import Settled, settle
 from thesis_pin.loops.rates import passive_rates
 from thesis_pin.loops.survey import Survey, describe_gap, split_gap
+from thesis_pin.loops.surveying import surveyed
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import instance, whole
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -72,7 +72,7 @@ def close(
         motors: Positions of the motors, which then stay put, shape ``(..., motors)``;
             ``None`` lets every joint move.
         iterations: Most Newton steps.
-        precision: See :func:`thesis_pin.loops.assembly.assembly`.
+        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
 
     Returns:
         Closed configuration, shape ``(..., nq)``. Its residual is usually near 1e-15; where
@@ -81,7 +81,7 @@ def close(
     Raises:
         Unreachable: The steps don't end in a closed configuration, for one guess or one of
             a stack; see :func:`close_each` for those that do.
-        ModelError: See :func:`thesis_pin.loops.assembly.assembly`.
+        ModelError: See :func:`thesis_pin.loops.surveying.surveyed`.
     """
     found = close_each(robot, guess, motors, iterations=iterations, precision=precision)
     if not found.closed.all():
@@ -106,7 +106,7 @@ def close_each(
     """The same for stacks of which some can't be closed: says which, and why.
 
     Raises:
-        ModelError: See :func:`thesis_pin.loops.assembly.assembly`.
+        ModelError: See :func:`thesis_pin.loops.surveying.surveyed`.
     """
     iterations = whole("iterations", iterations, 1)
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
@@ -147,7 +147,7 @@ def _closed(
     settled = settle(equations, scale, data, q, movable, iterations=iterations)
     near = np.abs(settled.gap).max(initial=0.0) <= TOLERANCES.loop_closure
     try:
-        survey = assembly(robot, settled.q if near else q, precision)
+        survey = surveyed(robot, settled.q if near else q, precision)
     except Unreachable as error:
         if not near:
             return settled, f"{error.what}, at the least, after {settled.iterations} Newton steps"
@@ -235,7 +235,7 @@ def follow(
         guess: Configuration near the first sample, shape ``(nq,)``.
         base: Of a free flyer: poses ``(n, 7)`` (position, quaternion x, y, z, w), rates and
             accelerations ``(n, 6)`` in its own axes; None leaves it at rest at ``guess``.
-        precision: See :func:`thesis_pin.loops.assembly.assembly`.
+        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
 
     Returns:
         Closed configurations, rates and accelerations; each sample starts from the
@@ -304,7 +304,7 @@ def _followed(
             q[k] = settled.q
             if reason:
                 raise Unreachable(reason)
-            survey = assembly(robot, settled.q, precision)
+            survey = surveyed(robot, settled.q, precision)
             passive_rates(robot, survey, data, q[k], v[k], a[k])
             current, reason = q[k].copy(), ""
         except ThesisPinError as error:

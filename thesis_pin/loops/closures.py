@@ -17,13 +17,16 @@ from numpy.typing import NDArray
 from thesis_pin.errors import ModelError, UnknownName
 from thesis_pin.loops.equations import Equations
 from thesis_pin.loops.joint_types import replace_joints
+from thesis_pin.loops.joints import is_free, singles
 from thesis_pin.loops.rows import Loop as Loop
 from thesis_pin.loops.scale import Scale, scale_of
 from thesis_pin.loops.survey import Survey
 from thesis_pin.model.closure_types import word_of
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
-from thesis_pin.model.loading import LoadedRobot, RootJoint, check_urdf, frame_id, joint_id
+from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.joining import joined
+from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
 from thesis_pin.model.supplement import Closure, Motor, Supplement
 
 
@@ -59,9 +62,9 @@ class ClosedRobot(LoadedRobot):
         *,
         where: str = FILE_KIND,
     ) -> None:
-        described = robot if isinstance(robot, Description) else check_urdf(robot)
+        described = robot if isinstance(robot, Description) else checked(read_urdf(robot))
         if closures is not None:
-            described = replace(described, supplement=closures.supplement())
+            described = joined(described, closures.supplement())
         beside = described.supplement
         if root_joint is None and beside.free_root:
             root_joint = pin.JointModelFreeFlyer()
@@ -85,8 +88,8 @@ class ClosedRobot(LoadedRobot):
         self.actuated = np.array([joint.idx_v for joint in joints], dtype=int)
         self.actuated_q = np.array([joint.idx_q for joint in joints], dtype=int)
         self.turning = np.zeros(self.model.nv, dtype=bool)
-        for joint in list(self.model.joints)[1:]:
-            self.turning[joint.idx_v] = joint.nq == 2 and joint.nv == 1
+        for single in singles(self.model).values():
+            self.turning[single.v] = single.continuous
         self.base = _base(self.model)
         held = np.concatenate([self.actuated, self.base])
         self.passive = np.setdiff1d(np.arange(self.model.nv), held)
@@ -156,8 +159,7 @@ def _loop(model: pin.Model, closure: Closure, where: str) -> Loop:
 
 def _base(model: pin.Model) -> NDArray[np.intp]:
     """Places of the velocities of a free flyer between world and root link."""
-    free = model.njoints > 1 and model.joints[1].shortname() == "JointModelFreeFlyer"
-    return np.arange(6 if free else 0, dtype=np.intp)
+    return np.arange(6 if is_free(model) else 0, dtype=np.intp)
 
 
 def _refuse_unknown(model: pin.Model, joints: Iterable[str], where: str) -> None:

@@ -20,7 +20,6 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput, NoSolution, SingularPose
-from thesis_pin.loops.assembly import assembly
 from thesis_pin.loops.closing import loop_gaps
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.equations import Poses
@@ -44,6 +43,7 @@ from thesis_pin.loops.loads import (
 )
 from thesis_pin.loops.solve import Solved, solve
 from thesis_pin.loops.survey import Survey
+from thesis_pin.loops.surveying import surveyed
 from thesis_pin.loops.wrenches import base_wrenches, loop_wrenches
 from thesis_pin.numeric.arrays import finite_array, together
 from thesis_pin.numeric.checks import instance
@@ -129,7 +129,7 @@ def inverse_dynamics(
             frame's origin, world axes [N], [N·m], shape ``(6,)`` or ``(..., 6)``.
         check: Refuse motions that open the loops, and loads that neither motors nor loops
             carry.
-        precision: See :func:`thesis_pin.loops.assembly.assembly`.
+        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
 
     Returns:
         Torques, forces, and how well determined they are.
@@ -138,7 +138,7 @@ def inverse_dynamics(
         BadInput: The motion opens a loop (see :func:`close`, :func:`follow`).
         SingularPose: Torques don't exist at a pose, or the file's noise may turn them over.
         NoSolution: Neither motors nor loops carry some load.
-        ModelError: See :func:`thesis_pin.loops.assembly.assembly`.
+        ModelError: See :func:`thesis_pin.loops.surveying.surveyed`.
     """
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     q, v, a = together(
@@ -151,7 +151,7 @@ def inverse_dynamics(
         raise BadInput("the stack is empty", allowed="at least one sample")
     wrenches = checked_wrenches(robot, external, stack)
     q, v, a = (x.reshape(-1, x.shape[-1]) for x in (q, v, a))
-    survey = assembly(robot, q[0], precision)
+    survey = surveyed(robot, q[0], precision)
     work = _Work(robot, survey, precision, check)
     parts = []
     for first in range(0, len(q), _CHUNK):
@@ -225,7 +225,7 @@ class _Work:
         try:
             if not isinstance(error, Contradiction):
                 raise error
-            other = assembly(self.robot, q, self.precision, again=True)
+            other = surveyed(self.robot, q, self.precision, again=True)
             refuse_singular(other, scaled, scaled[:, self.robot.passive], where)
             return other
         except BadInput:

@@ -19,12 +19,12 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput, SingularPose, ThesisPinError, Unreachable
-from thesis_pin.loops.assembly import assembly
 from thesis_pin.loops.closing import is_closed
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loads import Wrenches, checked_wrenches, external_forces, passive_forces
 from thesis_pin.loops.newton import settle
 from thesis_pin.loops.survey import Survey, describe_gap
+from thesis_pin.loops.surveying import surveyed
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import function, instance, real
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -55,11 +55,11 @@ def forward_dynamics(
         torque: Of the motors, shape ``(..., motors)``.
         external: Frame → wrench on it from outside, as for
             :func:`thesis_pin.loops.dynamics.inverse_dynamics`.
-        precision: See :func:`thesis_pin.loops.assembly.assembly`.
+        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
 
     Raises:
         SingularPose: The loops lose an equation at a pose.
-        Unreachable, ModelError: See :func:`thesis_pin.loops.assembly.assembly`.
+        Unreachable, ModelError: See :func:`thesis_pin.loops.surveying.surveyed`.
     """
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     q, v, torque = together(
@@ -86,7 +86,7 @@ class ForwardDynamics:
 
     Args:
         robot: The robot.
-        precision: See :func:`thesis_pin.loops.assembly.assembly`.
+        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
     """
 
     def __init__(self, robot: ClosedRobot, *, precision: float | None = None) -> None:
@@ -126,7 +126,7 @@ class ForwardDynamics:
     def _reduced(self, q: Array, v: Array) -> tuple[Array, Array, Array]:
         """Allowed motions, the acceleration that keeps the loops closed, and the mass matrix."""
         robot, scale, data = self.robot, self.robot.scale, self.data
-        survey = assembly(robot, q, self.precision)
+        survey = surveyed(robot, q, self.precision)
         if survey.freedom and not survey.moves:
             raise SingularPose("the robot moves only infinitesimally: no acceleration is its own")
         poses = robot.system.poses(data, q[None], v[None])
@@ -168,7 +168,7 @@ def simulate(
         torque: Function of time [s], q and v that returns ``(motors,)``.
         duration: How long [s].
         step: Time step [s]; the last one is shortened to end at ``duration``.
-        precision: See :func:`thesis_pin.loops.assembly.assembly`.
+        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
 
     Returns:
         The motion, one row a step.
@@ -216,7 +216,7 @@ def _closed_survey(robot: ClosedRobot, q: Array, precision: float | None) -> Sur
     open_by = f"the loops are open: {describe_gap(robot.system, gap)}"
     refusal = BadInput(open_by, remedy="Close them with close()")
     try:
-        survey = assembly(robot, q, precision)
+        survey = surveyed(robot, q, precision)
     except Unreachable:
         raise refusal from None
     if not is_closed(robot, survey, gap):

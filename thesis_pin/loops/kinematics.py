@@ -16,7 +16,6 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput
-from thesis_pin.loops.assembly import assembly
 from thesis_pin.loops.closing import Closing as Closing
 from thesis_pin.loops.closing import Following as Following
 from thesis_pin.loops.closing import close as close
@@ -27,6 +26,7 @@ from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.equations import Poses
 from thesis_pin.loops.idle import IdleGroup
 from thesis_pin.loops.rows import WELD
+from thesis_pin.loops.surveying import surveyed
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import instance
 
@@ -149,7 +149,7 @@ def mobility(robot: ClosedRobot, q: ArrayLike, *, precision: float | None = None
     Args:
         robot: The robot.
         q: The configuration, shape ``(nq,)``.
-        precision: See :func:`thesis_pin.loops.assembly.assembly`.
+        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
 
     Raises:
         Unreachable: The loops can't be closed near q.
@@ -157,7 +157,7 @@ def mobility(robot: ClosedRobot, q: ArrayLike, *, precision: float | None = None
     """
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     q = vector("q", q, model.nq)
-    survey, scale = assembly(robot, q, precision), robot.scale
+    survey, scale = surveyed(robot, q, precision), robot.scale
     matrix = scale.rows[:, None] * jacobian(robot, q) * scale.columns
     _, values, rows = np.linalg.svd(matrix)
     rank = int((values > 10 * survey.noise).sum())

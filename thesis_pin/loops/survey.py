@@ -259,4 +259,4 @@ def split_gap(loop: Loop, gap: Array) -> Array:
     metres = 1 if loop.length is not None else sum(loop.rows[:3])
     squares = gap**2
     parts = squares[..., :metres].sum(axis=-1), squares[..., metres:].sum(axis=-1)
-    return np.sqrt(np.stack(parts, axis=-1))
+    return np.asarray(np.sqrt(np.stack(parts, axis=-1)))

@@ -34,17 +34,21 @@ class Tree:
         length = max(float(np.linalg.norm(bar)), 0.02)
         along = np.asarray(bar, float) / max(np.linalg.norm(bar), 1e-12)
         tensor = mass * length**2 / 12 * (np.eye(3) - 0.98 * np.outer(along, along))
-        inertia = " ".join(
-            f'{key}="{tensor[i, j]!r}"'
-            for key, i, j in (
-                ("ixx", 0, 0),
-                ("ixy", 0, 1),
-                ("ixz", 0, 2),
-                ("iyy", 1, 1),
-                ("iyz", 1, 2),
-                ("izz", 2, 2),
+        inertia = (
+            " ".join(
+                f'{key}="{tensor[i, j]!r}"'
+                for key, i, j in (
+                    ("ixx", 0, 0),
+                    ("ixy", 0, 1),
+                    ("ixz", 0, 2),
+                    ("iyy", 1, 1),
+                    ("iyz", 1, 2),
+                    ("izz", 2, 2),
+                )
             )
-        ).replace("np.float64(", "").replace(")", "")
+            .replace("np.float64(", "")
+            .replace(")", "")
+        )
         self.links[-1] = (
             f'<link name="{name}"><inertial><origin xyz="{words(centre)}"/><mass value="{mass}"/>'
             f"<inertia {inertia}/></inertial></link>"
@@ -109,7 +113,9 @@ UPRIGHT = turned((1, 0, 0), np.pi / 2)
 def four_bar(motor_type="revolute", size=1.0, **noise):
     t = Tree(**noise)
     s = size
-    t.link("crank", "ground", (0, 0, 1), turn=UPRIGHT, bar=(0.1 * s, 0, 0), motor=True, type=motor_type)
+    t.link(
+        "crank", "ground", (0, 0, 1), turn=UPRIGHT, bar=(0.1 * s, 0, 0), motor=True, type=motor_type
+    )
     t.link("coupler", "crank", (0, 0, 1), (0.1 * s, 0, 0), bar=(0.3 * s, 0, 0))
     t.link("rocker", "ground", (0, 0, 1), (0.28 * s, 0, 0), UPRIGHT, bar=(0.22 * s, 0, 0))
     t.frame("coupler_tip", "coupler", (0.3 * s, 0, 0))
@@ -186,7 +192,9 @@ def three_rrs(**noise):
         )
         t.link(f"rod_{k}", f"crank_{k}", (0, 1, 0), (0.08, 0, 0.1), bar=(-0.1, 0, 0.2))
         if k == 0:
-            t.link("top", "rod_0", None, (-0.1, 0, 0.2), bar=(-0.36, 0, 0), mass=1.0, type="SPHERICAL")
+            t.link(
+                "top", "rod_0", None, (-0.1, 0, 0.2), bar=(-0.36, 0, 0), mass=1.0, type="SPHERICAL"
+            )
         else:
             t.frame(f"tip_{k}", f"rod_{k}", (-0.1, 0, 0.2))
             corner = turn @ (0.18, 0, 0) - np.array([0.18, 0, 0])
