@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 
 LONGEST = 1000
@@ -39,5 +40,6 @@ def _line(line: str) -> str:
 
 
 def say(text: str) -> None:
-    """Tell the user on standard error."""
-    print(clean(text), file=sys.stderr, flush=True)
+    """Tell the user on standard error, if somebody listens there."""
+    with contextlib.suppress(OSError):
+        print(clean(text), file=sys.stderr, flush=True)

@@ -68,7 +68,8 @@ def prepare_streams() -> None:
     codecs.register_error("readable", _mend)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="readable")
+            # With python -u argparse would swallow that its help can't be written.
+            stream.reconfigure(errors="readable", write_through=False)
 
 
 def _mend(error: UnicodeError) -> tuple[str, int]:

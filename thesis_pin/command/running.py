@@ -13,6 +13,7 @@ from pathlib import Path
 
 from thesis_pin.command.exits import ExitCode
 from thesis_pin.command.messages import say
+from thesis_pin.command.readable import prepare_streams
 from thesis_pin.command.targets import targets
 from thesis_pin.command.termination import tidy_end
 from thesis_pin.errors import CannotWrite, ThesisPinError
@@ -37,6 +38,7 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
         The exit code.
     """
     parsed = argparse.Namespace()
+    prepare_streams()
     try:
         try:
             parser.parse_args(arguments, parsed)
