@@ -7,7 +7,7 @@ joint ties to the world flies freely.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +24,7 @@ from thesis_pin.model.formats.writer import write_urdf
 from thesis_pin.model.formats.xml import Element, parse_xml
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.source import read_bytes
-from thesis_pin.model.supplement import Coupling, Supplement
+from thesis_pin.model.supplement import Coupling, Motor, Supplement
 from thesis_pin.numeric.rotations import quaternions
 
 KIND = "SDF"
@@ -32,11 +32,15 @@ _PASSED_OVER = ("include", "plugin", "gripper")
 _INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
-def read_sdf(path: str | Path) -> Description:
+def read_sdf(
+    path: str | Path, content: bytes | None = None, *, motors: Sequence[str] = ()
+) -> Description:
     """Read the one model of an SDF file, and cut its loops.
 
     Args:
         path: The file.
+        content: Its bytes, if they are read already.
+        motors: Joints, or parts of their names, that aren't cut if a loop has others.
 
     Raises:
         BadInput: It can't be read.
@@ -45,13 +49,15 @@ def read_sdf(path: str | Path) -> Description:
             something in it makes no sense.
     """
     where = str(path)
-    content = read_bytes(KIND, path, LIMITS.urdf_bytes)
+    content = read_bytes(KIND, path, LIMITS.urdf_bytes) if content is None else content
     root, _ = parse_xml(KIND, content, where=where, texts=True)
     model = _model(root, where)
-    return _read(model, _version(root, where), where)
+    return _read(model, _version(root, where), where, motors)
 
 
-def _read(model: Element, version: tuple[int, ...], where: str) -> Description:
+def _read(
+    model: Element, version: tuple[int, ...], where: str, motors: Sequence[str]
+) -> Description:
     name = model.get("name", "") or "robot"
     passed_over = []
     for item in children(model, *_PASSED_OVER):
@@ -81,6 +87,7 @@ def _read(model: Element, version: tuple[int, ...], where: str) -> Description:
     couplings = [*joints.couplings, *joints.gears(passed_over.append)]
     keep = {spring.joint for spring in joints.springs}
     keep |= {joint for coupling in couplings for joint in coupling.coefficients}
+    keep |= {name for name in joints.joints if any(part in name for part in motors)}
     first = WORLD if WORLD in links else _canonical(model, links)
     types, moved = joints.types, joints.joints
     tree = cut_loops(links, moved, types, root=first, keep=keep, meant=made.meant, where=where)
@@ -95,6 +102,7 @@ def _read(model: Element, version: tuple[int, ...], where: str) -> Description:
     supplement = Supplement(
         closures=tree.closures,
         couplings=tuple(kept),
+        motors=() if tree.closures else _motors(tree.joints, joints.types, kept),
         joint_types={n: kind for n, kind in joints.types.items() if n in tree.joints},
         springs=tuple(springs),
         damping={n: value for n, value in joints.damping.items() if n in tree.joints},
@@ -213,6 +221,18 @@ def _kept(
             )
         else:
             yield coupling
+
+
+def _motors(
+    joints: Mapping[str, Joint], types: Mapping[str, str], couplings: Sequence[Coupling]
+) -> tuple[Motor, ...]:
+    """Without loops every hinge and slide that no other moves is taken as a motor."""
+    follow = {next(iter(coupling.coefficients)) for coupling in couplings}
+    return tuple(
+        Motor(name, name)
+        for name, joint in joints.items()
+        if joint.kind in ("revolute", "prismatic") and name not in follow and name not in types
+    )
 
 
 def _pose(frames: Frames, root: str) -> tuple[float, ...]:
