@@ -6,9 +6,9 @@ from pathlib import Path
 
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
+from thesis_pin.model.formats.reading import read
 from thesis_pin.model.joining import joined
 from thesis_pin.model.loading import RootJoint, checked
-from thesis_pin.model.reading import read_description
 
 
 def load(
@@ -33,8 +33,7 @@ def load(
         ModelError: The file doesn't describe a mechanism, or a motor or loop makes no sense.
     """
     beside = None if closures is None else ClosureFile.read(closures)
-    motors = () if beside is None else beside.name_mot
-    described = checked(read_description(file, motors=motors))
+    described = checked(read(file, motors=() if beside is None else beside.name_mot))
     if beside is not None:
         described = joined(described, beside.supplement())
     where = FILE_KIND if closures is None else str(closures)

@@ -21,6 +21,17 @@ _PACKAGE = "example-robot-data"
 _ENVIRONMENT = ("CONDA_PREFIX", "CMAKE_PREFIX_PATH", "AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH")
 
 
+def located(file: str | Path) -> str | Path:
+    """A file, or the file of the example that is named; no file is called so by accident.
+
+    Raises:
+        BadInput: As :func:`example`.
+    """
+    if isinstance(file, str) and file.startswith(PREFIX) and not Path(file).exists():
+        return example(file.removeprefix(PREFIX))
+    return file
+
+
 def example(name: str) -> Path:
     """File of a robot of example-robot-data.
 

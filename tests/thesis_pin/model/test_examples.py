@@ -5,7 +5,8 @@ from example_robots import urdf_files
 
 from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.model import examples as module
-from thesis_pin.model.examples import example, examples, robots_folder
+from thesis_pin.model.examples import example, examples, located, robots_folder
+from thesis_pin.model.formats.reading import read
 
 
 def test_every_urdf_and_sdf_of_the_package_has_a_name():
@@ -60,3 +61,14 @@ def test_other_ways_of_installing_it_are_found(tmp_path, monkeypatch, variable):
     folder.mkdir(parents=True)
     monkeypatch.setenv(variable, f"/nowhere:{tmp_path / 'env'}")
     assert robots_folder() == folder
+
+
+def test_a_file_that_is_called_as_an_example_is_a_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert located("example:solo12") == example("solo12")
+    assert located("solo12.urdf") == "solo12.urdf"
+    assert read("example:solo12").name == "solo"
+    (tmp_path / "example:solo12").write_text('<robot name="mine"><link name="base"/></robot>')
+    assert read("example:solo12").name == "mine"
+    with pytest.raises(BadInput, match="unknown example"):
+        read("example:nothing")
