@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command.options import add_json
-from thesis_pin.command.parser import Parser
-from thesis_pin.command.registry import Command, Verb
+from thesis_pin.command.registry import Command, Parser, Verb
 
 
 def _which_files(words: argparse.ArgumentParser) -> None:
