@@ -259,7 +259,7 @@ class Scout(LoadedRobot):
                 return found
 
             start = None if reference is None else reference[6 * len(angles) :][:6]
-            count = len(foot.position)
+            count = foot.count
             found = kinematics.follow_branch(self.legs[side], count, entries, start, only)
             if found is None:
                 places = (torso.placement, left_foot.placement, right_foot.placement)

@@ -15,8 +15,15 @@ from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable, WrongShape
 from thesis_pin.numeric.checks import element
-from thesis_pin.numeric.elementwise import LONG, blocks
+from thesis_pin.numeric.elementwise import LONG
+from thesis_pin.numeric.long import gathered
 from thesis_pin.tolerances import TOLERANCES
+
+
+def _kept(beyond: np.ndarray) -> np.ndarray:
+    """Whether the limits are kept; NaN compares false, so unreachable poses drop out."""
+    return np.asarray(np.all(beyond <= TOLERANCES.joint_limit, axis=-1))
+
 
 _CONDITIONS = ("chain 0", "chain 1", "chain 2")
 
@@ -55,7 +62,7 @@ class Solutions:
         """Whether a solution exists, joint limits aside, shape ``(...)``."""
         return np.asarray(~np.isnan(self.angles).any(axis=-1))
 
-    @cached_property
+    @property
     def beyond_limits(self) -> np.ndarray:
         """By how much each angle leaves its limits [rad], ≤ 0 inside, ``(..., 12)``."""
         return np.asarray(
@@ -65,8 +72,13 @@ class Solutions:
     @cached_property
     def valid(self) -> np.ndarray:
         """Whether a solution exists and keeps the joint limits, shape ``(...)``."""
-        # NaN compares false, so unreachable poses drop out.
-        return np.asarray(np.all(self.beyond_limits <= TOLERANCES.joint_limit, axis=-1))
+        if self.angles.size < 12 * LONG:
+            return np.asarray(_kept(self.beyond_limits))
+        flat, low, high = self.angles.reshape(-1, 12), self.geometry.lower, self.geometry.upper
+        kept = gathered(
+            len(flat), lambda part: flat[part], lambda q: _kept(np.maximum(low - q, q - high))
+        )
+        return kept.reshape(self.angles.shape[:-1])
 
     @property
     def posture(self) -> Posture:
@@ -84,9 +96,9 @@ class Solutions:
         if self.angles.size < 12 * LONG:
             return measure(self.posture)
         flat = self.angles.reshape(-1, 12)
-        parts = blocks(len(flat))
-        found = [measure(Posture.of(self.geometry, flat[part])) for part in parts]
-        whole = np.concatenate(found)
+        whole = gathered(
+            len(flat), lambda part: measure(Posture.of(self.geometry, flat[part])), np.asarray
+        )
         return whole.reshape(*self.angles.shape[:-1], *whole.shape[1:])
 
     @property
@@ -107,7 +119,7 @@ class Solutions:
     @property
     def loop_residual(self) -> np.ndarray:
         """Opening of the two ball joints [m], shape ``(..., 2)``."""
-        return np.asarray(np.linalg.norm(self._measured(lambda posture: posture.opening), axis=-1))
+        return self._measured(lambda posture: np.linalg.norm(posture.opening, axis=-1))
 
     @property
     def rod_angles(self) -> np.ndarray:

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
-from thesis_pin.numeric.elementwise import LONG, blocks
+from thesis_pin.numeric.elementwise import LONG, Samples, blocks
 
 Timing = Literal["constant-rate", "rest-to-rest"]
 TIMINGS: tuple[str, ...] = get_args(Timing)
@@ -44,8 +44,8 @@ class ToolMotion:
     acceleration: np.ndarray
     path: ToolPath | None = None
 
-    def part(self, samples: slice) -> ToolMotion:
-        """Some consecutive samples, as views."""
+    def part(self, samples: Samples) -> ToolMotion:
+        """Some samples; consecutive ones are views."""
         return ToolMotion(
             self.time[samples],
             self.pose[samples],
@@ -72,8 +72,8 @@ class LongMotion(ToolMotion):
         """Second time derivative, shape ``(n, 6)``."""
         return self._whole().acceleration
 
-    def part(self, samples: slice) -> ToolMotion:
-        """Some consecutive samples."""
+    def part(self, samples: Samples) -> ToolMotion:
+        """Some samples."""
         time = self.time[samples]
         return ToolMotion(time, *self._path.function(time), self._path)
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
-from pollard_pin.kinematics.rates import motion_rates
+from pollard_pin.kinematics.rates import check_regular, motion_rates
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
@@ -17,7 +18,8 @@ from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.elementwise import LONG, Samples, blocks, intervals
+from thesis_pin.numeric.long import LongTrajectory
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.tolerances import TOLERANCES
 
@@ -38,6 +40,17 @@ class SolvedTrajectory(JointTrajectory):
     """
 
     solutions: Solutions
+
+
+class LongSolvedTrajectory(LongTrajectory, SolvedTrajectory):
+    """Of very many samples: rates and accelerations are worked out when asked for."""
+
+    def __init__(
+        self, robot: Pollard, motion: ToolMotion, q: np.ndarray, solutions: Solutions
+    ) -> None:
+        derive = partial(_rates, robot, motion, solutions.angles)
+        super().__init__(motion.time, q, derive)
+        object.__setattr__(self, "solutions", solutions)
 
 
 def joint_trajectory(
@@ -64,12 +77,9 @@ def joint_trajectory(
     instance("motion", motion, ToolMotion, "ToolPath.sample()")
     branch = DEFAULT_BRANCH if branch is None else one_branch(branch)
     path = motion.path
-    solution, v, a = _solve(robot, motion, branch)
-    q, changes = _unwrapped(solution.angles)
-    if reference is not None:
-        turns = np.rint((vector("reference", reference, 12) - q[0]) / (2 * np.pi))
-        q = q + 2 * np.pi * turns if turns.any() else q
-    for k, joint, change in _suspicious(motion.time, changes, v):
+    start = None if reference is None else vector("reference", reference, 12)
+    joints = _solve(robot, motion, branch, start)
+    for k, joint, change in _suspicious(joints):
         if path is None or _breaks(robot, path, motion.time[k : k + 2], branch):
             raise SingularPose(
                 f"the path crosses a serial singularity: {JOINT_NAMES[joint]} "
@@ -78,59 +88,77 @@ def joint_trajectory(
                 remedy="Move the path, turn the tool or choose another branch"
                 + ("" if path else "; if the samples are far apart, take more of them"),
             )
-    _check_limits(robot, motion.time, q)
-    return SolvedTrajectory(motion.time, q, v, a, solution)
+    _check_limits(robot, motion.time, joints.q)
+    return joints
 
 
 def _solve(
-    robot: Pollard, motion: ToolMotion, branch: Branch
-) -> tuple[Solutions, np.ndarray, np.ndarray]:
-    """Angles in (−π, π], rates and accelerations at the samples."""
-    solution = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
-    v, a = np.empty(solution.angles.shape), np.empty(solution.angles.shape)
-    for part in blocks(len(motion.time)):
-        some = motion.part(part)
-        posture = Posture.of(robot.geometry, solution.angles[part])
-        v[part], a[part] = motion_rates(
-            posture, some.pose, some.rate, some.acceleration, some.time, first=part.start
-        )
-    return solution, v, a
+    robot: Pollard, motion: ToolMotion, branch: Branch, reference: np.ndarray | None = None
+) -> SolvedTrajectory:
+    """Angles from those in (−π, π], or next to the reference, rates and accelerations."""
+    solutions = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
+    q = _unwrapped(solutions.angles)
+    if reference is not None:
+        turns = np.rint((reference - q[0]) / (2 * np.pi))
+        q = q + 2 * np.pi * turns if turns.any() else q
+    if len(q) < LONG:
+        v, a = np.empty(q.shape), np.empty(q.shape)
+        for part in blocks(len(q)):
+            v[part], a[part] = _rates(robot, motion, solutions.angles, part)
+        return SolvedTrajectory(motion.time, q, v, a, solutions)
+    for part in blocks(len(q)):
+        posture = Posture.of(robot.geometry, solutions.angles[part])
+        check_regular(posture, motion.time[part], part.start)
+    return LongSolvedTrajectory(robot, motion, q, solutions)
 
 
-def _unwrapped(q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Angles without jumps of a whole turn, and their changes from sample to sample."""
-    changes = np.diff(q, axis=0)
-    turns = np.rint(changes / (2 * np.pi))
-    if turns.any():
-        changes = changes - 2 * np.pi * turns
-        q = q.copy()
-        q[1:] -= 2 * np.pi * np.cumsum(turns, axis=0)
-    return q, changes
+def _rates(
+    robot: Pollard, motion: ToolMotion, angles: np.ndarray, samples: Samples
+) -> tuple[np.ndarray, np.ndarray]:
+    """Joint rates and accelerations at some samples, each ``(m, 12)``."""
+    some, posture = motion.part(samples), Posture.of(robot.geometry, angles[samples])
+    first = samples.start if isinstance(samples, slice) else 0
+    return motion_rates(posture, some.pose, some.rate, some.acceleration, some.time, first=first)
 
 
-def _suspicious(
-    time: np.ndarray, changes: np.ndarray, v: np.ndarray
-) -> list[tuple[int, int, float]]:
+def _unwrapped(q: np.ndarray) -> np.ndarray:
+    """Angles without jumps of a whole turn."""
+    found, turned = q, np.zeros(q.shape[1])
+    for part in intervals(len(q)):
+        turns = turned + np.cumsum(np.rint(np.diff(q[part], axis=0) / (2 * np.pi)), axis=0)
+        if turns.any():
+            found = q.copy() if found is q else found
+            found[part.start + 1 : part.stop] -= 2 * np.pi * turns
+            turned = turns[-1]
+    return found
+
+
+def _suspicious(joints: JointTrajectory) -> list[tuple[int, int, float]]:
     """Sample, joint and change [rad] wherever an angle changes much more than its rate says."""
     found = []
-    for k, joint in np.argwhere(np.abs(changes) > _JUMP):
-        foreseen = (time[k + 1] - time[k]) * (v[k + 1, joint] + v[k, joint]) / 2
-        if abs(changes[k, joint] - foreseen) > _UNFORESEEN:
-            found.append((int(k), int(joint), float(changes[k, joint])))
+    for part in intervals(len(joints.time)):
+        changes = np.diff(joints.q[part], axis=0)
+        for k, joint in np.argwhere(np.abs(changes) > _JUMP):
+            first = int(part.start + k)
+            ends = joints.part(slice(first, first + 2))
+            foreseen = (ends.time[1] - ends.time[0]) * ends.v[:, joint].sum() / 2
+            if abs(changes[k, joint] - foreseen) > _UNFORESEEN:
+                found.append((first, int(joint), float(changes[k, joint])))
     return found
 
 
 def _breaks(robot: Pollard, path: ToolPath, ends: np.ndarray, branch: Branch) -> bool:
     """Whether the branch breaks between two samples, looked at 300 times as closely."""
     motion = path.at(np.linspace(ends[0], ends[1], 301))
-    solution, v, _ = _solve(robot, motion, branch)
-    return bool(_suspicious(motion.time, _unwrapped(solution.angles)[1], v))
+    return bool(_suspicious(_solve(robot, motion, branch)))
 
 
 def _check_limits(robot: Pollard, time: np.ndarray, q: np.ndarray) -> None:
-    beyond = np.maximum(robot.lower - q, q - robot.upper)
-    if (beyond > TOLERANCES.joint_limit).any():
-        k, joint = (int(i) for i in np.argwhere(beyond > TOLERANCES.joint_limit)[0])
+    for part in blocks(len(q)):
+        beyond = np.maximum(robot.lower - q[part], q[part] - robot.upper) > TOLERANCES.joint_limit
+        if not beyond.any():
+            continue
+        k, joint = (int(i) for i in np.argwhere(beyond)[0] + (part.start, 0))
         low, high = np.degrees([robot.lower[joint], robot.upper[joint]])
         raise Unreachable(
             f"{JOINT_NAMES[joint]} ({JOINT_SYMBOLS[joint]}) leaves its limits: "

@@ -132,18 +132,19 @@ def joints(report: TrajectoryReport, keep: Samples, order: int) -> list[Plot]:
 def _joints(
     report: TrajectoryReport, keep: Samples, order: int, name: str, numbers: Sequence[int]
 ) -> Plot:
+    some = report.joints.part(keep)
     quantity, label, values = (
-        ("angles", "angle [°]", report.joints.q),
-        ("rates", "rate [°/s]", report.joints.v),
-        ("accelerations", "acceleration [°/s²]", report.joints.a),
+        ("angles", "angle [°]", some.q),
+        ("rates", "rate [°/s]", some.v),
+        ("accelerations", "acceleration [°/s²]", some.a),
     )[order]
     return Plot(
         f"Joint {quantity}, {name}",
         "Motors and passive joints.",
         label,
         [
-            Curve(JOINT_SYMBOLS[k], np.degrees(values[keep, k]), PALETTE[j % 6], _DASHES[j // 3])
+            Curve(JOINT_SYMBOLS[k], np.degrees(values[:, k]), PALETTE[j % 6], _DASHES[j // 3])
             for j, k in enumerate(numbers)
         ],
-        report.joints.time[keep],
+        some.time,
     )

@@ -59,9 +59,11 @@ class MotorUse:
             torque: [N·m], shape ``(n, 6)``.
             speed: [rad/s], shape ``(n, 6)``.
         """
-        shares = np.abs(torque) / limits.effort, np.abs(speed) / limits.velocity
-        peaks = [share.max(axis=0) for share in shares]
-        times = [time[share.argmax(axis=0)] for share in shares]
+        peaks, times = [], []
+        for values, limit in ((torque, limits.effort), (speed, limits.velocity)):
+            size = np.abs(values)
+            peaks.append(size.max(axis=0) / limit)
+            times.append(time[size.argmax(axis=0)])
         return cls(limits.effort, limits.velocity, *peaks, *times)
 
     @property

@@ -24,9 +24,10 @@ from pollard_pin.specification import (
     ACTUATORS,
 )
 from thesis_pin.model.inertia import Reading
-from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.elementwise import blocks, intervals
+from thesis_pin.numeric.long import gathered
 from thesis_pin.numeric.trajectory import JointTrajectory
-from thesis_pin.report.summary import ActuatorSummary, summarise
+from thesis_pin.report.summary import ActuatorSummary, summarise_parts
 
 _REACTION_SAMPLES = 2000  # joint reactions are a loop over samples; peaks need no more
 
@@ -68,7 +69,8 @@ class TrajectoryNumbers:
     @property
     def speed(self) -> np.ndarray:
         """Motor speeds [rad/s], shape ``(n, 6)``."""
-        return np.ascontiguousarray(self.joints.v[:, ACTUATORS])
+        count = len(self.joints.time)
+        return gathered(count, self.joints.part, lambda part: part.v[:, ACTUATORS])
 
     @property
     def power(self) -> np.ndarray:
@@ -78,7 +80,14 @@ class TrajectoryNumbers:
     @cached_property
     def actuators(self) -> ActuatorSummary:
         """Peaks, RMS, power and work of each motor."""
-        return summarise(ACTUATOR_NAMES, self.joints.time, self.torque, self.speed)
+        time, torque = self.joints.time, self.torque
+        return summarise_parts(
+            ACTUATOR_NAMES,
+            (
+                (time[part], torque[part], self.joints.part(part).v[:, ACTUATORS])
+                for part in intervals(len(time))
+            ),
+        )
 
     @cached_property
     def motor_use(self) -> MotorUse:
@@ -89,13 +98,21 @@ class TrajectoryNumbers:
     @cached_property
     def work_done(self) -> np.ndarray:
         """Work of each motor since the start [J], shape ``(n, 6)``."""
-        step = np.diff(self.joints.time)[:, None] * (self.power[1:] + self.power[:-1]) / 2
-        return np.concatenate([np.zeros((1, 6)), np.cumsum(step, axis=0)])
+        torque, work = self.torque, np.zeros((len(self.joints.time), 6))
+        for part in intervals(len(work)):
+            some = self.joints.part(part)
+            power = torque[part] * some.v[:, ACTUATORS]
+            step = np.diff(some.time)[:, None] * (power[1:] + power[:-1]) / 2
+            work[part] = np.cumsum(
+                np.concatenate([work[part.start : part.start + 1], step]), axis=0
+            )
+        return work
 
     @cached_property
     def energy_change(self) -> float:
         """Kinetic plus potential energy at the end minus at the start [J]."""
-        start, end = self.robot.energy(self.joints.q[[0, -1]], self.joints.v[[0, -1]])
+        ends = self.joints.part(np.array([0, -1]))
+        start, end = self.robot.energy(ends.q, ends.v)
         return float(end - start)
 
     @property
@@ -133,13 +150,8 @@ class TrajectoryNumbers:
         """
         count = len(self.joints.time)
         some = np.unique(np.linspace(0, count - 1, min(count, _REACTION_SAMPLES)).astype(int))
-        wrench = joint_reactions(
-            self.robot,
-            self.joints.q[some],
-            self.joints.v[some],
-            self.joints.a[some],
-            self.dynamics.loop_force[some],
-        )
+        joints, forces = self.joints.part(some), self.dynamics.loop_force[some]
+        wrench = joint_reactions(self.robot, joints.q, joints.v, joints.a, forces)
         return (
             np.linalg.norm(wrench[..., :3], axis=-1).max(axis=0),
             np.linalg.norm(wrench[..., 3:], axis=-1).max(axis=0),

@@ -21,10 +21,10 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
-from thesis_pin.contacts.dynamics import ContactDynamics
+from thesis_pin.contacts.dynamics import ContactDynamics, LongContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.elementwise import BLOCK, LONG, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
@@ -87,32 +87,38 @@ def inverse_dynamics(
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     count = len(joints.q)
-    result = ContactDynamics(
-        torque=np.empty((count, 12)),
-        wrench=np.zeros((count, 2, 6)),
-        sole_wrench=np.zeros((count, 2, 6)),
+    if count <= BLOCK:
+        return _solve(robot, motion, joints)
+    shapes = {"torque": (12,), "wrench": (2, 6), "double_violation": ()}
+    if count < LONG:
+        shapes |= {"sole_wrench": (2, 6), "required": (6,)}
+    kept = {name: np.empty((count, *shape)) for name, shape in shapes.items()}
+    for part in blocks(count):
+        here = _solve(robot, motion.part(part), joints.part(part))
+        for name, values in kept.items():
+            values[part] = getattr(here, name)
+    if count < LONG:
+        return ContactDynamics(contacts=robot.contacts, support=motion.support, **kept)
+    return LongContactDynamics(
         contacts=robot.contacts,
         support=motion.support,
-        required=np.empty((count, 6)),
-        double_violation=np.full(count, np.nan),
+        base=motion.torso,
+        feet=(motion.left_foot, motion.right_foot),
+        **kept,
     )
-    for part in blocks(count):
-        _fill(result, part, robot, motion.part(part), joints.part(part))
-    return result
 
 
-def _fill(
-    result: ContactDynamics, part: slice, robot: Scout, motion: GaitMotion, joints: JointTrajectory
-) -> None:
-    """Work out one block of samples and write it where it belongs."""
+def _solve(robot: Scout, motion: GaitMotion, joints: JointTrajectory) -> ContactDynamics:
+    """:func:`inverse_dynamics` of one block of samples."""
     forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
-    result.required[part] = forces[:, :6]
+    wrench, sole_wrench = np.zeros((2, len(forces), 2, 6))
+    violation = np.full(len(forces), np.nan)
     torque, total = rows(forces[:, 6:]), rows(forces[:, :6])
     shares = [np.where(motion.support[:, k], total, 0.0) for k in (0, 1)]
     double = np.flatnonzero(motion.support.all(axis=1))
     if double.size:
         both, missing = share_load(robot, motion, joints, forces, double)
-        result.double_violation[part][double] = missing
+        violation[double] = missing
         for k in (0, 1):
             shares[k][:, double] = both[:, k].T
     turn = rows(motion.torso.rotation)
@@ -129,10 +135,17 @@ def _fill(
         moment = into(back, moment) - cross(arm, force)
         own = rows(foot.rotation)
         for column, vector in ((0, force), (3, moment)):
-            result.wrench[part, k, column : column + 3] = vector.T
-            result.sole_wrench[part, k, column : column + 3] = into(own, vector).T
-    result.torque[part] = torque.T
-    result.torque[part] += joint_friction(robot, joints.v)
+            wrench[:, k, column : column + 3] = vector.T
+            sole_wrench[:, k, column : column + 3] = into(own, vector).T
+    return ContactDynamics(
+        torque=torque.T + joint_friction(robot, joints.v),
+        wrench=wrench,
+        sole_wrench=sole_wrench,
+        contacts=robot.contacts,
+        support=motion.support,
+        required=np.ascontiguousarray(forces[:, :6]),
+        double_violation=violation,
+    )
 
 
 def joint_friction(robot: Scout, v: np.ndarray) -> np.ndarray:

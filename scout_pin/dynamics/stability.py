@@ -63,5 +63,4 @@ def polygons(robot: Scout, motion: GaitMotion) -> list[tuple[np.ndarray, np.ndar
     See :func:`thesis_pin.contacts.feet.support_polygons`.
     """
     outlines = [np.array(robot.specification.leg(side).sole) for side in SIDES]
-    placements = [motion.left_foot.placement, motion.right_foot.placement]
-    return support_polygons(motion.support, placements, outlines)
+    return support_polygons(motion.support, (motion.left_foot, motion.right_foot), outlines)

@@ -47,8 +47,8 @@ def leg_rates(
     instance("leg", leg, LegGeometry, "Scout.legs")
     instance("foot", foot, BodyMotion, "Gait.body()")
     theta = finite_array("theta", theta, None, 6)
-    if theta.shape != (len(foot.position), 6):
-        raise WrongShape("theta", theta.shape, f"({len(foot.position)}, 6), as foot")
+    if theta.shape != (foot.count, 6):
+        raise WrongShape("theta", theta.shape, f"({foot.count}, 6), as foot")
     rate, second = np.empty(theta.shape), np.empty(theta.shape)
     for part in blocks(len(theta)):
         motion = foot.part(part)

@@ -12,7 +12,7 @@ Source: Scout thesis, chapter 5, appendices C and D.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Literal
 
 import numpy as np
@@ -23,7 +23,9 @@ from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.model.specification import Strict
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
+from thesis_pin.numeric.elementwise import LONG, Samples
 from thesis_pin.numeric.interpolation import jumps
+from thesis_pin.numeric.long import LongBody
 from thesis_pin.numeric.rotations import euler_placement
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
@@ -64,8 +66,8 @@ class GaitMotion:
         names = {(True, False): "left", (False, True): "right", (True, True): "double"}
         return [names[bool(left), bool(right)] for left, right in self.support]
 
-    def part(self, samples: slice) -> GaitMotion:
-        """Some consecutive samples, as views."""
+    def part(self, samples: Samples) -> GaitMotion:
+        """Some samples; consecutive ones are views."""
         return GaitMotion(
             self.time[samples],
             self.t[samples],
@@ -73,8 +75,8 @@ class GaitMotion:
             *(body.part(samples) for body in (self.torso, self.left_foot, self.right_foot)),
         )
 
-    def at_rest(self, samples: np.ndarray) -> GaitMotion:
-        """The poses of some samples (indices or a mask), without any motion."""
+    def at_rest(self, samples: Samples) -> GaitMotion:
+        """The poses of some samples, without any motion."""
         return GaitMotion(
             self.time[samples],
             self.t[samples],
@@ -191,6 +193,14 @@ class Gait:
         """Motion of one body at times t; derivatives are per second."""
         choice("body", name, BODIES)
         t, unit = _times(t), self._unit(time_unit)
+        if len(t) >= LONG:
+            return LongBody(len(t), partial(self._body, name, t, unit))
+        return self._body(name, t, unit)
+
+    def _body(
+        self, name: str, t: np.ndarray, unit: float, samples: Samples = slice(None)
+    ) -> BodyMotion:
+        t = t[samples]
         # Derivatives beyond a curve's degree vanish; most curves are constant.
         values, rates, second = found = np.zeros((3, 6, len(t)))
         for k, curve in enumerate(self.curves[name]):

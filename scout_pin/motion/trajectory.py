@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from scout_pin.kinematics.rates import leg_rates
+from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
+from thesis_pin.numeric.elementwise import LONG, Samples, blocks
+from thesis_pin.numeric.long import LongTrajectory
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 _LEGS = (slice(0, 6), slice(6, 12))  # each leg's joints, in the order of SIDES
@@ -43,8 +47,21 @@ def joint_trajectory(
     instance("motion", motion, GaitMotion, "Gait.sample()")
     start = None if reference is None else vector("reference", reference, 12)
     q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=branch)
+    if len(q) < LONG:
+        return JointTrajectory(motion.time, q, *_rates(robot, motion, q))
+    for side, mine in zip(SIDES, _LEGS, strict=True):
+        for part in blocks(len(q)):
+            LegScrews(robot.legs[side], q[part, mine]).refuse_singular(part.start)
+    return LongTrajectory(motion.time, q, partial(_rates, robot, motion, q))
+
+
+def _rates(
+    robot: Scout, motion: GaitMotion, q: np.ndarray, samples: Samples = slice(None)
+) -> tuple[np.ndarray, np.ndarray]:
+    """Joint rates and accelerations at some samples, each ``(m, 12)``."""
+    motion, q = motion.part(samples), q[samples]
     feet = (motion.left_foot, motion.right_foot)
     v, a = np.empty(q.shape), np.empty(q.shape)
     for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):
         v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
-    return JointTrajectory(motion.time, q, v, a)
+    return v, a

@@ -58,7 +58,7 @@ def plots(report: GaitReport, keep: Samples) -> list[Plot]:
 
 def feet_and_torso(report: GaitReport, keep: Samples) -> Plot:
     """Torso and feet over time: figure 5.1 of the thesis."""
-    motion = report.motion
+    motion = report.motion.part(keep)
     curves = (
         ("torso y", motion.torso, 1),
         ("left foot y", motion.left_foot, 1),
@@ -71,10 +71,10 @@ def feet_and_torso(report: GaitReport, keep: Samples) -> Plot:
         "Origins of the torso and the soles.",
         "[mm]",
         [
-            Curve(name, body.position[keep, axis] * 1e3, colour)
+            Curve(name, body.position[:, axis] * 1e3, colour)
             for colour, (name, body, axis) in zip(PALETTE, curves, strict=False)
         ],
-        motion.time[keep],
+        motion.time,
     )
 
 
@@ -119,7 +119,8 @@ def stability_margin(report: GaitReport, keep: Samples) -> Plot:
 
 
 def _floor(report: GaitReport, keep: Samples) -> list[Plot]:
-    forces, used = report.dynamics.wrench[keep, :, 2], report.dynamics.friction_used[keep]
+    dynamics = report.dynamics.part(keep)
+    forces, used = dynamics.wrench[:, :, 2], dynamics.friction_used
     return [
         _over_time(
             report,
@@ -157,7 +158,7 @@ def torques(report: GaitReport, keep: Samples, side: str = "") -> Plot:
 
 
 def _servos(report: GaitReport, keep: Samples) -> list[Plot]:
-    torque, speed = report.dynamics.torque[keep], report.joints.v[keep]
+    torque, speed = report.dynamics.torque[keep], report.joints.part(keep).v
     no_load = report.robot.no_load_speed
     use = np.abs(torque) / report.robot.stall_torque + np.abs(speed) / no_load
     return [

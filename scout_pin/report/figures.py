@@ -86,15 +86,16 @@ def skeleton(report: GaitReport, some: Samples) -> dict[str, NDArray[np.float64]
         Name → points in the world [m], shape ``(len(some), points, 3)``.
     """
     robot = report.robot
-    q = free_flyer_state(report.motion.torso, report.joints)[0][some]
+    motion = report.motion.part(some)
+    q = free_flyer_state(motion.torso, report.joints.part(some))[0]
     frames = joint_placements(robot.model, q)[..., :3]
     lines = {}
     for k, side in enumerate(SIDES):
         numbers = [joint_id(robot.model, name) for name in JOINT_NAMES[6 * k : 6 * k + 6]]
         lines[side] = frames[:, numbers]
     lines["torso"] = np.stack([lines[side][:, 0] for side in SIDES], axis=1)
-    for side, foot in zip(SIDES, (report.motion.left_foot, report.motion.right_foot), strict=True):
-        place = foot.placement[some]
+    for side, foot in zip(SIDES, (motion.left_foot, motion.right_foot), strict=True):
+        place = foot.placement
         corners = robot.sole_vertices(side, place)
         lines[f"{side}_sole"] = np.concatenate([corners, corners[:, :1]], axis=1)
         lines[side] = np.concatenate([lines[side], place[:, None, :3, 3]], axis=1)

@@ -11,6 +11,7 @@ from scout_pin.dynamics.inverse import inverse_dynamics, joint_friction
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
 from thesis_pin.contacts.dynamics import ContactDynamics
+from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 _TRIED = 32  # samples of double support added at a time to those it is bisected on
@@ -48,32 +49,45 @@ def fastest_time_unit(
     double support the sharing rule isn't quadratic in s: at the speed that single
     support allows, the samples that ask most are found, and s is bisected on them.
     """
-    speed = float(unit * (np.abs(joints.v) / robot.no_load_speed).max())
+    speed = 0.0
+    for part in blocks(len(joints.time)):
+        share = np.abs(joints.part(part).v) / robot.no_load_speed
+        speed = max(speed, float(unit * share.max()))
     single = np.flatnonzero(~motion.support.all(axis=1))
-    at_rest = motion.at_rest(single)
-    zero = np.zeros(joints.q[single].shape)
-    static = inverse_dynamics(
-        robot, at_rest, JointTrajectory(at_rest.time, joints.q[single], zero, zero)
-    )
-    friction = joint_friction(robot, joints.v[single])
-    linear = robot.specification.assumptions.joint_friction.viscous * joints.v[single]
-    constant = static.torque + friction - linear
-    square = dynamics.torque[single] - friction - static.torque
     double = np.flatnonzero(motion.support.all(axis=1))
     double = double[:: 1 + len(double) // _MOST]
-    chosen = (
-        motion.t[double],
-        JointTrajectory(joints.time[double], joints.q[double], joints.v[double], joints.a[double]),
-    )
+    chosen = (motion.t[double], joints.part(double))
     results = []
-    for line in (False, True):
-        slope = robot.stall_torque / robot.no_load_speed if line else 0.0
-        growth = np.abs(joints.v[single]) * slope
-        factor = _first_limit(constant, linear, square, growth, robot.stall_torque)
+    for line, factor in enumerate(_in_single_support(robot, motion, joints, dynamics, single)):
         if double.size and factor > 0:
-            factor = _limit_in_double_support(robot, gait, chosen, unit, line, factor)
+            factor = _limit_in_double_support(robot, gait, chosen, unit, bool(line), factor)
         results.append(unit / factor if factor > 0 else None)
     return FastestTimeUnit(speed, results[0], results[1])
+
+
+def _in_single_support(
+    robot: Scout,
+    motion: GaitMotion,
+    joints: JointTrajectory,
+    dynamics: ContactDynamics,
+    single: np.ndarray,
+) -> tuple[float, float]:
+    """The largest speed-up on samples of single support by torque alone, and by the line."""
+    viscous = robot.specification.assumptions.joint_friction.viscous
+    stall, slope = robot.stall_torque, robot.stall_torque / robot.no_load_speed
+    torque = line = np.inf
+    for part in blocks(len(single)):
+        some = single[part]
+        moving, at_rest = joints.part(some), motion.at_rest(some)
+        zero = np.zeros(moving.q.shape)
+        still = JointTrajectory(at_rest.time, moving.q, zero, zero)
+        static = inverse_dynamics(robot, at_rest, still).torque
+        friction, linear = joint_friction(robot, moving.v), viscous * moving.v
+        constant, square = static + friction - linear, dynamics.torque[some] - friction - static
+        torque = min(torque, _first_limit(constant, linear, square, zero, stall))
+        growth = np.abs(moving.v) * slope
+        line = min(line, _first_limit(constant, linear, square, growth, stall))
+    return torque, line
 
 
 def _first_limit(

@@ -13,8 +13,9 @@ from scout_pin.motion.gait import Gait, GaitMotion, RateJump
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics
+from thesis_pin.numeric.elementwise import blocks, intervals
 from thesis_pin.numeric.trajectory import JointTrajectory
-from thesis_pin.report.summary import ActuatorSummary, summarise
+from thesis_pin.report.summary import ActuatorSummary, summarise_parts
 
 
 @dataclass(frozen=True)
@@ -49,16 +50,21 @@ class GaitNumbers:
     @cached_property
     def actuators(self) -> ActuatorSummary:
         """Peaks, RMS, power and work of each joint."""
-        return summarise(JOINT_NAMES, self.joints.time, self.dynamics.torque, self.joints.v)
+        time, torque = self.joints.time, self.dynamics.torque
+        return summarise_parts(
+            JOINT_NAMES,
+            ((time[p], torque[p], self.joints.part(p).v) for p in intervals(len(time))),
+        )
 
     @cached_property
     def servo_use(self) -> np.ndarray:
         """Worst |τ|/τ_stall + |θ̇|/ω_no-load of each joint, shape ``(12,)``; 1 is the limit."""
-        share = (
-            np.abs(self.dynamics.torque) / self.robot.stall_torque
-            + np.abs(self.joints.v) / self.robot.no_load_speed
-        )
-        return np.asarray(share.max(axis=0))
+        most = np.zeros(12)
+        for part in blocks(len(self.joints.time)):
+            share = np.abs(self.dynamics.torque[part]) / self.robot.stall_torque
+            share += np.abs(self.joints.part(part).v) / self.robot.no_load_speed
+            most = np.maximum(most, share.max(axis=0))
+        return most
 
     @cached_property
     def fastest(self) -> FastestTimeUnit:
@@ -101,10 +107,10 @@ class GaitNumbers:
         """Lowest corner of a swinging sole above the floor [m]."""
         lowest = np.inf
         for k, side in enumerate(SIDES):
-            swinging = ~self.motion.support[:, k]
-            if swinging.any():
-                foot = self.motion.left_foot if side == "left" else self.motion.right_foot
-                corners = self.robot.sole_vertices(side, foot.placement[swinging])
+            swinging = np.flatnonzero(~self.motion.support[:, k])
+            foot = self.motion.left_foot if side == "left" else self.motion.right_foot
+            for part in blocks(len(swinging)):
+                corners = self.robot.sole_vertices(side, foot.part(swinging[part]).placement)
                 lowest = min(lowest, float(corners[..., 2].min()))
         return lowest if np.isfinite(lowest) else 0.0
 
@@ -115,6 +121,7 @@ class GaitNumbers:
         if not single.any():
             return False
         k = int(np.flatnonzero(single)[np.argmin(self.margin[single])])
-        feet = [self.motion.left_foot.position[k, :2], self.motion.right_foot.position[k, :2]]
+        here = self.motion.part(slice(k, k + 1))
+        feet = [here.left_foot.position[0, :2], here.right_foot.position[0, :2]]
         stance = 0 if self.motion.support[k, 0] else 1
         return bool((self.zmp[k] - feet[stance]) @ (feet[1 - stance] - feet[stance]) > 0)

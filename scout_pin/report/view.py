@@ -50,7 +50,7 @@ def gait_scene(report: GaitReport) -> Scene:
     """
     instance("report", report, GaitReport, "gait_report()")
     robot, keep = report.robot, thinned(report.joints.time, MOST_SAMPLES)
-    q = free_flyer_state(report.motion.torso, report.joints)[0][keep]
+    q = free_flyer_state(report.motion.torso.part(keep), report.joints.part(keep))[0]
     height = float(report.com[:, 2].mean())
     size = height / 0.11  # overlays fit the thesis's robot, whose CoM is 0.11 m high
     force_scale = height / (robot.mass * GRAVITY)
@@ -139,22 +139,21 @@ def _balance(report: GaitReport, keep: np.ndarray, zone: np.ndarray, size: float
 
 def _forces(report: GaitReport, keep: np.ndarray, scale: float, size: float) -> list[Item]:
     """Each foot's force at its centre of pressure; hidden while the foot is off the floor."""
+    motion, dynamics = report.motion.part(keep), report.dynamics.part(keep)
     items: list[Item] = []
     for k, side in enumerate(SIDES):
-        foot = report.motion.left_foot if side == "left" else report.motion.right_foot
-        pressure = report.dynamics.centre_of_pressure[:, k]
+        foot = motion.left_foot if side == "left" else motion.right_foot
+        pressure = dynamics.centre_of_pressure[:, k]
         point = foot.position + np.einsum("nij,nj->ni", foot.rotation[..., :2], pressure)
-        force = report.dynamics.wrench[:, k, :3]
-        items.append(
-            Arrow(f"{side}_force", "forces", point[keep], force[keep], scale, 1.5e-3 * size, GREEN)
-        )
+        force = dynamics.wrench[:, k, :3]
+        items.append(Arrow(f"{side}_force", "forces", point, force, scale, 1.5e-3 * size, GREEN))
     return items
 
 
 def _feet(report: GaitReport, keep: np.ndarray, size: float) -> list[Item]:
-    motion = report.motion
+    motion = report.motion.part(keep)
     return [
-        Trace(f"{side}_trace", "traces", foot.position[keep], 8e-4 * size, PURPLE)
+        Trace(f"{side}_trace", "traces", foot.position, 8e-4 * size, PURPLE)
         for side, foot in zip(SIDES, (motion.left_foot, motion.right_foot), strict=True)
     ]
 

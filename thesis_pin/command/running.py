@@ -15,7 +15,7 @@ from pathlib import Path
 from threading import current_thread, main_thread
 from types import FrameType
 
-from thesis_pin.command.text import say
+from thesis_pin.command.text import prepare_streams, say
 from thesis_pin.errors import BadInput, CannotWrite, ThesisPinError
 from thesis_pin.files import Claim, check_file, is_standard_output
 from thesis_pin.model.engine import require_pinocchio
@@ -137,6 +137,7 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
         The exit code.
     """
     parsed = argparse.Namespace()
+    prepare_streams()
     try:
         try:
             parser.parse_args(arguments, parsed)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import contextlib
 import io
 import os
 import re
@@ -44,8 +45,9 @@ def _line(line: str) -> str:
 
 
 def say(text: str) -> None:
-    """Tell the user on standard error."""
-    print(clean(text), file=sys.stderr, flush=True)
+    """Tell the user on standard error, if somebody listens there."""
+    with contextlib.suppress(OSError):
+        print(clean(text), file=sys.stderr, flush=True)
 
 
 _STAND_INS = {
@@ -107,7 +109,8 @@ def prepare_streams() -> None:
     codecs.register_error("readable", _mend)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="readable")
+            # With python -u argparse would swallow that its help can't be written.
+            stream.reconfigure(errors="readable", write_through=False)
 
 
 def _mend(error: UnicodeError) -> tuple[str, int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,6 +10,10 @@ import numpy as np
 
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.numeric.checks import element
+from thesis_pin.numeric.elementwise import Samples
+from thesis_pin.numeric.long import gathered
+from thesis_pin.numeric.trajectory import BodyMotion
+from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -36,6 +41,18 @@ class ContactDynamics:
     support: np.ndarray
     required: np.ndarray
     double_violation: np.ndarray
+
+    def part(self, samples: Samples) -> ContactDynamics:
+        """Some samples; consecutive ones are views."""
+        return ContactDynamics(
+            self.torque[samples],
+            self.wrench[samples],
+            self.sole_wrench[samples],
+            self.contacts,
+            self.support[samples],
+            self.required[samples],
+            self.double_violation[samples],
+        )
 
     @cached_property
     def contact_margin(self) -> np.ndarray:
@@ -78,4 +95,99 @@ class ContactDynamics:
         if self.support[sample].all():
             return float(self.double_violation[sample]), np.full(6, np.nan)
         k = int(np.argmax(self.support[sample]))
-        return self.contacts[k].violation(self.sole_wrench[sample, k])
+        return self.contacts[k].violation(self.part(np.array([sample])).sole_wrench[0, k])
+
+
+class LongContactDynamics(ContactDynamics):
+    """Of very many samples: what follows from the wrenches is worked out when asked for.
+
+    Args:
+        torque: Joint torques [N·m], shape ``(n, joints)``.
+        wrench: Floor's wrench on each foot, world axes, about its origin, ``(n, 2, 6)``.
+        contacts: Contact of each sole.
+        support: Feet in support, shape ``(n, 2)``.
+        double_violation: Least wrench missing in double support, shape ``(n,)``.
+        base: Motion of the robot's base.
+        feet: Motions of both soles.
+    """
+
+    def __init__(
+        self,
+        *,
+        torque: np.ndarray,
+        wrench: np.ndarray,
+        contacts: tuple[Contact, Contact],
+        support: np.ndarray,
+        double_violation: np.ndarray,
+        base: BodyMotion,
+        feet: tuple[BodyMotion, BodyMotion],
+    ) -> None:
+        values = {
+            "torque": torque,
+            "wrench": wrench,
+            "contacts": contacts,
+            "support": support,
+            "double_violation": double_violation,
+            "_base": base,
+            "_feet": feet,
+        }
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    _base: BodyMotion
+    _feet: tuple[BodyMotion, BodyMotion]
+
+    def part(self, samples: Samples) -> ContactDynamics:
+        """Some samples in full."""
+        base, wrench = self._base.part(samples), self.wrench[samples]
+        sole_wrench, required = np.empty(wrench.shape), np.zeros((6, len(wrench)))
+        turn = rows(base.rotation)
+        for k, foot in enumerate(one.part(samples) for one in self._feet):
+            force, moment = rows(wrench[:, k, :3]), rows(wrench[:, k, 3:])
+            own = rows(foot.rotation)
+            sole_wrench[:, k, :3], sole_wrench[:, k, 3:] = into(own, force).T, into(own, moment).T
+            arm = rows(foot.position) - rows(base.position)
+            required[:3] += into(turn, force)
+            required[3:] += into(turn, moment + cross(arm, force))
+        return ContactDynamics(
+            self.torque[samples],
+            wrench,
+            sole_wrench,
+            self.contacts,
+            self.support[samples],
+            np.ascontiguousarray(required.T),
+            self.double_violation[samples],
+        )
+
+    def _whole(self, of: Callable[[ContactDynamics], np.ndarray]) -> np.ndarray:
+        return gathered(len(self.support), self.part, of)
+
+    @property
+    def sole_wrench(self) -> np.ndarray:
+        """:attr:`wrench` in the soles' axes, shape ``(n, 2, 6)``."""
+        return self._whole(lambda part: part.sole_wrench)
+
+    @property
+    def required(self) -> np.ndarray:
+        """Wrench the floor must supply in all, about the base's origin in its axes, ``(n, 6)``."""
+        return self._whole(lambda part: part.required)
+
+    @property
+    def contact_margin(self) -> np.ndarray:
+        """Distance of each foot's wrench inside its cone [N·m], ``(n, 2)``; NaN off the floor."""
+        return self._whole(lambda part: part.contact_margin)
+
+    @cached_property
+    def admissible(self) -> np.ndarray:
+        """Whether the floor can supply the wrench, booleans ``(n,)``."""
+        return self._whole(lambda part: part.admissible)
+
+    @property
+    def friction_used(self) -> np.ndarray:
+        """Share of the admissible friction in use by each foot, ``(n, 2)``; NaN off the floor."""
+        return self._whole(lambda part: part.friction_used)
+
+    @property
+    def centre_of_pressure(self) -> np.ndarray:
+        """Centre of pressure in each sole's frame [m], ``(n, 2, 2)``; NaN off the floor."""
+        return self._whole(lambda part: part.centre_of_pressure)

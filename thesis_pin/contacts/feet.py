@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from thesis_pin.contacts.stability import signed_margin, support_polygon
+from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.trajectory import BodyMotion
 
 
 def sole_corners(outline: np.ndarray, placement: np.ndarray) -> np.ndarray:
@@ -24,7 +26,7 @@ def sole_corners(outline: np.ndarray, placement: np.ndarray) -> np.ndarray:
 
 
 def support_polygons(
-    support: np.ndarray, placements: Sequence[np.ndarray], outlines: Sequence[np.ndarray]
+    support: np.ndarray, feet: Sequence[BodyMotion], outlines: Sequence[np.ndarray]
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """Support polygons of a motion, each with the samples it holds for.
 
@@ -32,25 +34,43 @@ def support_polygons(
 
     Args:
         support: Feet in support, at least one a sample, booleans ``(n, feet)``.
-        placements: Each sole in the world, shape ``(n, 4, 4)``.
+        feet: Motion of each sole in the world.
         outlines: Corners of each sole in its frame [m], shape ``(corners, 2)``.
 
     Returns:
         Samples ``(m,)`` and corners, counter-clockwise [m], ``(h, 2)``, of each stance.
     """
+    # Alike within a block first, then over all blocks: a key a sample would weigh too much.
+    number = np.empty(len(support), dtype=np.intp)
+    keys: list[np.ndarray] = []
+    firsts: list[np.ndarray] = []
+    for part in blocks(len(support)):
+        some = _stances(support[part], [foot.part(part).placement for foot in feet])
+        key, first, inverse = np.unique(some, axis=0, return_index=True, return_inverse=True)
+        number[part] = inverse.ravel() + sum(len(key) for key in keys)
+        keys.append(key)
+        firsts.append(first + part.start)
+    _, first, inverse = np.unique(
+        np.concatenate(keys), axis=0, return_index=True, return_inverse=True
+    )
+    number = inverse.ravel()[number]
+    result = []
+    for k, sample in enumerate(np.concatenate(firsts)[first]):
+        here = [foot.part(slice(sample, sample + 1)).placement[0] for foot in feet]
+        standing = np.flatnonzero(support[sample])
+        soles = [sole_corners(outlines[int(s)], here[int(s)]) for s in standing]
+        result.append((np.flatnonzero(number == k), support_polygon(*soles)))
+    return result
+
+
+def _stances(support: np.ndarray, placements: Sequence[np.ndarray]) -> np.ndarray:
+    """What tells stances apart, ``(n, 7 × feet)``: which feet stand, and where those do."""
     keys = np.zeros((len(support), len(placements), 7))
     for k, place in enumerate(placements):
         rows = place[:, [0, 0, 1, 1, 0, 1], [0, 1, 0, 1, 3, 3]]
         keys[:, k, 0] = support[:, k]
         keys[:, k, 1:] = np.where(support[:, k, None], rows, 0.0)
-    flat = keys.reshape(len(support), -1).round(9)
-    _, first, inverse = np.unique(flat, axis=0, return_index=True, return_inverse=True)
-    result = []
-    for number, sample in enumerate(first):
-        standing = np.flatnonzero(support[sample])
-        soles = [sole_corners(outlines[int(k)], placements[int(k)][sample]) for k in standing]
-        result.append((np.flatnonzero(inverse.ravel() == number), support_polygon(*soles)))
-    return result
+    return np.asarray(keys.reshape(len(support), -1).round(9))
 
 
 def support_margins(
@@ -59,5 +79,6 @@ def support_margins(
     """Signed margins [m] of points ``(n, 2)`` to the polygon of each sample, shape ``(n,)``."""
     margins = np.empty(len(points))
     for samples, polygon in polygons:
-        margins[samples] = signed_margin(polygon, points[samples])
+        for part in blocks(len(samples)):
+            margins[samples[part]] = signed_margin(polygon, points[samples[part]])
     return margins

@@ -146,7 +146,10 @@ def _write_open(descriptor: int, content: bytes) -> None:
             raise OSError(errno.EBADF, "standard output is closed")
         sys.stdout.flush()
         if hasattr(sys.stdout, "buffer"):
-            sys.stdout.buffer.write(content)
+            rest = memoryview(content)
+            while rest:  # an unbuffered stream may take a part only
+                rest = rest[sys.stdout.buffer.write(rest) :]
+            sys.stdout.buffer.flush()
         else:  # a notebook's
             sys.stdout.write(content.decode())
         sys.stdout.flush()

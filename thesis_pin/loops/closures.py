@@ -17,7 +17,9 @@ from thesis_pin.loops.joint_types import replace_joints
 from thesis_pin.model.closure_types import word_of
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
-from thesis_pin.model.loading import LoadedRobot, RootJoint, check_urdf, frame_id
+from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.joining import joined
+from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id
 from thesis_pin.model.supplement import Closure, Motor, Supplement
 
 
@@ -101,9 +103,9 @@ class ClosedRobot(LoadedRobot):
         *,
         where: str = FILE_KIND,
     ) -> None:
-        described = robot if isinstance(robot, Description) else check_urdf(robot)
+        described = robot if isinstance(robot, Description) else checked(read_urdf(robot))
         if closures is not None:
-            described = replace(described, supplement=closures.supplement())
+            described = joined(described, closures.supplement())
         beside = described.supplement
         if root_joint is None and beside.free_root:
             root_joint = pin.JointModelFreeFlyer()
@@ -112,6 +114,7 @@ class ClosedRobot(LoadedRobot):
             self.model = replace_joints(self.model, beside.joint_types, where=where)
             self.data = self.model.createData()
             self.q0, self.v0 = pin.neutral(self.model), np.zeros(self.model.nv)
+        self.model.gravity.linear = np.array(beside.gravity)
         self.loops = tuple(_loop(self.model, one, where) for one in beside.closures)
         self.motors = _motors(self.model, beside.motors, where)
         self.actuators = tuple(motor.joint for motor in self.motors)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.model.formats import urdf
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
-from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.loading import RootJoint, check_urdf
-from thesis_pin.model.source import read_bytes
+from thesis_pin.model.joining import joined
+from thesis_pin.model.loading import RootJoint, checked
 
 
 def load(
@@ -31,10 +30,9 @@ def load(
         UnknownName: It names a frame or joint the URDF doesn't have.
         ModelError: The URDF isn't a sound tree, or a motor or loop makes no sense.
     """
-    text = read_bytes("URDF", file, LIMITS.urdf_bytes)
-    described = check_urdf(text, where=str(file))
-    described = replace(described, mesh_folders=(str(Path(file).resolve().parent),))
-    if closures is not None:
-        described = replace(described, supplement=ClosureFile.read(closures).supplement())
+    beside = None if closures is None else ClosureFile.read(closures)
+    described = checked(urdf.read(file, motors=() if beside is None else beside.name_mot))
+    if beside is not None:
+        described = joined(described, beside.supplement())
     where = FILE_KIND if closures is None else str(closures)
     return ClosedRobot(described, root_joint=root_joint, where=where)

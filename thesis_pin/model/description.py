@@ -63,7 +63,8 @@ class Joint:
             None without a limit.
         damping: Viscous friction [N·m·s/rad] or [N·s/m].
         friction: Coulomb friction [N·m] or [N].
-        mimics: Whether it says that it follows another joint.
+        mimic: What joint it says it follows: its name, factor [-] and offset [rad] or [m];
+            None if it follows none.
     """
 
     name: str
@@ -76,7 +77,7 @@ class Joint:
     limit: tuple[float, float, float, float] | None = None
     damping: float = 0.0
     friction: float = 0.0
-    mimics: bool = False
+    mimic: tuple[str, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ import shutil
 import tempfile
 import weakref
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -14,6 +15,7 @@ import numpy as np
 import pinocchio as pin
 
 from thesis_pin.errors import ModelError, UnknownName
+from thesis_pin.model.bodies import check_bodies, odd_bodies
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.urdf import read_urdf
 from thesis_pin.model.soundness import check_agreement, check_description
@@ -48,13 +50,32 @@ def check_urdf(urdf: str | bytes, *, where: str = "URDF") -> Description:
 
     Raises:
         ModelError: Not XML, a xacro file, duplicate or unknown names, elements given
-            twice, a link with two parents, a loop, more than one root, numbers that
-            aren't finite, impossible limits or axes, a moving link without mass.
+            twice, more than one root, numbers that aren't finite, impossible limits or
+            axes, loops or joints that follow others.
         NonPhysicalInertia: With the link, its eigenvalues and by how much.
     """
     description = read_urdf(urdf, where=where)
-    check_description(description, where=where)
-    return description
+    beside = description.supplement
+    if beside.closures or beside.couplings:
+        tied = [one.name for one in beside.closures] + [one.name for one in beside.couplings]
+        names = ", ".join(shown(name) for name in tied[:5])
+        raise ModelError(
+            f"it has loops or tied joints, which a tree can't hold: {names}",
+            where=where,
+            remedy="Load it with thesis_pin.load()",
+        )
+    return checked(description)
+
+
+def checked(description: Description) -> Description:
+    """A description that makes a mechanism, with what is odd about it among its warnings.
+
+    Raises:
+        ModelError, NonPhysicalInertia: See :func:`check_urdf`.
+    """
+    check_description(description, where=description.where)
+    odd = tuple(odd_bodies(description))
+    return replace(description, warnings=(*description.warnings, *odd))
 
 
 def load_model(
@@ -95,6 +116,8 @@ def load_model(
         ) from error
     except (RuntimeError, ValueError) as error:
         raise ModelError(f"Pinocchio can't read it ({error})", where=where) from None
+    if roots:
+        check_bodies(description, free_root=True)
     check_agreement(description, model, roots=roots, where=where)
     return model
 

@@ -14,8 +14,8 @@ import numpy as np
 import pinocchio as pin
 
 from thesis_pin.errors import ModelError, UnknownName
+from thesis_pin.model.bodies import check_bodies
 from thesis_pin.model.description import Description, Joint, MovingBody, moving_bodies
-from thesis_pin.model.inertia import check_physical
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.arrays import skew
 from thesis_pin.tolerances import TOLERANCES
@@ -32,27 +32,14 @@ def check_description(description: Description, *, where: str) -> None:
 
     Raises:
         ModelError: A link with two parents, a loop, more than one root, impossible
-            limits or axes, a joint that mimics another, a moving link without mass.
+            limits or axes.
         UnknownName: A joint names a link that isn't there.
         NonPhysicalInertia: With the link, its eigenvalues and by how much.
     """
     _check_tree(description, where)
     for joint in description.joints.values():
         _check_joint(joint, f"{where}:{joint.line}: joint {joint.name!r}")
-    joints = description.joints.values()
-    moving = {joint.child for joint in joints if joint.kind != "fixed"}
-    carrying = {joint.parent for joint in joints}
-    for name, link in description.links.items():
-        if link.inertial is not None:
-            body = link.inertial
-            com = body.placement[:3, 3]
-            check_physical(name, body.mass, com, body.tensor, where=f"{where}:{link.line}")
-        elif name in moving - carrying:
-            raise ModelError(
-                f"link {name!r} hangs on a moving joint and has no mass",
-                where=f"{where}:{link.line}",
-                remedy="Give it an <inertial>, or fix its joint",
-            )
+    check_bodies(description)
 
 
 def check_agreement(
@@ -195,12 +182,8 @@ def _check_tree(description: Description, where: str) -> None:
 
 
 def _check_joint(joint: Joint, here: str) -> None:
-    if joint.mimics:
-        raise ModelError(
-            "it mimics another joint, which the model would ignore",
-            where=here,
-            remedy="Remove <mimic>; tie the joints by a loop if they are tied",
-        )
+    if joint.kind in ("fixed", "floating"):
+        return  # its axis and limits mean nothing
     if joint.kind in ("revolute", "prismatic"):
         if joint.limit is None:
             raise ModelError("it has no <limit>", where=here)

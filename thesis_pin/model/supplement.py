@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
 
+from thesis_pin.tolerances import GRAVITY
+
 Mask = tuple[bool, bool, bool, bool, bool, bool]
 """Which of tx, ty, tz, rx, ry, rz of a relative twist are zero."""
 
@@ -104,6 +106,7 @@ class Supplement:
             quaternion x, y, z, w); joints that aren't named are neutral. A free root is
             called ``root_joint``: x, y, z and the quaternion.
         free_root: Whether the root link flies freely.
+        gravity: In the world's axes [m/s²].
     """
 
     closures: tuple[Closure, ...] = ()
@@ -116,3 +119,4 @@ class Supplement:
     friction: Mapping[str, float] = field(default_factory=dict)
     poses: Mapping[str, Mapping[str, tuple[float, ...]]] = field(default_factory=dict)
     free_root: bool = False
+    gravity: tuple[float, float, float] = (0.0, 0.0, -GRAVITY)

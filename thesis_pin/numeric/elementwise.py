@@ -32,6 +32,9 @@ Numbers: TypeAlias = Sequence[Number] | np.ndarray
 Truth: TypeAlias = bool | np.ndarray
 """One condition, or an array of them."""
 
+Samples: TypeAlias = slice | np.ndarray
+"""Some samples of a motion: consecutive ones, indices, or a mask."""
+
 
 @dataclass(frozen=True, slots=True)
 class Elementwise:
@@ -81,3 +84,8 @@ ARRAYS = Elementwise(cosine_sine, np.sqrt, np.arccos, np.arctan2, np.where, np.a
 def blocks(count: int, size: int = BLOCK) -> list[slice]:
     """Slices of at most ``size`` samples that cover ``count``."""
     return [slice(start, min(start + size, count)) for start in range(0, count, size)]
+
+
+def intervals(count: int, size: int = BLOCK) -> list[slice]:
+    """Slices whose neighbours share a sample: each step between two samples lies in one."""
+    return [slice(part.start, part.stop + 1) for part in blocks(max(count - 1, 1), size)]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.numeric.rotations import transform
 from thesis_pin.numeric.vectors import cross, into, rows
 
@@ -26,8 +27,8 @@ class JointTrajectory:
     v: np.ndarray
     a: np.ndarray
 
-    def part(self, samples: slice) -> JointTrajectory:
-        """Some consecutive samples, as views."""
+    def part(self, samples: Samples) -> JointTrajectory:
+        """Some samples; consecutive ones are views."""
         return JointTrajectory(
             self.time[samples], self.q[samples], self.v[samples], self.a[samples]
         )
@@ -54,12 +55,17 @@ class BodyMotion:
     alpha: np.ndarray
 
     @property
+    def count(self) -> int:
+        """Number of samples."""
+        return len(self.position)
+
+    @property
     def placement(self) -> np.ndarray:
         """Placement in the world, shape ``(n, 4, 4)``."""
         return transform(self.rotation, self.position)
 
-    def part(self, samples: slice) -> BodyMotion:
-        """Some consecutive samples, as views."""
+    def part(self, samples: Samples) -> BodyMotion:
+        """Some samples; consecutive ones are views."""
         return BodyMotion(
             self.rotation[samples],
             self.position[samples],
@@ -69,8 +75,8 @@ class BodyMotion:
             self.alpha[samples],
         )
 
-    def at_rest(self, samples: np.ndarray) -> BodyMotion:
-        """The placements of some samples (indices or a mask), at rest."""
+    def at_rest(self, samples: Samples) -> BodyMotion:
+        """The placements of some samples, at rest."""
         position = self.position[samples]
         zero = np.zeros(position.shape)
         return BodyMotion(self.rotation[samples], position, zero, zero, zero, zero)

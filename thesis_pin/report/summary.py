@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,14 +49,36 @@ def summarise(
         torque: τ [N·m], shape ``(n, k)``.
         speed: θ̇ [rad/s], shape ``(n, k)``.
     """
-    power = torque * speed
-    duration = time[-1] - time[0]
+    return summarise_parts(names, [(time, torque, speed)])
+
+
+def summarise_parts(
+    names: Sequence[str], parts: Iterable[tuple[np.ndarray, np.ndarray, np.ndarray]]
+) -> ActuatorSummary:
+    """:func:`summarise` of a motion in parts, of which only one at a time is in memory.
+
+    Args:
+        names: Actuator names, k of them.
+        parts: Time ``(m,)``, torque and speed ``(m, k)`` of consecutive samples; each
+            part begins with the last sample of the one before.
+    """
+    peaks: list[np.ndarray] = []  # of torque, speed, power
+    sums: list[np.ndarray] = []  # integrals of τ², of work given, of work taken
+    duration = 0.0
+    for time, torque, speed in parts:
+        power = torque * speed
+        highest = [np.abs(values).max(axis=0) for values in (torque, speed, power)]
+        integrands = (torque**2, np.maximum(power, 0.0), np.minimum(power, 0.0))
+        areas = [np.trapezoid(values, time, axis=0) for values in integrands]
+        peaks = [np.maximum(a, b) for a, b in zip(peaks or highest, highest, strict=True)]
+        sums = [a + b for a, b in zip(sums, areas, strict=True)] if sums else areas
+        duration += float(time[-1] - time[0])
     return ActuatorSummary(
         names=tuple(names),
-        peak_torque=np.abs(torque).max(axis=0),
-        rms_torque=np.sqrt(np.trapezoid(torque**2, time, axis=0) / duration),
-        peak_speed=np.abs(speed).max(axis=0),
-        peak_power=np.abs(power).max(axis=0),
-        positive_work=np.trapezoid(np.maximum(power, 0.0), time, axis=0),
-        negative_work=np.trapezoid(np.minimum(power, 0.0), time, axis=0),
+        peak_torque=peaks[0],
+        rms_torque=np.sqrt(sums[0] / duration),
+        peak_speed=peaks[1],
+        peak_power=peaks[2],
+        positive_work=sums[1],
+        negative_work=sums[2],
     )

@@ -139,22 +139,38 @@ def test_the_documents_list_every_code():
     assert [row for row in rows if row.isdigit()] == [str(code.value) for code in ExitCode]
 
 
-@pytest.mark.parametrize("command", ["scout_pin", "pollard_pin"])
+HOLDS_MESHES = """
+import sys, time
+import scout_pin
+from thesis_pin.command.running import tidy_end
+
+with tidy_end():
+    robot = scout_pin.load()
+    robot.visual_model  # Pinocchio reads meshes from files
+    print("ready", flush=True)
+    time.sleep(300)
+"""
+
+
 @pytest.mark.parametrize("number", SIGNALS)
-def test_a_view_that_a_signal_ends_leaves_no_temporary_folder(tmp_path, command, number):
-    code = f"import sys; from {command}.cli import main; sys.exit(main())"
+def test_a_robot_whose_command_a_signal_ends_leaves_no_temporary_folder(tmp_path, number):
     process = subprocess.Popen(
-        [sys.executable, "-c", code, "view", "--no-browser", "--port", "0"],
+        [sys.executable, "-c", HOLDS_MESHES],
+        stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         cwd=ROOT,
         env=os.environ | {"TMPDIR": str(tmp_path)},
     )
-    with process:
-        assert " at http://127.0.0.1:" in process.stderr.readline()
-        assert list(tmp_path.iterdir())  # Pinocchio reads meshes from files
+    try:
+        ready = process.stdout.readline()
+        during = list(tmp_path.iterdir())
         process.send_signal(number)
-        rest = process.stderr.read()
+        _, rest = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert ready == "ready\n"
+    assert during, "the folder that has to go was never there"
     assert process.returncode == 128 + number
     assert "Traceback" not in rest
     assert list(tmp_path.iterdir()) == []

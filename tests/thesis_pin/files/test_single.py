@@ -1,5 +1,6 @@
 """Files are whole or untouched; what isn't a file is written into."""
 
+import io
 import os
 import random
 import socket
@@ -235,6 +236,16 @@ def test_a_closed_or_full_standard_output_is_named(tmp_path):
     assert said == b"-: can't write it: No space left on device"
     said = in_a_process(f"import sys\nsys.stdout = None\n{code}", stderr=subprocess.PIPE).stderr
     assert b"standard output is closed" in said
+
+
+def test_a_stream_that_takes_a_part_at_a_time_gets_everything(monkeypatch):
+    class Slow(io.BytesIO):
+        def write(self, content):
+            return super().write(content[:3])
+
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(Slow()))
+    write_file("-", b"0123456789")
+    assert sys.stdout.buffer.getvalue() == b"0123456789"
 
 
 def test_an_open_file_that_is_only_read_is_refused_before_the_work(tmp_path):

@@ -1,5 +1,6 @@
 """Reading a URDF and a closure file: what is accepted, kept and refused."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -8,8 +9,11 @@ import pytest
 
 from thesis_pin.errors import BadInput, ModelError, SpecificationError, UnknownName
 from thesis_pin.loops.joint_types import replace_joints
+from thesis_pin.loops.kinematics import close
 from thesis_pin.loops.loading import load
+from thesis_pin.model.closure_types import word_of
 from thesis_pin.model.formats.closure_file import ClosureFile
+from thesis_pin.model.formats.urdf import read
 
 DATA = Path(__file__).parent / "data"
 
@@ -94,14 +98,33 @@ def test_replacing_keeps_frames_inertias_and_kinematics():
         assert place.isApprox(other, 1e-12), frame.name
 
 
-def test_cardan_becomes_a_turn_about_x_then_y():
+@pytest.mark.parametrize(
+    "kind", ["CARDAN", *(f"UJOINT_{a}" for a in ["XY", "YX", "YZ", "ZY", "XZ", "ZX"])]
+)
+def test_universal_joints_become_a_turn_about_one_axis_then_the_other(kind):
+    one, other = "XY" if kind == "CARDAN" else kind[-2:]
     plain = pin.buildModelFromUrdf(str(DATA / "rssr.urdf"))
-    found = replace_joints(plain, {"ball": "CARDAN"})
+    found = replace_joints(plain, {"ball": kind})
     names = list(found.names)
-    assert names[names.index("ball_X") + 1] == "ball_Y"
-    assert found.joints[found.getJointId("ball_X")].shortname() == "JointModelRX"
-    assert found.joints[found.getJointId("ball_Y")].shortname() == "JointModelRY"
-    assert found.frames[found.getFrameId("coupler_tip")].parentJoint == found.getJointId("ball_Y")
+    assert names[names.index(f"ball_{one}") + 1] == f"ball_{other}"
+    last = found.getJointId(f"ball_{other}")
+    assert found.frames[found.getFrameId("coupler_tip")].parentJoint == last
+    q, data, start = pin.neutral(found), found.createData(), plain.createData()
+    q[[found.idx_qs[found.getJointId(f"ball_{axis}")] for axis in (one, other)]] = 0.3, -0.4
+    pin.forwardKinematics(found, data, q)
+    pin.forwardKinematics(plain, start, pin.neutral(plain))
+    turned = pin.utils.rotate(one.lower(), 0.3) @ pin.utils.rotate(other.lower(), -0.4)
+    before = start.oMi[plain.getJointId("ball")].rotation
+    np.testing.assert_allclose(data.oMi[last].rotation, before @ turned, atol=1e-15)
+
+
+def test_a_joint_of_several_freedoms_is_not_replaced():
+    floating = pin.Model()
+    floating.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "free")
+    with pytest.raises(ModelError, match="'free' has 6 degrees of freedom already"):
+        replace_joints(floating, {"free": "UJOINT_XY"})
+    with pytest.raises(UnknownName, match="UJOINT_XX"):
+        replace_joints(pin.buildModelFromUrdf(str(DATA / "rssr.urdf")), {"ball": "UJOINT_XX"})
 
 
 def test_fixed_takes_a_joint_away_and_keeps_its_mass():
@@ -180,18 +203,40 @@ def test_a_motor_on_a_ball_joint_is_refused(tmp_path):
         with_closures(tmp_path, text, "rssr")
 
 
-def test_a_link_with_two_parents_is_refused_with_both_joints(tmp_path):
-    text = (DATA / "five_bar.urdf").read_text()
-    # The loop drawn whole: both bars carry one and the same tip.
-    looped = text.replace('<child link="right_tip"/>', '<child link="left_tip"/>').replace(
-        '  <link name="right_tip"/>\n', ""
+def test_a_link_with_two_parents_is_cut_where_the_file_says_and_moves_as_the_tree_with_its_file(
+    tmp_path,
+):
+    """The loop drawn whole: the left bar's tip turns on the right bar."""
+    pin_joint = (
+        'right_tip_joint" type="revolute"><axis xyz="0 1 0"/>'
+        '<limit lower="-3" upper="3" effort="1" velocity="1"/>'
+    )
+    looped = (
+        (DATA / "five_bar.urdf")
+        .read_text()
+        .replace('<child link="right_tip"/>', '<child link="left_tip"/>')
+        .replace('  <link name="right_tip"/>\n', "")
+        .replace('right_tip_joint" type="fixed">', pin_joint)
     )
     (tmp_path / "looped.urdf").write_text(looped)
-    says = r"looped\.urdf:67: link 'left_tip' has two parents"
-    with pytest.raises(ModelError, match=says) as caught:
-        load(tmp_path / "looped.urdf", DATA / "five_bar.yaml")
-    assert "'left_tip_joint' and 'right_tip_joint'" in str(caught.value)
-    assert "closure file" in caught.value.remedy
+    found = read(tmp_path / "looped.urdf")
+    (closure,) = found.supplement.closures
+    assert word_of(closure.rows) == "hinge_z"
+    (note,) = found.warnings
+    assert re.search(r"looped\.urdf:\d+: joint 'right_tip_joint': the loop is cut here", note)
+    whole = load(DATA / "five_bar.urdf", DATA / "five_bar.yaml")
+    closed = close(whole, np.array([0.5, 0.3, -0.4, 0.2]))
+    tree = pin.buildModelFromXML(found.text)
+    q = np.zeros(tree.nq)
+    for name in list(tree.names)[1:]:
+        joint, other = tree.getJointId(name), whole.model.getJointId(name)
+        q[tree.idx_qs[joint]] = closed[whole.model.idx_qs[other]]
+    data = tree.createData()
+    pin.framesForwardKinematics(tree, data, q)
+    one, other = (data.oMf[tree.getFrameId(frame)] for frame in closure.frames)
+    np.testing.assert_allclose(one.translation, other.translation, atol=1e-9)
+    np.testing.assert_allclose(one.rotation[:, 2], other.rotation[:, 2], atol=1e-9)
+    np.testing.assert_allclose(one.rotation[:, 2], [0, 1, 0], atol=1e-9)
 
 
 @pytest.mark.parametrize("text", ["closed_loop: [[", "a: b: c", "- 1\n- 2\n", ""])

@@ -31,6 +31,7 @@ from thesis_pin.model.source import read_text
 from thesis_pin.model.specification import Key, Strict, validate
 from thesis_pin.model.supplement import Closure, Coupling, Motor, Spring, Supplement
 from thesis_pin.numeric.checks import shown
+from thesis_pin.tolerances import GRAVITY
 
 FILE_KIND = "closure file"
 
@@ -91,6 +92,7 @@ class Extra(Strict):
         couplings, motors, springs, armature, damping, friction, poses: As in
             :class:`~thesis_pin.model.supplement.Supplement`.
         root: ``fixed`` or ``free``.
+        gravity: In the world's axes [m/s²].
     """
 
     format: Literal[1]
@@ -105,6 +107,7 @@ class Extra(Strict):
     friction: ByJoint[NotNegative] = Field(default_factory=dict)
     poses: ByJoint[ByJoint[float | Bounded[float]]] = Field(default_factory=dict)
     root: Literal["fixed", "free"] = "fixed"
+    gravity: tuple[float, float, float] = (0.0, 0.0, -GRAVITY)
 
 
 class ClosureFile(Strict):
@@ -220,6 +223,7 @@ class ClosureFile(Strict):
                 for name, pose in extra.poses.items()
             },
             free_root=extra.root == "free",
+            gravity=extra.gravity,
         )
 
 

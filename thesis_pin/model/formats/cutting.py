@@ -14,7 +14,7 @@ from thesis_pin.numeric.arrays import skew
 from thesis_pin.numeric.rotations import invert
 
 _ALL: Mask = (True, True, True, True, True, True)
-_ROWS: dict[str, tuple[str, Mask]] = {
+CLOSING: dict[str, tuple[str, Mask]] = {
     "fixed": ("weld", _ALL),
     "revolute": ("hinge", (True, True, True, True, True, False)),
     "continuous": ("hinge", (True, True, True, True, True, False)),
@@ -69,13 +69,13 @@ class Cutter:
         if kind == "floating":
             self.notes.append(f"{here}: it forbids nothing and closes a loop: left out")
             return
-        if kind not in _ROWS:
+        if kind not in CLOSING:
             raise ModelError(
                 f"it closes a loop, which can't be cut at a joint of type {kind}",
                 where=here,
                 remedy="Cut the loop at another joint and describe it in a closure file",
             )
-        word, rows = _ROWS[kind]
+        word, rows = CLOSING[kind]
         turn = along(joint.axis) if kind not in ("fixed", "FIXED", "SPHERICAL") else np.eye(4)
         first = self.frame(f"{joint.name}_1", joint.parent, joint.placement @ turn, joint.line)
         second = self.frame(f"{joint.name}_2", joint.child, turn, joint.line)

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from thesis_pin.model.description import Array, Inertial, Joint, Link
 from thesis_pin.model.urdf import number, numbers
@@ -104,7 +105,7 @@ def _quoted(text: str) -> str:
     return quoteattr(text, {"\n": "&#10;", "\t": "&#9;", "\r": "&#13;"})
 
 
-def pose(xyz: Sequence[float], rotation: Array | None = None) -> Array:
+def pose(xyz: ArrayLike, rotation: Array | None = None) -> Array:
     """Placement from an origin [m] and a rotation, shape ``(4, 4)``."""
     result = np.eye(4)
     result[:3, 3] = xyz

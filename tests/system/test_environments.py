@@ -1,0 +1,95 @@
+"""Other people's environments: another pinocchio, settings of Matplotlib, one that is broken."""
+
+import os
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+VERBS = {
+    "scout": (
+        ["gait"],
+        ["view", "--html", "-"],
+        ["ik", "left", "--position", "0", "0", "-0.2"],
+        ["info"],
+        ["urdf"],
+        ["audit"],
+    ),
+    "pollard": (
+        ["trajectory"],
+        ["view", "--html", "-"],
+        ["ik", "0.45", "0", "0.1", "0", "0", "0"],
+        ["fk", "0", "0", "0", "0", "0", "0"],
+        ["workspace"],
+        ["info"],
+        ["urdf"],
+        ["audit"],
+    ),
+}
+GAIT = ["gait", "--samples", "11"]
+
+
+def command(robot, *words, path=(), environment=None):
+    code = f"import sys; from {robot}_pin.cli import main; sys.exit(main())"
+    settings = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (*path, ROOT)))}
+    return subprocess.run(
+        [sys.executable, "-c", code, *map(str, words)],
+        env=settings | (environment or {}),
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+
+
+@pytest.mark.parametrize(
+    ("robot", "words"), [(robot, words) for robot, every in VERBS.items() for words in every]
+)
+def test_every_verb_names_another_pinocchio_and_the_cure(robot, words, tmp_path):
+    (tmp_path / "pinocchio").mkdir()
+    (tmp_path / "pinocchio" / "__init__.py").write_text('__version__ = "0.5.1"  # a nose plug-in')
+    done = command(robot, *words, path=(tmp_path,))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert str(tmp_path / "pinocchio" / "__init__.py") in done.stderr
+    assert "pip uninstall pinocchio, pip install pin" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("robot", VERBS)
+def test_every_verb_is_asked(robot):
+    verbs = import_module(f"{robot}_pin.cli").COMMAND.verbs
+    assert {verb.name for verb in verbs} == {words[0] for words in VERBS[robot]}
+
+
+def figures(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix == ".svg"}
+
+
+@pytest.mark.parametrize("name", ["settings", "backend"])
+def test_a_users_settings_of_matplotlib_change_no_figure(tmp_path, name):
+    (tmp_path / "matplotlibrc").write_text(
+        "text.usetex: True\nbackend: tkagg\nfont.size: 40\naxes.facecolor: black\n"
+    )
+    environment = (
+        {"MATPLOTLIBRC": str(tmp_path / "matplotlibrc")}
+        if name == "settings"
+        else {"MPLBACKEND": "no such backend"}
+    )
+    for folder, settings in (("plain", {}), ("theirs", environment)):
+        done = command("scout", *GAIT, "--out", tmp_path / folder, environment=settings)
+        assert done.returncode == 0, done.stderr
+    assert figures(tmp_path / "theirs") == figures(tmp_path / "plain") != {}
+
+
+def test_where_figures_cannot_be_drawn_the_data_are_written_all_the_same(tmp_path):
+    (tmp_path / "matplotlib").mkdir()
+    (tmp_path / "matplotlib" / "__init__.py").write_text("raise ImportError('broken')")
+    out, file = tmp_path / "out", tmp_path / "report.json"
+    done = command("scout", *GAIT, "--out", out, "--json", file, path=(tmp_path,))
+    assert done.returncode not in (0, 1)
+    assert "broken" in done.stderr
+    assert sorted(os.listdir(out)) == ["manifest.sha256", "report.json", "samples.csv"]
+    assert file.read_bytes() == (out / "report.json").read_bytes()

@@ -1,0 +1,221 @@
+"""MJCF → description, through MuJoCo's own compiler.
+
+The compiler resolves defaults, angles, frames, includes and inertias from geometry;
+what it compiles is read by :mod:`thesis_pin.model.formats.mjcf.compiled`. Whatever
+doesn't move bodies (meshes and geometry of bodies that have inertials, textures,
+sensors, cameras) is taken out before, so that files without their meshes load.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from thesis_pin.errors import BadInput, ModelError
+from thesis_pin.model.description import Description
+from thesis_pin.model.formats.mjcf.compiled import describe
+from thesis_pin.model.formats.xml import Element, parse_xml
+from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.source import read_bytes
+
+if TYPE_CHECKING:
+    import mujoco
+
+KIND = "MJCF"
+
+_UNSEEN = ("sensors", "pairs", "excludes", "skins", "cameras", "lights", "texts", "numerics")
+_MOST_FILES = 100
+_ELEMENTS_THAT_COPY = ("replicate", "composite", "flexcomp")
+
+
+def read_mjcf(path: str | Path) -> Description:
+    """Read an MJCF file.
+
+    Args:
+        path: The file; files that it includes and meshes are looked for beside it.
+
+    Raises:
+        BadInput: It can't be read, or MuJoCo isn't installed.
+        ModelError: It isn't MJCF, MuJoCo can't compile it, it has flexible bodies, or
+            the mesh that a body's inertia is made of is missing.
+    """
+    where = str(path)
+    content = read_bytes(KIND, path, LIMITS.urdf_bytes)
+    root, text = parse_xml(KIND, content, where=where)
+    if root.tag != "mujoco":
+        raise ModelError(
+            f"the root element is <{root.tag}>", where=f"{where}:{root.line}", allowed="<mujoco>"
+        )
+    folder = Path(path).resolve().parent
+    included = _included(root, folder, where)
+    spec = _spec(text, included, folder, where)
+    warnings, passed_over = _strip(spec, where)
+    model = _compile(spec, where)
+    lines = (
+        {body.name: line_of(body) for body in spec.bodies},
+        {joint.name: line_of(joint) for joint in spec.joints},
+    )
+    return describe(model, where, warnings, passed_over, lines)
+
+
+def has_mujoco() -> bool:
+    """Whether MuJoCo can be imported here."""
+    try:
+        import mujoco
+    except ImportError:
+        return False
+    return hasattr(mujoco, "MjSpec") and hasattr(mujoco.MjSpec, "delete")
+
+
+def _spec(text: str, included: dict[str, bytes], folder: Path, where: str) -> mujoco.MjSpec:
+    if not has_mujoco():
+        raise BadInput(
+            "MJCF is read through MuJoCo's compiler, which isn't installed (or is older than 3.4)",
+            where=where,
+            remedy="pip install 'thesis-pin[mujoco]'",
+        )
+    import mujoco
+
+    try:
+        spec = mujoco.MjSpec.from_string(text, include=included)
+    except (ValueError, RuntimeError, OSError) as error:
+        raise _refused(error, where) from None
+    spec.modelfiledir = f"{folder}/"
+    if len(spec.flexes):
+        raise ModelError("it has flexible bodies", where=where, allowed="rigid bodies")
+    return spec
+
+
+def _compile(spec: mujoco.MjSpec, where: str) -> mujoco.MjModel:
+    try:
+        return spec.compile()
+    except (ValueError, RuntimeError, OSError) as error:
+        raise _refused(error, where) from None
+
+
+def _refused(error: Exception, where: str) -> ModelError:
+    said = re.sub(r"\s+", " ", str(error)).strip()
+    return ModelError(f"MuJoCo can't compile it ({said})", where=where)
+
+
+def _included(root: Element, folder: Path, where: str) -> dict[str, bytes]:
+    """Files that the file includes, by name; each is bounded as the file itself is."""
+    found: dict[str, bytes] = {}
+    waiting = [(root, where)]
+    while waiting:
+        element, source = waiting.pop()
+        _check_copies(element, source)
+        for include in element.iter("include"):
+            assert isinstance(include, Element)
+            name, here = include.get("file", ""), f"{source}:{include.line}"
+            if name in found:
+                raise ModelError(f"it includes the file {name!r} twice", where=here)
+            if len(found) == _MOST_FILES:
+                raise ModelError("it includes more files", where=here, allowed=f"{_MOST_FILES}")
+            content = read_bytes(KIND, folder / name, LIMITS.urdf_bytes)
+            found[name] = content
+            waiting.append((parse_xml(KIND, content, where=name)[0], name))
+    return found
+
+
+def _check_copies(root: Element, where: str) -> None:
+    """Refuse elements that a few characters make millions of."""
+    waiting = [(root, 1.0)]
+    while waiting:
+        element, times = waiting.pop()
+        if element.tag in _ELEMENTS_THAT_COPY:
+            counts = (element.get("count") or "1").split()
+            try:
+                times *= math.prod(float(count) for count in counts)
+            except ValueError:
+                times = math.inf
+            if not times <= LIMITS.links:
+                raise ModelError(
+                    f"<{element.tag}> makes {times:g} copies",
+                    where=f"{where}:{element.line}",
+                    allowed=f"at most {LIMITS.links:,}",
+                )
+        waiting += [(child, times) for child in element if isinstance(child, Element)]
+
+
+def _strip(spec: mujoco.MjSpec, where: str) -> tuple[list[str], list[str]]:
+    """Take out what doesn't move bodies; warnings, and what acts and is passed over."""
+    import mujoco
+
+    warnings: list[str] = []
+    passed = [f"{where}: tendon {item.name!r}" for item in spec.tendons]
+    passed += [f"{where}: plugin {item.name or item.plugin_name!r}" for item in spec.plugins]
+    on_joints = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
+    for actuator in list(spec.actuators):
+        if actuator.trntype not in on_joints:
+            kind = str(actuator.trntype).rpartition("mjTRN_")[2].lower()
+            passed.append(
+                f"{where}:{line_of(actuator)}: actuator {actuator.name!r}, which acts on a {kind}"
+            )
+            spec.delete(actuator)
+    known = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD, mujoco.mjtEq.mjEQ_JOINT)
+    for equality in list(spec.equalities):
+        if equality.type not in known:
+            kind = str(equality.type).rpartition("mjEQ_")[2].lower()
+            passed.append(f"{where}:{line_of(equality)}: equality {equality.name!r} of a {kind}")
+            spec.delete(equality)
+    for kind in _UNSEEN:
+        for item in list(getattr(spec, kind)):
+            spec.delete(item)
+    for item in list(spec.tendons):
+        spec.delete(item)
+    needed = _strip_geometry(spec, warnings, where)
+    for mesh in list(spec.meshes):
+        if mesh.name not in needed:
+            spec.delete(mesh)
+    for shape in (*spec.geoms, *spec.sites):
+        shape.material = ""
+    for item in (*spec.materials, *spec.textures):
+        spec.delete(item)
+    return warnings, passed
+
+
+def _strip_geometry(spec: mujoco.MjSpec, warnings: list[str], where: str) -> set[str]:
+    """Take out geometry that no inertia is made of; the meshes that some is made of."""
+    import mujoco
+
+    always = spec.compiler.inertiafromgeom == mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
+    files = {mesh.name: _mesh_file(spec, mesh) for mesh in spec.meshes}
+    missing = {name for name, file in files.items() if file is not None and not file.is_file()}
+    needed: set[str] = set()
+    for body in spec.bodies:
+        shapes = list(body.geoms)
+        if body.name == "world" or (body.explicitinertial and not always):
+            for shape in shapes:
+                spec.delete(shape)
+            continue
+        lost = sorted({shape.meshname for shape in shapes if shape.meshname in missing})
+        if lost:
+            raise ModelError(
+                f"the inertia of body {body.name!r} is made of mesh {lost[0]!r}, which is missing",
+                where=f"{where}:{line_of(body)}",
+                remedy=f"Put it at {files[lost[0]]}, or give the body an <inertial>",
+            )
+        needed |= {shape.meshname for shape in shapes if shape.meshname}
+    if missing:
+        names = ", ".join(sorted(missing)[:5]) + (" …" if len(missing) > 5 else "")
+        warnings.append(
+            f"{where}: missing meshes are left out, which is harmless as the bodies have "
+            f"inertials: {names}"
+        )
+    return needed
+
+
+def _mesh_file(spec: mujoco.MjSpec, mesh: mujoco.MjsMesh) -> Path | None:
+    if not mesh.file:
+        return None
+    name = Path(mesh.file).name if spec.strippath else mesh.file
+    return Path(spec.modelfiledir, spec.meshdir, name)
+
+
+def line_of(element: object) -> int:
+    """Line of an element of MuJoCo's specification in its file; 0 if it isn't known."""
+    found = re.search(r"line (\d+)", str(getattr(element, "info", "")))
+    return int(found.group(1)) if found else 0
