@@ -45,7 +45,7 @@ def joined(description: Description, beside: Supplement) -> Description:
         else:
             kept.append(one)
     supplement = replace(
-        beside,
+        own,
         closures=(*kept, *beside.closures),
         couplings=(*own.couplings, *beside.couplings),
         motors=beside.motors or own.motors,
@@ -56,6 +56,7 @@ def joined(description: Description, beside: Supplement) -> Description:
         friction={**own.friction, **beside.friction},
         poses={**own.poses, **beside.poses},
         free_root=own.free_root or beside.free_root,
+        gravity=own.gravity if beside.gravity == Supplement().gravity else beside.gravity,
     )
     return replace(
         description,
