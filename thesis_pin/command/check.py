@@ -4,30 +4,36 @@ from __future__ import annotations
 
 import argparse
 
+from thesis_pin.command.any_robot import loaded
 from thesis_pin.command.exits import ExitCode
 from thesis_pin.command.output import print_table, print_text
 from thesis_pin.command.verbs import Answer, give
-from thesis_pin.loops.loading import load
 from thesis_pin.loops.soundness import Soundness, check
 
 
 def run(arguments: argparse.Namespace) -> ExitCode:
-    """Say whether a URDF and its closure file are sound."""
+    """Say whether a description is sound, where it closes, and what holds it."""
 
     def answer() -> Answer:
-        found = check(load(arguments.urdf, arguments.closures))
-        return Answer(found.document, lambda: _tell(found), yes=found.sound)
+        found = check(loaded(arguments), pose=arguments.pose)
+        yes = found.sound and (found.held or not arguments.strict)
+        return Answer(found.document, lambda: _tell(found), yes=yes)
 
     return give(arguments, answer, "checking")
 
 
 def _tell(found: Soundness) -> None:
     robot = found.robot
-    rows = [(loop.name, loop.kind, *loop.frames) for loop in robot.loops]
+    rows = [
+        (loop.name, loop.kind, *loop.frames, f"{gap.distance:.1e}", f"{gap.angle:.1e}")
+        for loop, gap in zip(robot.loops, found.assembly.gaps, strict=False)
+    ]
     if rows:
-        print_table(("loop", "type", "frame", "frame"), rows)
+        print_table(("loop", "type", "frame", "frame", "gap m", "gap rad"), rows)
     print_text(
         f"{robot.model.name}: {robot.model.njoints - 1} joints, "
         f"{len(robot.actuators)} motors ({', '.join(robot.actuators)}).",
         *found.sentences(),
+        *(f"Warning: {one}" for one in found.warnings),
+        *(f"Not used: {one}" for one in robot.description.passed_over),
     )

@@ -2,35 +2,34 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from functools import partial
 
+from thesis_pin.command.any_robot import which_pose, which_robot
 from thesis_pin.command.options import add_json
 from thesis_pin.command.parser import Parser
-from thesis_pin.command.registry import Command, Verb
+from thesis_pin.command.registry import Command, Verb, Words
 
 
-def _which_files(words: argparse.ArgumentParser) -> None:
-    words.add_argument("urdf", metavar="URDF", help="URDF of the cut-open tree")
+def _strictly(words: Words) -> None:
     words.add_argument(
-        "closures", metavar="CLOSURES", help="YAML with closed_loop, type and name_mot"
+        "--strict", action="store_true", help="exit with 1 if the motors don't hold the robot"
     )
 
 
 COMMAND = Command(
     "thesis-pin",
-    "Any robot with closed loops, from its URDF and the closure file beside it.",
+    "Any robot, with closed loops or without: is its description sound, what do its motors need?",
     (
         Verb(
             "check",
-            "is a robot's URDF and closure file sound?",
-            "Check a URDF and the closure file beside it: names, tree, loops, motors, degrees of "
-            "freedom.",
+            "is a robot's description sound?",
+            "Check a robot's description: names, tree, loops, motors, degrees of freedom, and "
+            "where it closes.",
             "check urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml",
             "thesis_pin.loops.soundness:check",
             "thesis_pin.command.check:run",
-            (_which_files, partial(add_json, what="the findings")),
+            (which_robot, which_pose, _strictly, partial(add_json, what="the findings")),
         ),
     ),
 )

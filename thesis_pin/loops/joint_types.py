@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pinocchio as pin
 
+from thesis_pin.errors import ModelError, UnknownName
+from thesis_pin.model.formats.closure_file import JointType
 from thesis_pin.model.loading import joint_id
 
+_TURNS = {"X": pin.JointModelRX, "Y": pin.JointModelRY, "Z": pin.JointModelRZ}
+_KINDS = get_args(JointType)
 _PER_POSITION = ("lowerPositionLimit", "upperPositionLimit", "positionLimitMargin")
 _PER_VELOCITY = (
     "lowerEffortLimit",
@@ -32,15 +36,24 @@ def replace_joints(
 
     Args:
         model: The model read from the URDF.
-        kinds: Joint name → ``SPHERICAL``, ``CARDAN`` (about x, then y; the joint
-            becomes two, ``…_X`` and ``…_Y``) or ``FIXED``.
+        kinds: Joint name → ``SPHERICAL``, ``FIXED``, or ``UJOINT_`` and two axes: the joint
+            becomes two, about the first axis and then the second, called as it is with
+            ``_X`` and ``_Y`` (or whatever the axes are) after it. ``CARDAN`` is ``UJOINT_XY``.
         where: File name for messages.
 
     Returns:
         The new model. Limits, friction and inertias of all other joints are kept.
     """
-    for name in kinds:
-        joint_id(model, name, where=f"{where}: joint_name")
+    for name, asked in kinds.items():
+        number = joint_id(model, name, where=f"{where}: joint_name")
+        if asked not in _KINDS:
+            raise UnknownName("joint type", asked, _KINDS, where=f"{where}: joint_type")
+        if model.joints[number].nv != 1 and asked != "FIXED":
+            raise ModelError(
+                f"joint {name!r} has {model.joints[number].nv} degrees of freedom already",
+                where=f"{where}: joint_name",
+                allowed="joints of one degree of freedom",
+            )
     new = pin.Model()
     new.name, new.gravity = model.name, model.gravity
     image = {0: 0}
@@ -50,9 +63,10 @@ def replace_joints(
         kind = kinds.get(name)
         if kind == "SPHERICAL":
             joint = pin.JointModelSpherical()
-        elif kind == "CARDAN":
-            parent = new.addJoint(parent, pin.JointModelRX(), placement, f"{name}_X")
-            joint, placement, name = pin.JointModelRY(), pin.SE3.Identity(), f"{name}_Y"
+        elif kind is not None and kind != "FIXED":
+            one, other = ("X", "Y") if kind == "CARDAN" else (kind[-2], kind[-1])
+            parent = new.addJoint(parent, _TURNS[one](), placement, f"{name}_{one}")
+            joint, placement, name = _TURNS[other](), pin.SE3.Identity(), f"{name}_{other}"
         image[old] = new.addJoint(parent, joint, placement, name)
         new.appendBodyToJoint(image[old], model.inertias[old], pin.SE3.Identity())
         if kind in (None, "FIXED"):

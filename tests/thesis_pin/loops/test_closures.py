@@ -98,14 +98,33 @@ def test_replacing_keeps_frames_inertias_and_kinematics():
         assert place.isApprox(other, 1e-12), frame.name
 
 
-def test_cardan_becomes_a_turn_about_x_then_y():
+@pytest.mark.parametrize(
+    "kind", ["CARDAN", *(f"UJOINT_{a}" for a in ["XY", "YX", "YZ", "ZY", "XZ", "ZX"])]
+)
+def test_universal_joints_become_a_turn_about_one_axis_then_the_other(kind):
+    one, other = "XY" if kind == "CARDAN" else kind[-2:]
     plain = pin.buildModelFromUrdf(str(DATA / "rssr.urdf"))
-    found = replace_joints(plain, {"ball": "CARDAN"})
+    found = replace_joints(plain, {"ball": kind})
     names = list(found.names)
-    assert names[names.index("ball_X") + 1] == "ball_Y"
-    assert found.joints[found.getJointId("ball_X")].shortname() == "JointModelRX"
-    assert found.joints[found.getJointId("ball_Y")].shortname() == "JointModelRY"
-    assert found.frames[found.getFrameId("coupler_tip")].parentJoint == found.getJointId("ball_Y")
+    assert names[names.index(f"ball_{one}") + 1] == f"ball_{other}"
+    last = found.getJointId(f"ball_{other}")
+    assert found.frames[found.getFrameId("coupler_tip")].parentJoint == last
+    q, data, start = pin.neutral(found), found.createData(), plain.createData()
+    q[[found.idx_qs[found.getJointId(f"ball_{axis}")] for axis in (one, other)]] = 0.3, -0.4
+    pin.forwardKinematics(found, data, q)
+    pin.forwardKinematics(plain, start, pin.neutral(plain))
+    turned = pin.utils.rotate(one.lower(), 0.3) @ pin.utils.rotate(other.lower(), -0.4)
+    before = start.oMi[plain.getJointId("ball")].rotation
+    np.testing.assert_allclose(data.oMi[last].rotation, before @ turned, atol=1e-15)
+
+
+def test_a_joint_of_several_freedoms_is_not_replaced():
+    floating = pin.Model()
+    floating.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "free")
+    with pytest.raises(ModelError, match="'free' has 6 degrees of freedom already"):
+        replace_joints(floating, {"free": "UJOINT_XY"})
+    with pytest.raises(UnknownName, match="UJOINT_XX"):
+        replace_joints(pin.buildModelFromUrdf(str(DATA / "rssr.urdf")), {"ball": "UJOINT_XX"})
 
 
 def test_fixed_takes_a_joint_away_and_keeps_its_mass():

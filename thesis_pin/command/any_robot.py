@@ -1,0 +1,47 @@
+"""Words that the verbs of ``thesis-pin`` share: which robot, and in which pose."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # help has to be quick
+    from thesis_pin.loops.closures import ClosedRobot
+
+Words = argparse.ArgumentParser
+
+
+def which_robot(words: Words) -> None:
+    """The description's files and what they leave open."""
+    words.add_argument(
+        "file", metavar="FILE", help="the robot's description: see thesis-pin formats"
+    )
+    words.add_argument(
+        "closures",
+        nargs="?",
+        metavar="CLOSURES",
+        help="YAML with closed_loop, type and name_mot, for what the description can't say",
+    )
+
+
+def which_pose(words: Words) -> None:
+    """From where the loops are closed, and what the root does."""
+    words.add_argument(
+        "--pose",
+        metavar="NAME|FILE",
+        help="a pose of the description, or a .toml file: where the loops are closed from "
+        "(default: the neutral one)",
+    )
+    words.add_argument(
+        "--free-flyer", action="store_true", help="let the root fly freely (default: as described)"
+    )
+
+
+def loaded(arguments: argparse.Namespace) -> ClosedRobot:
+    """The robot that the arguments name."""
+    import pinocchio as pin
+
+    from thesis_pin.loops.loading import load
+
+    root = pin.JointModelFreeFlyer() if arguments.free_flyer else None
+    return load(arguments.file, arguments.closures, root_joint=root)
