@@ -183,7 +183,7 @@ def test_actuators_of_joints_are_motors_and_others_are_named(tmp_path):
     assert found.joints["a"].limit[2] == 100
     assert found.passed_over == (
         f"{path}: tendon 'rope'",
-        f"{path}:18: actuator 't', which acts on a tendon",
+        f"{path}:19: actuator 't', which acts on a tendon",
         f"{path}: actuator 'w', which acts on a ball or free joint",
     )
 
