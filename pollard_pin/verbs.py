@@ -11,11 +11,10 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, USEFUL_BRANCHES, Bra
 from pollard_pin.model import Pollard, load
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.specification import Specification
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.messages import say
 from thesis_pin.command.output import print_table, print_text
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.targets import free
+from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
 from thesis_pin.command.verbs import Answer, give
 from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.files import write_file, write_folder

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 from thesis_pin.command.any_robot import loaded
-from thesis_pin.command.exits import ExitCode
 from thesis_pin.command.output import print_table, print_text
+from thesis_pin.command.running import ExitCode
 from thesis_pin.command.verbs import Answer, give
 from thesis_pin.loops.soundness import Soundness, check
 

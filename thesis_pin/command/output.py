@@ -1,6 +1,6 @@
 """Tables and paragraphs for people, on whatever standard output is.
 
-What its encoding can't say is replaced by what it can (:mod:`thesis_pin.command.readable`),
+What its encoding can't say is replaced by what it can (:mod:`thesis_pin.command.text`),
 before the lines are laid out; what doesn't fit its width is wrapped or stacked, so
 that no number is ever cut.
 """
@@ -11,7 +11,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from thesis_pin.command.readable import readable
+from thesis_pin.command.text import readable
 from thesis_pin.errors import CannotWrite
 
 if TYPE_CHECKING:

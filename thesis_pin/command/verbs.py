@@ -7,19 +7,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.messages import say
 from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.registry import found
-from thesis_pin.command.targets import free
+from thesis_pin.command.registry import Robot, found
+from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
 from thesis_pin.files import is_standard_output, write_file, write_folder
 
 if TYPE_CHECKING:  # help has to be quick
     import numpy as np
     from numpy.typing import NDArray
 
-    from thesis_pin.command.robot import Robot
     from thesis_pin.pages.scene import Scene
 
 
@@ -94,7 +92,7 @@ def give(
     return ExitCode.DONE if answer.yes else ExitCode.NO
 
 
-def report(robot: Robot, what: str, arguments: argparse.Namespace) -> ExitCode:
+def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
 
     Every content exists before the first file is written; but if a figure or the
