@@ -7,7 +7,7 @@ given as inertia alone are common in files and harmless.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -21,6 +21,12 @@ ROUNDING = 1e-12
 DIGITS = 1e-3
 """Part of an inertia that its rounded decimals may be wrong by; more is refused."""
 
+ROTOR_MASS = 1e-2
+"""Part of the robot's mass up to which a body may be a motor's rotor [-]."""
+
+ROTOR_TILT = 1e-2
+"""Angle that its largest principal axis may have to its joint's [rad]."""
+
 
 def check_bodies(description: Description, *, free_root: bool = False) -> None:
     """Refuse a moving body that can't be.
@@ -32,8 +38,9 @@ def check_bodies(description: Description, *, free_root: bool = False) -> None:
     Raises:
         NonPhysicalInertia: With the link, its eigenvalues and by how much.
     """
-    for body in moving_bodies(description):
-        if body.joint or free_root:
+    bodies = list(moving_bodies(description))
+    for body in bodies:
+        if (body.joint or free_root) and not _is_rotor(body, bodies, description):
             _check(body, description)
 
 
@@ -47,7 +54,8 @@ def odd_bodies(description: Description) -> Iterator[str]:
                 f"{_place(description, link)}: no body has its inertia; only that of all "
                 "that is fixed together counts"
             )
-    for body in moving_bodies(description):
+    bodies = list(moving_bodies(description))
+    for body in bodies:
         name = _link_of(body, description)
         where = _place(description, description.links[name])
         if body.joint and body.mass == 0.0:
@@ -61,12 +69,33 @@ def odd_bodies(description: Description) -> Iterator[str]:
         excess = _excess(tensor, _scale(body))
         if ROUNDING < excess <= DIGITS:
             yield f"{where}: its moments of inertia break the triangle's rule by {excess:.1g}"
+        elif excess > DIGITS and _is_rotor(body, bodies, description):
+            yield (
+                f"{where}: its moment of inertia about its joint's axis is larger than any "
+                "body's; it is taken as a rotor whose gear was reckoned in"
+            )
         gyration = float(np.sqrt(max(np.linalg.eigvalsh(tensor)[-1], 0.0) / body.mass))
         if 0.0 < reach < gyration:
             yield (
                 f"{where}: its radius of gyration is {gyration:.3g} m in a robot that reaches "
                 f"{reach:.3g} m; are mass and inertia in kg and kg·m²?"
             )
+
+
+def _is_rotor(body: MovingBody, bodies: Sequence[MovingBody], description: Description) -> bool:
+    """Whether a body is a light one on a hinge, carries none, and is largest about its axis.
+
+    Exporters write the inertia of gears that way, and about that axis alone it counts.
+    """
+    joint = description.joints.get(body.joint)
+    if joint is None or joint.kind not in ("revolute", "continuous"):
+        return False
+    heavy = body.mass > ROTOR_MASS * sum(one.mass for one in bodies)
+    if heavy or body.mass <= 0.0 or any(one.above == body.joint for one in bodies):
+        return False
+    principal, axes = np.linalg.eigh(_centroidal(body)[1])
+    along = abs(float(axes[:, 2] @ joint.axis)) / float(np.linalg.norm(joint.axis))
+    return bool(principal[0] > 0.0 and along > np.cos(ROTOR_TILT))
 
 
 def _check(body: MovingBody, description: Description) -> None:

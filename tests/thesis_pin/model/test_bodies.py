@@ -136,3 +136,38 @@ def test_no_body_of_point_masses_is_refused(points):
         parts += [link(name, 0.3, (0.0, 0.0, 0.0), "0 0 0")]
         parts += [joint(f"f{number}", "arm", name, "fixed", " ".join(map(repr, point)))]
     check_bodies(arm(*parts))
+
+
+def _geared(mass=1e-3, moments=(1e-6, 1e-6, 1e-5), axis="0 0 1", kind="revolute"):
+    turned = joint("spin", "arm", "rotor", kind, axis=axis)
+    return arm(link("arm"), link("rotor", mass, moments), turned)
+
+
+def test_a_rotor_may_be_larger_about_its_axis_than_a_body_can_be():
+    found = _geared()
+    check_bodies(found)
+    (said,) = odd_bodies(found)
+    assert "link 'rotor': its moment of inertia about its joint's axis is larger than" in said
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"mass": 0.1},
+        {"axis": "1 0 0"},
+        {"kind": "prismatic"},
+        {"moments": (1e-5, 1e-6, 1e-6)},
+        {"moments": (-1e-6, 1e-6, 1e-5)},
+    ],
+    ids=["heavy", "across", "slide", "other axis", "negative"],
+)
+def test_what_is_no_rotor_is_refused_as_any_body(change):
+    with pytest.raises(NonPhysicalInertia, match="'rotor'"):
+        check_bodies(_geared(**change))
+
+
+def test_a_rotor_that_carries_something_is_refused():
+    more = link("tip"), joint("k", "rotor", "tip")
+    turned = joint("spin", "arm", "rotor")
+    with pytest.raises(NonPhysicalInertia, match="'rotor'"):
+        check_bodies(arm(link("arm"), link("rotor", 1e-3, (1e-6, 1e-6, 1e-5)), turned, *more))
