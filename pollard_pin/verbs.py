@@ -66,7 +66,7 @@ def report(
 
 def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:
     """The branches of the tool pose that the arguments ask for."""
-    from pollard_pin.report.tables import ik_document, print_solutions
+    from pollard_pin.report.tables import ik_document, solutions_table
 
     pose = np.array(arguments.pose)
     pose[3:] = np.radians(pose[3:])
@@ -78,15 +78,15 @@ def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:
         no = str(error)
         return Answer(
             lambda: ik_document(robot, solutions) | {"explanation": no},
-            lambda: print_text(no),
+            lambda: [no],
             yes=False,
         )
-    return Answer(lambda: ik_document(robot, solutions), lambda: print_solutions(solutions))
+    return Answer(lambda: ik_document(robot, solutions), lambda: solutions_table(solutions))
 
 
 def fk(arguments: argparse.Namespace) -> ExitCode:
     """Print or write the assembly modes of six motor angles."""
-    from pollard_pin.report.tables import fk_document, print_modes
+    from pollard_pin.report.tables import fk_document, modes_table
 
     def answer() -> Answer:
         robot = load(arguments.specification, inertia=arguments.inertia)
@@ -96,8 +96,8 @@ def fk(arguments: argparse.Namespace) -> ExitCode:
         except Unreachable as error:
             no = str(error)
             document = fk_document(robot, modes) | {"explanation": no}
-            return Answer(lambda: document, lambda: print_text(no), yes=False)
-        return Answer(lambda: fk_document(robot, modes), lambda: print_modes(robot, modes))
+            return Answer(lambda: document, lambda: [no], yes=False)
+        return Answer(lambda: fk_document(robot, modes), lambda: modes_table(robot, modes))
 
     return give(arguments, answer)
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from thesis_pin.command.text import readable
 from thesis_pin.errors import CannotWrite
+from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -46,6 +47,15 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title:
         _print(console, table)
     else:
         _stack(console, headings, cells, name)
+
+
+def print_parts(parts: Iterable[Part]) -> None:
+    """Print tables and paragraphs in their order."""
+    for part in parts:
+        if isinstance(part, str):
+            print_text(part)
+        else:
+            print_table(part.columns, part.rows, title=part.title)
 
 
 def print_text(*paragraphs: str) -> None:

@@ -151,9 +151,9 @@ class Robot:
         solves: Inverse kinematics that the arguments ask for, an
             :class:`~thesis_pin.command.verbs.Answer`.
         inverse_kinematics: The public method behind it.
-        figures, table: The report as files, and printed.
+        figures, table: The report as files, and in tables and paragraphs.
         load, specification: Read a specification, with its model and without.
-        info, print_info: What it describes, as JSON and printed.
+        info: What it describes, see :mod:`thesis_pin.report.info`.
         urdf, files: Its URDF in one reading, and everything generated from it.
         thesis, audit: The thesis ready to be audited, and the function that does it.
     """
@@ -168,11 +168,10 @@ class Robot:
     makes_report: str = "verbs:report"
     solves: str = "verbs:ik"
     figures: str = "report.figures:figures"
-    table: str = "report.tables:print_report"
+    table: str = "report.tables:summary"
     load: str = "model:load"
     specification: str = "specification:Specification.read"
     info: str = "report.info:document"
-    print_info: str = "report.info:print_info"
     urdf: str = "urdf:urdf"
     files: str = "urdf:files"
     audit: str = "thesis.audit:audit"

@@ -19,17 +19,12 @@ ROUNDING = 1e-12
 """Part of an inertia that sums make by rounding."""
 
 DIGITS = 1e-3
-"""Part of an inertia that its rounded decimals may be wrong by; more is refused."""
-
-ROTOR_MASS = 1e-2
-"""Part of the robot's mass up to which a body may be a motor's rotor [-]."""
-
-ROTOR_TILT = 1e-2
-"""Angle that its largest principal axis may have to its joint's [rad]."""
+"""Part of an inertia that its rounded decimals may be wrong by; more is refused. Also the
+part of the robot's mass and largest inertia below which a body is too small to matter."""
 
 
 def check_bodies(description: Description, *, free_root: bool = False) -> None:
-    """Refuse a moving body that can't be.
+    """Refuse a moving body that can't be, unless it is too small to matter.
 
     Args:
         description: What was read; its joints are a tree.
@@ -40,7 +35,7 @@ def check_bodies(description: Description, *, free_root: bool = False) -> None:
     """
     bodies = list(moving_bodies(description))
     for body in bodies:
-        if (body.joint or free_root) and not _is_rotor(body, bodies, description):
+        if (body.joint or free_root) and not _negligible(body, bodies):
             _check(body, description)
 
 
@@ -54,8 +49,7 @@ def odd_bodies(description: Description) -> Iterator[str]:
                 f"{_place(description, link)}: no body has its inertia; only that of all "
                 "that is fixed together counts"
             )
-    bodies = list(moving_bodies(description))
-    for body in bodies:
+    for body in moving_bodies(description):
         name = _link_of(body, description)
         where = _place(description, description.links[name])
         if body.joint and body.mass == 0.0:
@@ -67,35 +61,14 @@ def odd_bodies(description: Description) -> Iterator[str]:
             continue
         _, tensor = _centroidal(body)
         excess = _excess(tensor, _scale(body))
-        if ROUNDING < excess <= DIGITS:
-            yield f"{where}: its moments of inertia break the triangle's rule by {excess:.1g}"
-        elif excess > DIGITS and _is_rotor(body, bodies, description):
-            yield (
-                f"{where}: its moment of inertia about its joint's axis is larger than any "
-                "body's; it is taken as a rotor whose gear was reckoned in"
-            )
+        if excess > ROUNDING:
+            yield f"{where}: no body has the inertia that moves with it; it is off by {excess:.1g}"
         gyration = float(np.sqrt(max(np.linalg.eigvalsh(tensor)[-1], 0.0) / body.mass))
         if 0.0 < reach < gyration:
             yield (
                 f"{where}: its radius of gyration is {gyration:.3g} m in a robot that reaches "
                 f"{reach:.3g} m; are mass and inertia in kg and kg·m²?"
             )
-
-
-def _is_rotor(body: MovingBody, bodies: Sequence[MovingBody], description: Description) -> bool:
-    """Whether a body is a light one on a hinge, carries none, and is largest about its axis.
-
-    Exporters write the inertia of gears that way, and about that axis alone it counts.
-    """
-    joint = description.joints.get(body.joint)
-    if joint is None or joint.kind not in ("revolute", "continuous"):
-        return False
-    heavy = body.mass > ROTOR_MASS * sum(one.mass for one in bodies)
-    if heavy or body.mass <= 0.0 or any(one.above == body.joint for one in bodies):
-        return False
-    principal, axes = np.linalg.eigh(_centroidal(body)[1])
-    along = abs(float(axes[:, 2] @ joint.axis)) / float(np.linalg.norm(joint.axis))
-    return bool(principal[0] > 0.0 and along > np.cos(ROTOR_TILT))
 
 
 def _check(body: MovingBody, description: Description) -> None:
@@ -115,6 +88,13 @@ def _check(body: MovingBody, description: Description) -> None:
         np.linalg.eigvalsh(tensor).tolist(),
         where=f"{description.where}:{named.line}",
     )
+
+
+def _negligible(body: MovingBody, bodies: Sequence[MovingBody]) -> bool:
+    """Whether a body's inertia can't be told from none among those of the robot."""
+    mass = sum(one.mass for one in bodies)
+    largest = max(_scale(one) for one in bodies if one is not body) if len(bodies) > 1 else 0.0
+    return 0.0 <= body.mass <= DIGITS * mass and _scale(body) <= DIGITS * largest
 
 
 def _centroidal(body: MovingBody) -> tuple[Array, Array]:
