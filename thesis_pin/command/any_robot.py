@@ -24,6 +24,16 @@ def which_robot(words: Words) -> None:
     )
 
 
+def which_motion(words: Words) -> None:
+    """The file of the joints' motion."""
+    words.add_argument(
+        "motion",
+        metavar="MOTION",
+        help="CSV with t [s] and a column per motor or joint: NAME, NAME_rate, "
+        "NAME_acceleration (SI, or NAME_deg and the like)",
+    )
+
+
 def which_pose(words: Words) -> None:
     """From where the loops are closed, and what the root does."""
     words.add_argument(

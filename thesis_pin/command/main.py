@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command.any_robot import which_pose, which_robot
-from thesis_pin.command.options import add_json
+from thesis_pin.command.any_robot import which_motion, which_pose, which_robot
+from thesis_pin.command.options import add_json, add_report
 from thesis_pin.command.parser import Parser
 from thesis_pin.command.registry import Command, Verb, Words
 
@@ -30,6 +30,21 @@ COMMAND = Command(
             "thesis_pin.loops.soundness:check",
             "thesis_pin.command.check:run",
             (which_robot, which_pose, _strictly, partial(add_json, what="the findings")),
+        ),
+        Verb(
+            "torque",
+            "what do the motors need for a motion?",
+            "Torques, loop forces, power and work of any robot whose joints move as a file says.",
+            "torque urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
+            "examples/pollard_motors.csv",
+            "thesis_pin.report.torque.document:torque_report",
+            "thesis_pin.command.torque:run",
+            (
+                which_robot,
+                which_motion,
+                which_pose,
+                partial(add_report, breaks="a motor or joint leaves its limits"),
+            ),
         ),
     ),
 )
