@@ -6,73 +6,28 @@ first; the force reported for a loop acts on the first frame's body.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import NDArray
 
 from thesis_pin.errors import ModelError, UnknownName
+from thesis_pin.loops.equations import Equations
 from thesis_pin.loops.joint_types import replace_joints
+from thesis_pin.loops.joints import is_free, singles
+from thesis_pin.loops.rows import Loop as Loop
+from thesis_pin.loops.scale import Scale, scale_of
+from thesis_pin.loops.survey import Survey
 from thesis_pin.model.closure_types import word_of
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
 from thesis_pin.model.formats.urdf import read_urdf
 from thesis_pin.model.joining import joined
-from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id
+from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
 from thesis_pin.model.supplement import Closure, Motor, Supplement
-
-
-@dataclass(frozen=True)
-class Loop:
-    """One closed loop: two frames that coincide.
-
-    Attributes:
-        name: Its name in reports.
-        kind: ``"3d"`` (the origins coincide) or ``"6d"`` (the frames do).
-        frames: Names of the two frames.
-        ids: Their indices in the model.
-    """
-
-    name: str
-    kind: str
-    frames: tuple[str, str]
-    ids: tuple[int, int]
-
-    @property
-    def size(self) -> int:
-        """Number of equations, 3 or 6."""
-        return int(self.kind[0])
-
-    def constraint_model(
-        self, model: pin.Model
-    ) -> pin.PointAnchorConstraintModel | pin.FrameAnchorConstraintModel:
-        """The loop as a ``PointAnchorConstraintModel`` or ``FrameAnchorConstraintModel``.
-
-        Its residual is the second frame seen from the first. Of a point anchor the
-        Jacobian is d residual / dq in open configurations too; of a frame anchor
-        only in closed ones (elsewhere it gives the relative twist, and d residual
-        is that times the derivative of log6).
-        """
-        one, two = (model.frames[k] for k in self.ids)
-        kind = pin.PointAnchorConstraintModel if self.size == 3 else pin.FrameAnchorConstraintModel
-        return kind(model, one.parentJoint, one.placement, two.parentJoint, two.placement)
-
-    def rigid_constraint_model(self, model: pin.Model) -> pin.RigidConstraintModel:
-        """The loop as a ``RigidConstraintModel``, which ``constraintDynamics`` asks for."""
-        one, two = (model.frames[k] for k in self.ids)
-        kind = pin.ContactType.CONTACT_3D if self.size == 3 else pin.ContactType.CONTACT_6D
-        result = pin.RigidConstraintModel(
-            kind,
-            model,
-            one.parentJoint,
-            one.placement,
-            two.parentJoint,
-            two.placement,
-            pin.ReferenceFrame.LOCAL,
-        )
-        result.name = self.name
-        return result
 
 
 class ClosedRobot(LoadedRobot):
@@ -90,9 +45,13 @@ class ClosedRobot(LoadedRobot):
         motors: What is known of each motor, in the file's order.
         actuators: Names of the motor joints, in the file's order.
         actuated: Their places in a velocity vector, shape ``(motors,)``.
-        actuated_q: Their places in a configuration vector, shape ``(motors,)``.
+        actuated_q: Where they begin in a configuration vector, shape ``(motors,)``; a
+            continuous joint has two places there, cosine and sine.
+        turning: Which velocities are of continuous joints, shape ``(nv,)``.
+        base: Places of a free flyer's velocities, which the world must hold, or none.
         passive: Places of all other velocities.
-        constraint_models: One point or frame anchor a loop.
+        couplings: Joints that move together, in the file's order.
+        springs: Passive springs.
     """
 
     def __init__(
@@ -120,35 +79,61 @@ class ClosedRobot(LoadedRobot):
         self.actuators = tuple(motor.joint for motor in self.motors)
         joints = [self.model.joints[self.model.getJointId(name)] for name in self.actuators]
         for name, joint in zip(self.actuators, joints, strict=True):
-            if joint.nq != 1 or joint.nv != 1:
+            if joint.nv != 1:
                 raise ModelError(
                     f"motor {name!r} drives a joint of {joint.nv} degrees of freedom",
                     where=f"{where}: name_mot",
-                    allowed="revolute and prismatic joints with limits",
+                    allowed="revolute, continuous and prismatic joints",
                 )
         self.actuated = np.array([joint.idx_v for joint in joints], dtype=int)
         self.actuated_q = np.array([joint.idx_q for joint in joints], dtype=int)
-        self.passive = np.setdiff1d(np.arange(self.model.nv), self.actuated)
-        self.constraint_models = [loop.constraint_model(self.model) for loop in self.loops]
+        self.turning = np.zeros(self.model.nv, dtype=bool)
+        for single in singles(self.model).values():
+            self.turning[single.v] = single.continuous
+        self.base = _base(self.model)
+        held = np.concatenate([self.actuated, self.base])
+        self.passive = np.setdiff1d(np.arange(self.model.nv), held)
+        self.couplings, self.springs = beside.couplings, beside.springs
+        for coupling in self.couplings:
+            _refuse_unknown(self.model, coupling.coefficients, f"{where}: {coupling.name}")
+        _refuse_unknown(self.model, [spring.joint for spring in self.springs], where)
+        _add(self.model, "armature", beside.armature, where)
+        _add(self.model, "armature", {m.joint: m.armature for m in self.motors}, where)
+        _add(self.model, "damping", beside.damping, where)
+        _add(self.model, "upperDryFrictionLimit", beside.friction, where)
+        self.data = self.model.createData()
+
+    @cached_property
+    def system(self) -> Equations:
+        """Its equations, as functions of stacks of configurations."""
+        return Equations(self.model, self.loops, self.couplings)
+
+    @cached_property
+    def scale(self) -> Scale:
+        """What makes the equations comparable."""
+        return scale_of(self.system)
+
+    @property
+    def constraint_models(
+        self,
+    ) -> list[pin.PointAnchorConstraintModel | pin.FrameAnchorConstraintModel]:
+        """One point or frame anchor a loop, for Pinocchio's own algorithms."""
+        return [loop.constraint_model(self.model) for loop in self.loops]
+
+    @cached_property
+    def surveys(self) -> list[tuple[float | None, Survey]]:
+        """Assemblies walked through so far, with the precision asked for, the last one first."""
+        return []
 
     @property
     def supplement(self) -> Supplement:
         """What its URDF can't say."""
         return self.description.supplement
 
-    def __getstate__(self) -> dict[str, object]:
-        state = super().__getstate__()
-        del state["constraint_models"]  # Pinocchio's, which can't travel
-        return state
-
-    def __setstate__(self, state: dict[str, object]) -> None:
-        super().__setstate__(state)
-        self.constraint_models = [loop.constraint_model(self.model) for loop in self.loops]
-
     @property
     def equations(self) -> int:
         """Number of closure equations; some may depend on others."""
-        return sum(loop.size for loop in self.loops)
+        return sum(loop.size for loop in self.loops) + len(self.couplings)
 
     def rigid_constraint_models(self) -> pin.StdVec_RigidConstraintModel:
         """A fresh ``StdVec_RigidConstraintModel`` for ``constraintDynamics``."""
@@ -168,7 +153,34 @@ def _loop(model: pin.Model, closure: Closure, where: str) -> Loop:
             where=here,
             allowed="frames on two bodies that can move against each other",
         )
-    return Loop(closure.name, word_of(closure.rows), closure.frames, ids)
+    kind = "rod" if closure.length is not None else word_of(closure.rows)
+    return Loop(closure.name, kind, closure.frames, ids, closure.rows, closure.length)
+
+
+def _base(model: pin.Model) -> NDArray[np.intp]:
+    """Places of the velocities of a free flyer between world and root link."""
+    return np.arange(6 if is_free(model) else 0, dtype=np.intp)
+
+
+def _refuse_unknown(model: pin.Model, joints: Iterable[str], where: str) -> None:
+    """Couplings and springs stand in joints of one degree of freedom that exist."""
+    for name in joints:
+        joint = model.joints[joint_id(model, name, where=where)]
+        if joint.nv != 1:
+            raise ModelError(
+                f"joint {name!r} has {joint.nv} degrees of freedom",
+                where=where,
+                allowed="revolute, continuous and prismatic joints",
+            )
+
+
+def _add(model: pin.Model, what: str, values: Mapping[str, float], where: str) -> None:
+    """Add to a property of joints that the model holds for every velocity."""
+    total = np.array(getattr(model, what))
+    for name, value in values.items():
+        joint = model.joints[joint_id(model, name, where=where)]
+        total[joint.idx_v : joint.idx_v + joint.nv] += value
+    setattr(model, what, total)
 
 
 def _motors(model: pin.Model, given: Sequence[Motor], where: str) -> tuple[Motor, ...]:

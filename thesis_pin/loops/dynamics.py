@@ -1,44 +1,59 @@
-"""Inverse and forward dynamics of any robot with closed loops and motors.
+"""Inverse dynamics of any robot with closed loops and motors.
 
 Pinocchio 4 has forward dynamics for bilateral loops (``constraintDynamics``) and
 no inverse dynamics. It is linear algebra: with r(q) = 0 the loop equations and
 A = ∂r/∂q, the motion obeys
 
-    M v̇ + h = B τ + Aᵀ λ,
+    M v̇ + h = B τ + Aᵀ λ.
 
-and in a basis N of the motions the loops allow (A N = 0) the unknown λ drops
-out: Nᵀ B τ = Nᵀ (M v̇ + h). Its rank says whether the motors can hold the robot,
-its condition how well; λ follows from the rest.
+The columns of A that belong to passive joints give λ, its other columns then the
+torques. How many equations are independent is known from a walk through the assembly
+(:mod:`thesis_pin.loops.survey`), so that a file's rounding can't pose as a real equation.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import partial
-from typing import Any
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from thesis_pin.errors import BadInput, ThesisPinError
+from thesis_pin.errors import BadInput, NoSolution, SingularPose
+from thesis_pin.loops.closing import loop_gaps
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.kinematics import (
-    constraint_drift,
-    constraints,
-    each,
-    newton_close,
-    project_rates,
-    residual,
+from thesis_pin.loops.equations import Poses
+from thesis_pin.loops.forward import ForwardDynamics as ForwardDynamics
+from thesis_pin.loops.forward import forward_dynamics as forward_dynamics
+from thesis_pin.loops.forward import simulate as simulate
+from thesis_pin.loops.idle import HARMLESS_LOAD, IdleGroup
+from thesis_pin.loops.judging import (
+    REFUSED,
+    Contradiction,
+    is_uncertain,
+    refuse_opening,
+    refuse_singular,
+    weakest_motion,
 )
-from thesis_pin.numeric.arrays import finite_array, together, vector
-from thesis_pin.numeric.checks import function, instance, real
-from thesis_pin.numeric.trajectory import JointTrajectory
-from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.loops.loads import (
+    Wrenches,
+    checked_wrenches,
+    external_forces,
+    open_tree_forces,
+)
+from thesis_pin.loops.solve import Solved, solve
+from thesis_pin.loops.survey import Survey
+from thesis_pin.loops.surveying import surveyed
+from thesis_pin.loops.wrenches import base_wrenches, loop_wrenches
+from thesis_pin.numeric.arrays import finite_array, together
+from thesis_pin.numeric.checks import instance
 
-_SHORTEST = 1e-9
-"""Least duration and step of a simulation [s]."""
+Array = NDArray[np.float64]
+
+UNEXPLAINED = 1e-6
+"""Load outside harmless idle freedoms that counts as none, relative to the largest [-]."""
+
+_CHUNK = 2048  # samples worked on at once, so that memory stays bounded
 
 
 @dataclass(frozen=True)
@@ -46,51 +61,86 @@ class LoopDynamics:
     """Motor torques and loop forces of a motion.
 
     Attributes:
-        torque: Of the motors [N·m] or [N], in their order, shape ``(..., motors)``.
-        force: On the first frame's body at each loop, world axes [N], ``(..., loops, 3)``.
-        moment: The same for 6d loops [N·m], zero for ball joints, ``(..., loops, 3)``.
-        joint_force: RNEA's generalized forces of the open tree, shape ``(..., nv)``.
+        torque: Of the motors at their joints [N·m] or [N], in their order, ``(..., motors)``.
+        force: On the first frame's body at each loop's second origin, world axes [N], shape
+            ``(..., loops, 3)``.
+        moment: The same for loops that forbid turns [N·m], zero for ball joints and rods.
+        coupling: Force of each coupling per unit of its equation, ``(..., couplings)``:
+            a joint of factor f gets f times it.
+        base: On a free flyer's root link, what the world must supply: force, then moment
+            about its origin, world axes [N], [N·m], ``(..., 6)``; ``(..., 0)`` without one.
+        joint_force: Generalized forces that the open tree needs, shape ``(..., nv)``.
         residual: Largest part of them that motors and loops leave unexplained,
             relative to the largest of them, shape ``(...)``.
+        unexplained: The same without the load on harmless idle freedoms, shape ``(...)``.
+        idle_load: Load on each idle group, relative to the largest force, ``(..., groups)``.
         freedom: Degrees of freedom by rank, shape ``(...)``.
         condition: Condition number of Nᵀ B, shape ``(...)``.
+        uncertainty: How far the torques may be off because of the file's noise, relative to
+            the largest of them; zero where that can't matter, shape ``(...)``.
+        gaps: Opening of each loop [m], [rad], shape ``(..., loops, 2)``.
         unique: Whether the motors' torques are determined (as many as freedoms).
         determined: Whether the loop forces are (independent equations), shape ``(...)``.
+        noise: How far the file's digits let dependent equations differ [rad].
+        idle: Motions that no motor holds.
     """
 
     torque: np.ndarray
     force: np.ndarray
     moment: np.ndarray
+    coupling: np.ndarray
+    base: np.ndarray
     joint_force: np.ndarray
     residual: np.ndarray
+    unexplained: np.ndarray
+    idle_load: np.ndarray
     freedom: np.ndarray
     condition: np.ndarray
+    uncertainty: np.ndarray
+    gaps: np.ndarray
     unique: np.ndarray
     determined: np.ndarray
+    noise: float
+    idle: tuple[IdleGroup, ...]
 
 
 def inverse_dynamics(
-    robot: ClosedRobot, q: ArrayLike, v: ArrayLike, a: ArrayLike, *, check: bool = True
+    robot: ClosedRobot,
+    q: ArrayLike,
+    v: ArrayLike,
+    a: ArrayLike,
+    *,
+    external: Wrenches | None = None,
+    check: bool = True,
+    precision: float | None = None,
 ) -> LoopDynamics:
     """Motor torques and loop forces that a motion of the closed robot needs.
 
-    Redundant motors share the load with the least sum of squares; loop forces that
-    dependent equations leave open are the smallest that fit.
+    Damping, friction, springs and armature of the description count. Redundant motors
+    share the load with the least sum of squares; loop forces that dependent equations
+    leave open are the smallest that fit, metres scaled by the loop's size.
 
     Args:
         robot: The robot.
         q: Closed configurations, shape ``(..., nq)``.
         v: Rates that keep the loops closed, shape ``(..., nv)``.
         a: Accelerations that do, shape ``(..., nv)``.
-        check: Refuse motions that open the loops.
+        external: Frame → wrench that acts on it from outside: force, then moment about the
+            frame's origin, world axes [N], [N·m], shape ``(6,)`` or ``(..., 6)``.
+        check: Refuse motions that open the loops, and loads that neither motors nor loops
+            carry.
+        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
 
     Returns:
         Torques, forces, and how well determined they are.
 
     Raises:
         BadInput: The motion opens a loop (see :func:`close`, :func:`follow`).
+        SingularPose: Torques don't exist at a pose, or the file's noise may turn them over.
+        NoSolution: Neither motors nor loops carry some load.
+        ModelError: See :func:`thesis_pin.loops.surveying.surveyed`.
     """
-    model = instance("robot", robot, ClosedRobot, "load()").model
+    model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     q, v, a = together(
         q=finite_array("q", q, model.nq),
         v=finite_array("v", v, model.nv),
@@ -99,233 +149,198 @@ def inverse_dynamics(
     stack = q.shape[:-1]
     if not q.size:
         raise BadInput("the stack is empty", allowed="at least one sample")
+    wrenches = checked_wrenches(robot, external, stack)
     q, v, a = (x.reshape(-1, x.shape[-1]) for x in (q, v, a))
-    data, count = model.createData(), len(q)
-    tau, matrices = np.empty((count, model.nv)), np.empty((count, robot.equations, model.nv))
-    rotations = np.empty((count, len(robot.loops), 3, 3))
-    for k in range(count):
-        opening, matrices[k], rotations[k] = constraints(robot, data, q[k])
-        if check:
-            _check_motion(robot, data, k, opening, matrices[k], q[k], v[k], a[k])
-        tau[k] = pin.rnea(model, data, q[k], v[k], a[k])
-    torque, multipliers, info = _solve(robot, tau, matrices)
-    force, moment = _wrenches(robot, multipliers, rotations)
-    loops = (*stack, len(robot.loops), 3)
-    return LoopDynamics(
-        torque.reshape(*stack, -1),
-        force.reshape(loops),
-        moment.reshape(loops),
-        tau.reshape(*stack, -1),
-        *(values.reshape(stack) for values in info),
-    )
+    survey = surveyed(robot, q[0], precision)
+    work = _Work(robot, survey, precision, check)
+    parts = []
+    for first in range(0, len(q), _CHUNK):
+        some = slice(first, first + _CHUNK)
+        pushed = [(frame, wrench[some]) for frame, wrench in wrenches]
+        parts.append(work.chunk(first, q[some], v[some], a[some], pushed))
+    joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    shaped = {name: x.reshape((*stack, *x.shape[1:])) for name, x in joined.items()}
+    return LoopDynamics(**shaped, noise=survey.noise, idle=survey.idle)
 
 
-def forward_dynamics(
-    robot: ClosedRobot, q: ArrayLike, v: ArrayLike, torque: ArrayLike
-) -> np.ndarray:
-    """Joint accelerations of the closed robot under motor torques, shape ``(..., nv)``.
+class _Work:
+    """Inverse dynamics of one motion in one assembly, some samples at a time."""
 
-    Pinocchio's ``constraintDynamics``; the loops' own drift isn't corrected here, see
-    :func:`simulate`.
-    """
-    instance("robot", robot, ClosedRobot, "load()")
-    return each(robot, ForwardDynamics(robot), q=q, v=v, torque=torque)
-
-
-class ForwardDynamics:
-    """``constraintDynamics`` with its models, data and settings kept between calls.
-
-    Args:
-        robot: The robot.
-        damping: Proximal regularisation; it vanishes with the iterations and lets
-            dependent equations (planar loops in space) through.
-    """
-
-    def __init__(self, robot: ClosedRobot, *, damping: float = 1e-8) -> None:
-        self.robot, self.damping = robot, damping
+    def __init__(
+        self, robot: ClosedRobot, survey: Survey, precision: float | None, check: bool
+    ) -> None:
+        self.robot, self.survey, self.precision, self.check = robot, survey, precision, check
         self.data = robot.model.createData()
-        self.models = robot.rigid_constraint_models()
-        self.datas = pin.StdVec_RigidConstraintData()
-        for model in self.models:
-            self.datas.append(model.createData())
-        self.settings = pin.ProximalSettings(1e-14, damping, 50)
-        pin.initConstraintDynamics(robot.model, self.data, self.models, self.datas)
+        self.driven = np.concatenate([robot.actuated, robot.base])
 
-    def __reduce__(self) -> tuple[object, ...]:
-        """Pinocchio's constraints can't travel; they are made again of the robot."""
-        return partial(ForwardDynamics, damping=self.damping), (self.robot,)
-
-    def __call__(self, q: np.ndarray, v: np.ndarray, torque: np.ndarray) -> np.ndarray:
-        """Accelerations ``(nv,)`` of one state under motor torques ``(motors,)``."""
-        tau = np.zeros(self.robot.model.nv)
-        tau[self.robot.actuated] = torque
-        return np.asarray(
-            pin.constraintDynamics(
-                self.robot.model, self.data, q, v, tau, self.models, self.datas, self.settings
-            ).copy()
+    def chunk(
+        self, first: int, q: Array, v: Array, a: Array, wrenches: list[tuple[int, Array]]
+    ) -> dict[str, NDArray[np.generic]]:
+        """Every array of the result for samples ``(n, …)``, the first of them numbered."""
+        robot, survey, equations = self.robot, self.survey, self.robot.system
+        poses = equations.poses(self.data, q, v if self.check else None)
+        matrices = equations.jacobian(poses)
+        if self.check:
+            refuse_opening(robot, survey, poses, matrices, v, a, first)
+        tau = open_tree_forces(robot, self.data, q, v, a)
+        if wrenches:
+            tau -= external_forces(robot, self.data, poses, wrenches)
+        solved = solve(survey, robot.scale, matrices, tau, self.driven, robot.passive)
+        rank = np.full(len(q), survey.rank)
+        doubtful = (solved.weakest < max(1e-3, 100 * survey.noise)) | (
+            solved.forbidden > survey.threshold
         )
+        for k in np.flatnonzero(doubtful):
+            rank[k] = self._judge(first, int(k), poses, matrices, tau, solved)
+        uncertainty = self._uncertainty(first, q, v, a, matrices, tau, solved)
+        return self._arrays(first, poses, tau, solved, rank, uncertainty)
 
-
-def simulate(
-    robot: ClosedRobot,
-    q: ArrayLike,
-    v: ArrayLike,
-    torque: Callable[[float, np.ndarray, np.ndarray], np.ndarray],
-    duration: float,
-    step: float = 1e-3,
-) -> JointTrajectory:
-    """Motion of the closed robot under motor torques.
-
-    Runge–Kutta of order four; after every step position and rates are projected
-    back onto the closed loops, so drift can't grow.
-
-    Args:
-        robot: The robot.
-        q: Closed configuration to start from, shape ``(nq,)``.
-        v: Rates to start from, shape ``(nv,)``; what opens a loop is removed.
-        torque: Function of time [s], q and v that returns ``(motors,)``.
-        duration: How long [s].
-        step: Time step [s]; the last one is shortened to end at ``duration``.
-
-    Returns:
-        The motion, one row a step.
-
-    Raises:
-        BadInput: Duration or step isn't positive, q doesn't close the loops, or ``torque``
-            fails or returns something else than ``(motors,)`` finite numbers.
-        Unreachable: A step left the loops too far open to close again.
-    """
-    model = instance("robot", robot, ClosedRobot, "load()").model
-    duration = real("duration", duration, low=_SHORTEST, unit="s")
-    step = real("step", step, low=_SHORTEST, unit="s")
-    asked = _asked(torque, len(robot.actuators))
-    position, rate = vector("q", q, model.nq).copy(), vector("v", v, model.nv)
-    dynamics = ForwardDynamics(robot)
-    opening = float(np.abs(residual(robot, position)).max(initial=0.0))
-    if opening > TOLERANCES.loop_closure:
-        raise BadInput(f"the loops are open by {opening:.2e}", remedy="Close them with close()")
-    rate = project_rates(robot, dynamics.data, position, rate)
-    time = np.append(np.arange(0.0, duration - 1e-9 * step, step), duration)
-
-    def slope(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
-        return dynamics(q, v, asked(t, q, v))
-
-    rows = [(position, rate, slope(0.0, position, rate))]
-    for now, width in zip(time[:-1], np.diff(time), strict=True):
-        half = width / 2
-        a = rows[-1][2]
-        v_2 = rate + half * a
-        a_2 = slope(now + half, pin.integrate(model, position, half * rate), v_2)
-        v_3 = rate + half * a_2
-        a_3 = slope(now + half, pin.integrate(model, position, half * v_2), v_3)
-        v_4 = rate + width * a_3
-        a_4 = slope(now + width, pin.integrate(model, position, width * v_3), v_4)
-        position = pin.integrate(model, position, width / 6 * (rate + 2 * v_2 + 2 * v_3 + v_4))
-        rate = rate + width / 6 * (a + 2 * a_2 + 2 * a_3 + a_4)
-        position = newton_close(robot, position, slice(None), 20)
-        rate = project_rates(robot, dynamics.data, position, rate)
-        rows.append((position, rate, slope(now + width, position, rate)))
-    return JointTrajectory(time, *(np.array(column) for column in zip(*rows, strict=True)))
-
-
-def _asked(
-    torque: Callable[[float, np.ndarray, np.ndarray], Any], motors: int
-) -> Callable[[float, np.ndarray, np.ndarray], np.ndarray]:
-    """The user's torques, with one clear error if they can't be used."""
-    function("torque", torque, "torque(t, q, v)")
-
-    def call(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def _judge(
+        self, first: int, k: int, poses: Poses, matrices: Array, tau: Array, solved: Solved
+    ) -> int:
+        """Refuse a singular sample; solve it again if it is of another assembly. Its rank."""
+        robot, passive, where = self.robot, self.robot.passive, f"sample {first + k}"
+        scaled = robot.scale.rows[:, None] * matrices[k] * robot.scale.columns
         try:
-            value = torque(t, q.copy(), v.copy())  # what it does to them stays its own
-        except ThesisPinError:
-            raise
-        except Exception as error:
-            raise BadInput(
-                f"torque(t, q, v) fails: {type(error).__name__}: {error}", where=f"t = {t:g} s"
-            ) from error
-        return vector(f"what torque(t, q, v) returns at t = {t:g} s", value, motors)
-
-    return call
-
-
-def _check_motion(
-    robot: ClosedRobot,
-    data: pin.Data,
-    sample: int,
-    opening: np.ndarray,
-    matrix: np.ndarray,
-    q: np.ndarray,
-    v: np.ndarray,
-    a: np.ndarray,
-) -> None:
-    bias = constraint_drift(robot, data, q, v)
-    scale = [1.0, 1.0 + np.abs(v).max(initial=0.0), 1.0 + np.abs(a).max(initial=0.0)]
-    gaps = (opening, matrix @ v, matrix @ a + bias)
-    for what, gap, size in zip(("", " rate", " acceleration"), gaps, scale, strict=True):
-        worst = float(np.abs(gap).max(initial=0.0))
-        limit = TOLERANCES.loop_motion if what else TOLERANCES.loop_closure
-        if worst > limit * size:
-            raise BadInput(
-                f"the motion opens the loops: their opening{what} is {worst:.2e}",
-                where=f"sample {sample}",
-                allowed=f"{limit * size:.1e}",
-                remedy="Make it with loops.close or loops.follow, or pass check=False",
+            refuse_singular(self.survey, scaled, scaled[:, passive], where)
+            return self.survey.rank
+        except SingularPose as error:
+            other = self._another(error, poses.q[k], scaled, where)
+        one = slice(k, k + 1)
+        again = solve(other, robot.scale, matrices[one], tau[one], self.driven, passive)
+        if self.check and again.forbidden[0] > other.threshold:
+            raise SingularPose(
+                "the equations forbid a motion of the motors that they allow elsewhere",
+                where=where,
             )
+        for item in fields(Solved):
+            getattr(solved, item.name)[one] = getattr(again, item.name)
+        return other.rank
 
+    def _another(self, error: SingularPose, q: Array, scaled: Array, where: str) -> Survey:
+        """The assembly of a pose that isn't generic in the one surveyed before.
 
-def _solve(
-    robot: ClosedRobot, tau: np.ndarray, matrices: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, ...]]:
-    """Torques, multipliers, and residual, freedom, condition, uniqueness, determinacy."""
-    count, equations, nv = matrices.shape
-    motors = len(robot.actuators)
-    torque, multipliers = np.zeros((count, motors)), np.zeros((count, equations))
-    condition, unique = np.ones(count), np.ones(count, dtype=bool)
-    _, values, basis = np.linalg.svd(matrices)
-    largest = values.max(axis=1, initial=0.0)[:, None]
-    rank = (values > TOLERANCES.rank * largest).sum(axis=1)
-    for number in np.unique(rank):
-        some = rank == number
-        motions = basis[some, number:]
-        actuation = motions[:, :, robot.actuated]
-        left, singular, right = np.linalg.svd(actuation, full_matrices=False)
-        if not singular.size:  # a structure: nothing moves, motors only prestress it
-            condition[some], unique[some] = np.inf, False
-            continue
-        strong = singular > TOLERANCES.rank * singular[:, :1]
-        with np.errstate(divide="ignore"):
-            inverse = np.where(strong, 1.0 / singular, 0.0)
-            condition[some] = singular[:, 0] / singular[:, -1]
-        load = np.einsum("nij,nj->ni", motions, tau[some])
-        torque[some] = np.einsum(
-            "nij,nj->ni", np.swapaxes(right, 1, 2), inverse * np.einsum("nij,ni->nj", left, load)
+        Without checks a singular pose is taken for what it is at that instant.
+        """
+        try:
+            if not isinstance(error, Contradiction):
+                raise error
+            other = surveyed(self.robot, q, self.precision, again=True)
+            refuse_singular(other, scaled, scaled[:, self.robot.passive], where)
+            return other
+        except BadInput:
+            if self.check:
+                raise
+        values = np.linalg.svd(scaled, compute_uv=False)
+        rank = int((values > 10 * self.survey.noise).sum())
+        return replace(self.survey, rank=rank, passive_rank=-1, idle=())
+
+    def _uncertainty(
+        self,
+        first: int,
+        q: Array,
+        v: Array,
+        a: Array,
+        matrices: Array,
+        tau: Array,
+        solved: Solved,
+    ) -> Array:
+        """Five times what moving along the weakest motion, by the noise, does to the torques."""
+        robot, survey, scale = self.robot, self.survey, self.robot.scale
+        result = np.zeros(len(q))
+        some = np.flatnonzero(is_uncertain(survey, solved.weakest))
+        if not some.size or not survey.rank:
+            return result
+        scaled = scale.rows[:, None] * matrices[some] * scale.columns
+        values, motions = weakest_motion(survey, scaled, robot.passive)
+        motors = len(robot.actuators)
+        largest = np.abs(solved.driven[some, :motors]).max(axis=1, initial=0.0)
+        largest = np.maximum(largest, 1e-3 * np.abs(tau[some]).max(axis=1))
+        step = survey.noise / values
+        for sign in (1.0, -1.0):
+            moves = sign * step[:, None] * motions * scale.columns
+            moved = np.array(
+                [
+                    pin.integrate(robot.model, q[k], move)
+                    for k, move in zip(some, moves, strict=True)
+                ]
+            )
+            other = robot.system.jacobian(robot.system.poses(self.data, moved))
+            forces = open_tree_forces(robot, self.data, moved, v[some], a[some])
+            again = solve(survey, scale, other, forces, self.driven, robot.passive).driven
+            change = np.abs(again - solved.driven[some])[:, :motors].max(axis=1, initial=0.0)
+            share = 5 * change / np.where(largest > 0, largest, 1.0)
+            result[some] = np.maximum(result[some], share)
+        result[some] = np.where(survey.noise > 1e-3 * values**2, result[some], 0.0)
+        if self.check and (result > REFUSED).any():
+            k = int(np.argmax(result > REFUSED))
+            raise SingularPose(
+                f"the file's digits may turn the torques over: uncertainty {result[k]:.0%}, "
+                f"noise {survey.noise:.1e} rad, weakest motion "
+                f"{values[np.searchsorted(some, k)]:.1e} rad",
+                where=f"sample {first + k}",
+                allowed=f"{REFUSED:.0%}",
+                remedy="Keep away from this pose, or write the file with more digits",
+            )
+        return result
+
+    def _arrays(
+        self,
+        first: int,
+        poses: Poses,
+        tau: Array,
+        solved: Solved,
+        rank: NDArray[np.int_],
+        uncertainty: Array,
+    ) -> dict[str, NDArray[np.generic]]:
+        robot, survey, count = self.robot, self.survey, len(tau)
+        size = np.abs(tau).max(axis=1, initial=0.0)
+        size = np.where(size > 0, size, 1.0)
+        rest = np.zeros_like(tau)
+        rest[:, robot.passive] = solved.rest
+        share = np.abs(rest) / size[:, None]
+        idle_load = np.zeros((count, len(survey.idle)))
+        outside = share.copy()
+        for k, group in enumerate(survey.idle):
+            idle_load[:, k] = share[:, group.places].max(axis=1)
+            if group.light:
+                harmless = idle_load[:, k] <= HARMLESS_LOAD
+                outside[np.ix_(harmless, group.places)] = 0.0
+        unexplained = outside.max(axis=1, initial=0.0)
+        if self.check and (unexplained > UNEXPLAINED).any():
+            self._refuse_unexplained(first, outside, tau)
+        motors = len(robot.actuators)
+        force, moment = loop_wrenches(robot.system, poses, solved.multipliers)
+        driven = survey.passive_rank == survey.rank
+        return {
+            "torque": solved.driven[:, :motors],
+            "force": force,
+            "moment": moment,
+            "coupling": solved.multipliers[:, robot.system.size - len(robot.couplings) :],
+            "base": base_wrenches(robot, poses.q, solved.driven[:, motors:]),
+            "joint_force": tau,
+            "residual": share.max(axis=1, initial=0.0),
+            "unexplained": unexplained,
+            "idle_load": idle_load,
+            "freedom": robot.model.nv - rank,
+            "condition": solved.condition,
+            "uncertainty": uncertainty,
+            "gaps": loop_gaps(robot, robot.system.gap(poses)),
+            "unique": np.full(count, driven),
+            "determined": rank == robot.equations,
+        }
+
+    def _refuse_unexplained(self, first: int, outside: Array, tau: Array) -> None:
+        robot = self.robot
+        k, place = np.unravel_index(int(np.argmax(outside)), outside.shape)
+        size = float(np.abs(tau[k]).max())
+        groups = [g for g in self.survey.idle if place in g.places]
+        names = ", ".join(groups[0].joints[:6]) if groups else "a joint"
+        raise NoSolution(
+            f"sample {first + int(k)}: neither motors nor loops carry {outside[k, place]:.1%} "
+            f"of the largest load, on {names}; {len(robot.actuators)} motors for "
+            f"{robot.model.nv - self.survey.rank - len(robot.base)} freedoms",
+            float(outside[k, place]) * size,
+            "N·m or N",
+            remedy="Name more motors, or pass check=False",
         )
-        unique[some] = strong.sum(axis=1) == motors
-        if nv - number > motors:
-            condition[some] = np.inf
-    rest = tau.copy()
-    rest[:, robot.actuated] -= torque
-    if equations:
-        inverse_t = np.linalg.pinv(np.swapaxes(matrices, 1, 2), rcond=TOLERANCES.rank)
-        multipliers = np.einsum("nij,nj->ni", inverse_t, rest)
-        rest = rest - np.einsum("nij,ni->nj", matrices, multipliers)
-    size = np.abs(tau).max(axis=1, initial=0.0)
-    unexplained = np.abs(rest).max(axis=1, initial=0.0) / np.where(size > 0, size, 1.0)
-    return torque, multipliers, (unexplained, nv - rank, condition, unique, rank == equations)
-
-
-def _wrenches(
-    robot: ClosedRobot, multipliers: np.ndarray, rotations: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Multipliers → force and moment on the first frame's body, world axes."""
-    count = len(multipliers)
-    force, moment = np.zeros((2, count, len(robot.loops), 3))
-    row = 0
-    for k, loop in enumerate(robot.loops):
-        # The residual grows when the second body moves on, so λ pushes that one.
-        force[:, k] = -np.einsum("nij,nj->ni", rotations[:, k], multipliers[:, row : row + 3])
-        if loop.size == 6:
-            part = multipliers[:, row + 3 : row + 6]
-            moment[:, k] = -np.einsum("nij,nj->ni", rotations[:, k], part)
-        row += loop.size
-    return force, moment

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.model.formats import urdf
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
+from thesis_pin.model.formats.reading import read
 from thesis_pin.model.joining import joined
 from thesis_pin.model.loading import RootJoint, checked
 
@@ -31,7 +31,7 @@ def load(
         ModelError: The URDF isn't a sound tree, or a motor or loop makes no sense.
     """
     beside = None if closures is None else ClosureFile.read(closures)
-    described = checked(urdf.read(file, motors=() if beside is None else beside.name_mot))
+    described = checked(read(file, motors=() if beside is None else beside.name_mot))
     if beside is not None:
         described = joined(described, beside.supplement())
     where = FILE_KIND if closures is None else str(closures)

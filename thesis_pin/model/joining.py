@@ -56,6 +56,7 @@ def joined(description: Description, beside: Supplement) -> Description:
         friction={**own.friction, **beside.friction},
         poses={**own.poses, **beside.poses},
         free_root=own.free_root or beside.free_root,
+        gravity=own.gravity if beside.gravity == Supplement().gravity else beside.gravity,
     )
     return replace(
         description,

@@ -6,7 +6,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from thesis_pin.errors import BadInput, SingularPose, Unreachable
+from thesis_pin.errors import BadInput, NoSolution, SingularPose, Unreachable
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.loading import load
@@ -124,22 +124,41 @@ def test_following_gives_exact_derivatives(robot):
     np.testing.assert_allclose(fine.a[1:-1], numeric, atol=1e-5)
 
 
-def test_motors_that_leave_a_link_loose_are_refused():
-    """The coupler of R-S-S-R spins about itself, whatever the crank does."""
+def closed_rssr():
     robot = load(DATA / "rssr.urdf", DATA / "rssr.yaml")
     rng = np.random.default_rng(0)
-    for _ in range(20):
-        try:
-            q = loops.close(robot, pin.integrate(robot.model, robot.q0, rng.uniform(-1, 1, 5)))
-            break
-        except Unreachable:
-            continue
+    while True:
+        guess = pin.integrate(robot.model, robot.q0, rng.uniform(-1, 1, 5))
+        found = loops.close_each(robot, guess)
+        if found.closed:
+            return robot, found.q
+
+
+def test_a_rod_that_spins_about_itself_is_named_and_stays_at_rest():
+    """The coupler of R-S-S-R spins about itself, whatever the crank does."""
+    robot, q = closed_rssr()
+    motor = q[robot.actuated_q][None]
+    motion = loops.follow(robot, [0.0], motor, motor + 1.0, motor, q)
+    spin = np.linalg.svd(loops.jacobian(robot, q)[:, robot.passive])[2][-1]
+    assert abs(spin @ motion.v[0, robot.passive]) < 1e-12
+    found = loop_dynamics.inverse_dynamics(robot, motion.q, motion.v, motion.a)
+    assert found.freedom[0] == 2
+    assert np.isinf(found.condition[0])
+    (group,) = found.idle
+    assert group.joints == ("ball",)
+    assert group.freedoms == 1
+    assert group.light
+    assert found.unexplained[0] < 1e-12
+
+
+def test_motors_that_leave_a_link_loose_are_refused(tmp_path):
+    text = (DATA / "five_bar.yaml").read_text().replace("'motor_right', ", "")
+    (tmp_path / "loops.yaml").write_text(text)
+    robot = load(DATA / "five_bar.urdf", tmp_path / "loops.yaml")
+    q = loops.close(robot, np.array(STARTS["five_bar"]))
     motor = q[robot.actuated_q][None]
     with pytest.raises(SingularPose, match="don't determine the other joints"):
         loops.follow(robot, [0.0], motor, motor, motor, q)
-    found = loop_dynamics.inverse_dynamics(robot, q, np.zeros(5), np.zeros(5))
-    assert found.freedom == 2
-    assert np.isinf(found.condition)
 
 
 def test_torques_and_forces_satisfy_the_equations_of_motion(robot):
@@ -231,13 +250,16 @@ def test_a_structure_needs_no_torque_and_says_that_motors_are_not_determined(tmp
     assert found.residual < 1e-10
 
 
-def test_too_few_motors_leave_a_residual(tmp_path):
+def test_too_few_motors_are_refused_with_the_load_they_leave(tmp_path):
     text = (DATA / "five_bar.yaml").read_text().replace("'motor_right', ", "")
     (tmp_path / "loops.yaml").write_text(text)
     robot = load(DATA / "five_bar.urdf", tmp_path / "loops.yaml")
     q = loops.close(robot, np.array(STARTS["five_bar"]))
-    found = loop_dynamics.inverse_dynamics(robot, q, np.zeros(4), np.zeros(4))
+    with pytest.raises(NoSolution, match="1 motors for 2 freedoms"):
+        loop_dynamics.inverse_dynamics(robot, q, np.zeros(4), np.zeros(4))
+    found = loop_dynamics.inverse_dynamics(robot, q, np.zeros(4), np.zeros(4), check=False)
     assert found.residual > 1e-2
+    assert found.unexplained == found.residual
     assert np.isinf(found.condition)
 
 

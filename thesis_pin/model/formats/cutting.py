@@ -46,6 +46,7 @@ class Cutter:
         where: File name for messages.
         closures: What closes the cuts so far.
         notes: What was cut or turned round so far.
+        meant: Links made between a joint and a link → that link, for the notes.
     """
 
     links: dict[str, Link]
@@ -54,6 +55,7 @@ class Cutter:
     where: str
     closures: list[Closure] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    meant: dict[str, str] = field(default_factory=dict)
 
     def cut(self, joint: Joint, kind: str) -> None:
         """Leave a joint out, and close the loop where it was.
@@ -88,8 +90,8 @@ class Cutter:
         verb = "aren't" if len(lost) > 1 else "isn't"
         left = f"; its {' and '.join(lost)} {verb} counted" if lost else ""
         self.notes.append(
-            f"{here}: the loop is cut here, between links {joint.parent!r} and "
-            f"{joint.child!r}, and closed by a {word}{left}"
+            f"{here}: the loop is cut here, between links {self._shown(joint.parent)} "
+            f"and {self._shown(joint.child)}, and closed by a {word}{left}"
         )
 
     def turn(self, joint: Joint, kind: str) -> None:
@@ -124,9 +126,13 @@ class Cutter:
         if not same:
             self.fix(f"{child}_fixed", child, joint.parent, back, joint.line)
         self.notes.append(
-            f"{here}: link {joint.parent!r} hangs on {joint.child!r} in the tree; "
+            f"{here}: link {self._shown(joint.parent)} hangs on {self._shown(joint.child)} in "
+            f"the tree; "
             f"{_MEANING_TURNED[kind]}"
         )
+
+    def _shown(self, link: str) -> str:
+        return repr(self.meant.get(link, link))
 
     def frame(self, name: str, on: str, placement: Array, line: int) -> str:
         """Name of a new massless link, fixed on another."""
@@ -136,16 +142,17 @@ class Cutter:
 
     def link(self, name: str, line: int) -> str:
         """Name of a new massless link."""
-        name = self._new(name)
+        name = self.new(name)
         self.links[name] = Link(name, line)
         return name
 
     def fix(self, name: str, parent: str, child: str, placement: Array, line: int) -> None:
         """Fix one link on another."""
-        name = self._new(name)
+        name = self.new(name)
         self.joints[name] = Joint(name, line, "fixed", parent, child, placement, np.eye(3)[0])
 
-    def _new(self, name: str) -> str:
+    def new(self, name: str) -> str:
+        """The name, made unlike all others and taken."""
         name = fresh(name, self.taken)
         self.taken.add(name)
         return name

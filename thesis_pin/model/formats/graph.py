@@ -47,6 +47,7 @@ def cut_loops(
     *,
     root: str = "",
     keep: Collection[str] = (),
+    meant: Mapping[str, str] | None = None,
     where: str,
 ) -> Tree:
     """Cut joints until links and joints are a tree.
@@ -58,6 +59,7 @@ def cut_loops(
         root: The root link; without it ``world``, else the first link that is no
             joint's child, else the first.
         keep: Joints that mustn't be cut if it can be helped: with motors or springs.
+        meant: Links that aren't the file's → those they are fixed to, for messages.
         where: File name for messages.
 
     Raises:
@@ -70,7 +72,7 @@ def cut_loops(
     ground = root or _root(links, joints)
     kept = _kept(joints, types, keep)
     turned = _directions(links, joints, kept, ground, where)
-    made = Cutter(dict(links), {}, {*links, *joints}, where)
+    made = Cutter(dict(links), {}, {*links, *joints}, where, meant=dict(meant or {}))
     for name, joint in joints.items():
         if name not in kept:
             made.cut(joint, types.get(name, joint.kind))

@@ -27,13 +27,20 @@ from thesis_pin.model.source import read_bytes
 from thesis_pin.model.supplement import Coupling, Motor, Supplement
 
 
-def read(path: str | Path, *, motors: Sequence[str] = ()) -> Description:
+def read(
+    path: str | Path, content: bytes | None = None, *, motors: Sequence[str] = ()
+) -> Description:
     """Read a URDF file; see :func:`read_urdf`.
+
+    Args:
+        path: The file.
+        content: Its bytes, if they are read already.
+        motors: As for :func:`read_urdf`.
 
     Raises:
         BadInput: It can't be read; otherwise as :func:`read_urdf`.
     """
-    content = read_bytes("URDF", path, LIMITS.urdf_bytes)
+    content = read_bytes("URDF", path, LIMITS.urdf_bytes) if content is None else content
     found = read_urdf(content, where=str(path), motors=motors)
     return replace(found, mesh_folders=(str(Path(path).resolve().parent),))
 

@@ -24,7 +24,7 @@ class Element(PlainElement):
 class _Reader:
     """What happens at every event of the parser."""
 
-    def __init__(self, kind: str, where: str, encoding: str | None) -> None:
+    def __init__(self, kind: str, where: str, encoding: str | None, texts: bool) -> None:
         self.kind, self.where = kind, where
         self.builder = TreeBuilder(element_factory=Element)
         self.depth = self.count = 0
@@ -33,6 +33,8 @@ class _Reader:
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.end
         self.parser.EntityDeclHandler = self.entity
+        if texts:
+            self.parser.CharacterDataHandler = self.builder.data
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         self.depth, self.count = self.depth + 1, self.count + 1
@@ -57,13 +59,16 @@ class _Reader:
         raise ModelError(f"the {self.kind} {what}", where=where)
 
 
-def parse_xml(kind: str, content: bytes | str, *, where: str) -> tuple[Element, str]:
+def parse_xml(
+    kind: str, content: bytes | str, *, where: str, texts: bool = False
+) -> tuple[Element, str]:
     """Root element of a document, and the document's text.
 
     Args:
         kind: What the document is, for messages.
         content: Its bytes, in the encoding they declare; or its text.
         where: File, for messages.
+        texts: Whether what stands between elements is kept.
 
     Returns:
         The root, and the text; in other encodings than UTF-8 it is written anew.
@@ -76,7 +81,7 @@ def parse_xml(kind: str, content: bytes | str, *, where: str) -> tuple[Element, 
         raise BadInput(f"the {kind} is {shown(content)}", allowed="its text", where=where)
     # Text has left its encoding behind, whatever its first line still says.
     data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
-    reader = _Reader(kind, where, "utf-8" if isinstance(content, str) else None)
+    reader = _Reader(kind, where, "utf-8" if isinstance(content, str) else None, texts)
     if len(data) > LIMITS.urdf_bytes:
         size = f"{LIMITS.urdf_bytes / 2**20:g} MiB"
         raise ModelError(f"the {kind} is larger than {size}", where=where, allowed=size)

@@ -30,11 +30,12 @@ _MOST_FILES = 100
 _ELEMENTS_THAT_COPY = ("replicate", "composite", "flexcomp")
 
 
-def read_mjcf(path: str | Path) -> Description:
+def read_mjcf(path: str | Path, content: bytes | None = None) -> Description:
     """Read an MJCF file.
 
     Args:
         path: The file; files that it includes and meshes are looked for beside it.
+        content: Its bytes, if they are read already.
 
     Raises:
         BadInput: It can't be read, or MuJoCo isn't installed.
@@ -42,7 +43,7 @@ def read_mjcf(path: str | Path) -> Description:
             the mesh that a body's inertia is made of is missing.
     """
     where = str(path)
-    content = read_bytes(KIND, path, LIMITS.urdf_bytes)
+    content = read_bytes(KIND, path, LIMITS.urdf_bytes) if content is None else content
     root, text = parse_xml(KIND, content, where=where)
     if root.tag != "mujoco":
         raise ModelError(

@@ -1,0 +1,1 @@
+"""SDF → :class:`thesis_pin.model.description.Description`; its loops are cut."""
