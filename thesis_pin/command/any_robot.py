@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from thesis_pin.command.values import number
+
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.loops.closures import ClosedRobot
 
@@ -44,6 +46,13 @@ def which_pose(words: Words) -> None:
     )
     words.add_argument(
         "--free-flyer", action="store_true", help="let the root fly freely (default: as described)"
+    )
+    words.add_argument(
+        "--precision",
+        type=number("--precision"),
+        metavar="RAD",
+        help="loop equations that differ by less count as one; 0 takes every one as real "
+        "(default: told from the file's own noise)",
     )
 
 

@@ -15,7 +15,7 @@ def run(arguments: argparse.Namespace) -> ExitCode:
     """Say whether a description is sound, where it closes, and what holds it."""
 
     def answer() -> Answer:
-        found = check(loaded(arguments), pose=arguments.pose)
+        found = check(loaded(arguments), pose=arguments.pose, precision=arguments.precision)
         yes = found.sound and (found.held or not arguments.strict)
         return Answer(found.document, lambda: _tell(found), yes=yes)
 

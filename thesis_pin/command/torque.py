@@ -19,7 +19,9 @@ def run(arguments: argparse.Namespace) -> ExitCode:
     def make(_: object) -> TorqueReport:
         robot = loaded(arguments)
         motion = read_motion(robot, arguments.motion)
-        return torque_report(robot, motion, pose=assembly(robot, arguments.pose).q)
+        x = arguments.precision
+        pose = assembly(robot, arguments.pose, precision=x).q
+        return torque_report(robot, motion, pose=pose, precision=x)
 
     return deliver(
         arguments,

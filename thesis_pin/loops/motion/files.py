@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.joints import is_free, singles
+from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.sampled import quantum, resolution_warning, unlike, with_derivatives
 from thesis_pin.model.samples import check_increasing, check_width, numbers, read_rows
 
@@ -159,7 +159,7 @@ def _known(robot: ClosedRobot) -> dict[str, list[_Column]]:
             for unit, factor in (_TURN if turns else _SLIDE).items():
                 column = f"{name}{word}" + (f"_{unit}{per}" if unit else "")
                 known.setdefault(column, []).append(_Column(joint, order, factor, turns))
-    if is_free(robot.model):
+    if len(robot.base):
         for names_of, units in ((BASE_PLACE, _SLIDE), (BASE_ANGLES, _TURN)):
             for part in names_of:
                 for unit, factor in units.items():
@@ -183,7 +183,7 @@ def _columns(robot: ClosedRobot, header: Sequence[str], where: str) -> dict[int,
             continue
         meanings = known.get(name)
         if meanings is None:
-            shown = [*_TIME, *singles(robot.model), *(BASE_PLACE if is_free(robot.model) else ())]
+            shown = [*_TIME, *singles(robot.model), *(BASE_PLACE if len(robot.base) else ())]
             raise UnknownName(
                 "column", name, [*shown, "NAME_rate", "NAME_acceleration"], where=where
             )

@@ -9,10 +9,11 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
-from thesis_pin.errors import BadInput, SingularPose, TrajectoryError
+from thesis_pin.errors import SingularPose, TrajectoryError
+from thesis_pin.loops.closing import close, follow, motor_positions
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.joints import is_free, singles
-from thesis_pin.loops.kinematics import close, follow
+from thesis_pin.loops.idle import joint_names
+from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.files import JointMotion
 from thesis_pin.loops.motion.sampled import with_derivatives
 from thesis_pin.model.supplement import Motor
@@ -44,7 +45,9 @@ class WholeMotion:
     still: tuple[str, ...]
 
 
-def whole_motion(robot: ClosedRobot, motion: JointMotion, pose: ArrayLike) -> WholeMotion:
+def whole_motion(
+    robot: ClosedRobot, motion: JointMotion, pose: ArrayLike, *, precision: float | None = None
+) -> WholeMotion:
     """What every joint does while some move as they are told.
 
     Where only motors are told, the other motors stay at the pose; where joints are told
@@ -55,6 +58,7 @@ def whole_motion(robot: ClosedRobot, motion: JointMotion, pose: ArrayLike) -> Wh
         motion: How some of its joints move.
         pose: Closed configuration from which the joints go to the first sample, which
             picks the assembly, shape ``(nq,)``.
+        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
 
     Raises:
         Unreachable: A sample can't be closed.
@@ -69,46 +73,37 @@ def whole_motion(robot: ClosedRobot, motion: JointMotion, pose: ArrayLike) -> Wh
     still = () if alone else tuple(name for name in motors if name not in motion.joints)
     driving = (*motion.joints, *still)
     view = driven_by(robot, driving)
-    resting = positions_of(view, start)[len(motion.joints) :]
+    resting = motor_positions(view, start)[len(motion.joints) :]
     count = len(motion.time)
     position = np.column_stack([motion.position, np.tile(resting, (count, 1))])
     rate, acceleration = (
         np.column_stack([values, np.zeros((count, len(still)))])
         for values in (motion.rate, motion.acceleration)
     )
-    guess = _approach(view, start, position[0])
-    found = follow(view, motion.time, position, rate, acceleration, guess)
+    base = None if motion.base is None else base_motion(robot, motion.time, motion.base)
+    guess = _approach(view, start, position[0], precision)
+    found = follow(
+        view, motion.time, position, rate, acceleration, guess, base=base, precision=precision
+    )
     _refuse_jump(view, found)
-    if motion.base is not None:
-        found = _carried(robot, found, motion.base)
     return WholeMotion(found, driving, still)
 
 
 def driven_by(robot: ClosedRobot, joints: Sequence[str]) -> ClosedRobot:
     """The same robot with other joints for motors."""
     supplement = replace(robot.supplement, motors=tuple(Motor(name, joint=name) for name in joints))
-    root = pin.JointModelFreeFlyer() if is_free(robot.model) else None
+    root = pin.JointModelFreeFlyer() if len(robot.base) else None
     return ClosedRobot(replace(robot.description, supplement=supplement), root_joint=root)
 
 
-def positions_of(robot: ClosedRobot, q: ArrayLike) -> Array:
-    """Positions of a robot's motors in a configuration ``(..., nq)``, shape ``(..., motors)``.
-
-    A continuous joint's, whose coordinates are a cosine and a sine, is its angle.
-    """
-    known, q = singles(robot.model), np.asarray(q, dtype=float)
-    columns = [known[name].position(q) for name in robot.actuators]
-    return np.stack(columns, axis=-1) if columns else np.empty((*q.shape[:-1], 0))
-
-
-def _approach(robot: ClosedRobot, pose: Array, first: Array) -> Array:
+def _approach(robot: ClosedRobot, pose: Array, first: Array, precision: float | None) -> Array:
     """A closed configuration at the first sample, reached in small steps from the pose."""
-    start = positions_of(robot, pose)
+    start = motor_positions(robot, pose)
     way = first - start
     steps = int(np.ceil(np.abs(way).max(initial=0.0) / STRIDE))
     q = pose
     for share in np.arange(1, steps + 1) / max(steps, 1):
-        q = close(robot, q, start + share * way)
+        q = close(robot, q, start + share * way, precision=precision)
     return q
 
 
@@ -127,7 +122,7 @@ def _refuse_jump(robot: ClosedRobot, found: JointTrajectory) -> None:
     bad = (passive > JUMP) & (driving < JUMP / 2)
     if bad.any():
         k = int(np.argmax(bad))
-        name = _name_at(robot, int(robot.passive[share[k, robot.passive].argmax()]))
+        name = joint_names(robot.model)[robot.passive[share[k, robot.passive].argmax()]]
         raise SingularPose(
             f"the rate of {name!r} jumps by {passive[k]:.0%} of its largest: there "
             f"{', '.join(robot.actuators)} don't determine the other joints",
@@ -136,41 +131,54 @@ def _refuse_jump(robot: ClosedRobot, found: JointTrajectory) -> None:
         )
 
 
-def _name_at(robot: ClosedRobot, place: int) -> str:
-    """The joint that a place in a velocity belongs to."""
-    for name, joint in zip(list(robot.model.names)[1:], list(robot.model.joints)[1:], strict=True):
-        if joint.idx_v <= place < joint.idx_v + joint.nv:
-            return str(name)
-    return ""
+def base_motion(robot: ClosedRobot, time: Array, base: Array) -> tuple[Array, Array, Array]:
+    """Poses, rates and accelerations of a free root through sampled placements.
 
+    Positions and quaternions follow the curves of :func:`with_derivatives`.
 
-def _carried(robot: ClosedRobot, found: JointTrajectory, base: Array) -> JointTrajectory:
-    """The same motion on a moving root; loops among the bodies don't notice it."""
-    from scipy.spatial.transform import Rotation, RotationSpline
+    Args:
+        robot: The robot.
+        time: Sample times [s], shape ``(n,)``.
+        base: Positions and quaternions x, y, z, w, shape ``(n, 7)``.
 
-    model = robot.model
+    Returns:
+        Poses ``(n, 7)``, rates and accelerations ``(n, 6)`` in the root's own axes, as
+        Pinocchio counts them.
+
+    Raises:
+        TrajectoryError: A loop ties the robot to the world, or there are too few samples.
+    """
+    from scipy.spatial.transform import Rotation
+
     for loop in robot.loops:
-        if any(model.frames[k].parentJoint == 0 for k in loop.ids):
+        if any(robot.model.frames[k].parentJoint == 0 for k in loop.ids):
             raise TrajectoryError(
                 f"the base moves, and loop {loop.name!r} ties the robot to the world",
                 remedy="Leave the base's columns out",
             )
-    if len(found.time) < 4:
-        raise BadInput(f"{len(found.time)} samples of the base", allowed="at least 4")
-    time = found.time
+    if len(time) < 4:
+        raise TrajectoryError(f"{len(time)} samples of the base", allowed="at least 4")
     turns = Rotation.from_quat(base[:, 3:])
-    spline, course = RotationSpline(time, turns), _course(time, base[:, :3])
-    omega, alpha = spline(time, 1), spline(time, 2)
-    linear = turns.apply(course[1], inverse=True)
-    q, v, a = found.q.copy(), found.v.copy(), found.a.copy()
-    q[:, :3], q[:, 3:7] = base[:, :3], turns.as_quat()
-    v[:, :3], v[:, 3:6] = linear, omega
-    # Pinocchio's acceleration is the derivative of the velocity's body components.
-    a[:, :3] = turns.apply(course[2], inverse=True) - np.cross(omega, linear)
-    a[:, 3:6] = alpha
-    return JointTrajectory(time, q, v, a)
+    quaternion = turns.as_quat()
+    same = np.einsum("ij,ij->i", quaternion[1:], quaternion[:-1]) >= 0
+    quaternion[1:] *= np.cumprod(np.where(same, 1.0, -1.0))[:, None]  # q and −q are one turn
+    places = np.column_stack([base[:, :3], quaternion])
+    courses = [with_derivatives(time, column, None, None) for column in places.T]
+    rates, pushes = (np.column_stack(columns) for columns in zip(*courses, strict=True))
+    omega, alpha = (2 * _seen_from(quaternion, x[:, 3:]) for x in (rates, pushes))
+    velocity, acceleration = rates[:, :3], pushes[:, :3]
+    linear = turns.apply(velocity, inverse=True)
+    # Pinocchio's acceleration is the derivative of the velocity's components in moving axes.
+    pushed = turns.apply(acceleration, inverse=True) - np.cross(omega, linear)
+    return (
+        places,
+        np.column_stack([linear, omega]),
+        np.column_stack([pushed, alpha]),
+    )
 
 
-def _course(time: Array, place: Array) -> tuple[Array, Array, Array]:
-    made = [with_derivatives(time, column, None, None) for column in place.T]
-    return place, np.column_stack([v for v, _ in made]), np.column_stack([a for _, a in made])
+def _seen_from(quaternion: Array, change: Array) -> Array:
+    """Vector part of q̄ q̇ for quaternions x, y, z, w, shape ``(n, 3)``."""
+    along, real = change[:, :3], quaternion[:, 3:]
+    turned = np.cross(quaternion[:, :3], along)
+    return np.asarray(real * along - quaternion[:, :3] * change[:, 3:] - turned)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.closing import close
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.kinematics import close
-from thesis_pin.loops.motion.whole import whole_motion
 from thesis_pin.loops.motion.files import JointMotion
+from thesis_pin.loops.motion.whole import whole_motion
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.report.torque import verdict
@@ -80,7 +81,11 @@ class TorqueReport(TorqueNumbers):
             "work": self.work_done[-1],
             "loop_force": dynamics.force,
             "loop_moment": dynamics.moment,
+            "couplings": [one.name for one in robot.couplings],
+            "coupling_force": dynamics.coupling,
+            "base_wrench": dynamics.base,
             "unexplained": self.unexplained,
+            "uncertainty": dynamics.uncertainty,
             "condition": [
                 value if np.isfinite(value) else None for value in dynamics.condition.tolist()
             ],
@@ -109,6 +114,9 @@ class TorqueReport(TorqueNumbers):
             if self.dynamics.moment[:, k].any():
                 for j, axis in enumerate("xyz"):
                     columns[f"loop_moment_{k + 1}_{axis}_Nm"] = self.dynamics.moment[:, k, j]
+        for k, name in enumerate(("fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm")):
+            if self.dynamics.base.size:
+                columns[f"base_{name}"] = self.dynamics.base[:, k]
         columns["unexplained"] = self.unexplained
         return columns
 
@@ -135,12 +143,29 @@ class TorqueReport(TorqueNumbers):
             "outside_range": self.outside,
             "peak_loop_force": force.max(axis=0, initial=0.0),
             "largest_unexplained": float(self.unexplained.max()),
+            "largest_uncertainty": float(self.dynamics.uncertainty.max()),
+            "noise": self.dynamics.noise,
+            "idle": [
+                {
+                    "joints": list(group.joints),
+                    "freedoms": group.freedoms,
+                    "inertia": group.inertia,
+                    "load": float(load),
+                }
+                for group, load in zip(
+                    self.dynamics.idle, self.dynamics.idle_load.max(axis=0), strict=True
+                )
+            ],
             "freedom": int(self.dynamics.freedom.max()),
         }
 
 
 def torque_report(
-    robot: ClosedRobot, motion: JointMotion, *, pose: ArrayLike | None = None
+    robot: ClosedRobot,
+    motion: JointMotion,
+    *,
+    pose: ArrayLike | None = None,
+    precision: float | None = None,
 ) -> TorqueReport:
     """Work out what a motion takes of a robot's motors and loops.
 
@@ -148,16 +173,18 @@ def torque_report(
         robot: From :func:`thesis_pin.load`.
         motion: From :func:`thesis_pin.read_motion`.
         pose: Configuration near the start that picks the assembly, shape ``(nq,)``; None
-            for the neutral one.
+            for the least open of the description's.
+        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
 
     Raises:
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
-        BadInput: The robot has no motor.
+        NoSolution: Neither motors nor loops carry some load.
     """
     instance("robot", robot, ClosedRobot, "thesis_pin.load()")
     instance("motion", motion, JointMotion, "thesis_pin.read_motion()")
-    start = robot.q0 if pose is None else vector("pose", pose, robot.model.nq)
-    whole = whole_motion(robot, motion, close(robot, start))
+    start = assembly(robot, precision=precision).q if pose is None else pose
+    closed = close(robot, vector("pose", start, robot.model.nq), precision=precision)
+    whole = whole_motion(robot, motion, closed, precision=precision)
     joints = whole.joints
-    dynamics = inverse_dynamics(robot, joints.q, joints.v, joints.a)
+    dynamics = inverse_dynamics(robot, joints.q, joints.v, joints.a, precision=precision)
     return TorqueReport(robot, motion, whole, dynamics)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import LoopDynamics
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.motion.whole import WholeMotion
 from thesis_pin.loops.motion.files import JointMotion
+from thesis_pin.loops.motion.whole import WholeMotion
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
 from thesis_pin.tolerances import TOLERANCES
@@ -137,5 +137,5 @@ class TorqueNumbers:
 
     @property
     def unexplained(self) -> Array:
-        """Load that neither motors nor loops carry, relative to the largest, ``(n,)``."""
-        return np.asarray(self.dynamics.residual)
+        """Load that nothing carries, relative to the largest, ``(n,)``; not on harmless idling."""
+        return np.asarray(self.dynamics.unexplained)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from thesis_pin.loops.judging import DOUBTFUL
 from thesis_pin.report.torque.numbers import TorqueNumbers
 
 UNEXPLAINED = 1e-6
@@ -23,7 +24,14 @@ def within_limits(report: TorqueNumbers) -> bool:
 
 def sentences(report: TorqueNumbers) -> list[str]:
     """The answer, the most important first."""
-    return [*_carried(report), *_efforts(report), *_ranges(report), *_shares(report)]
+    return [
+        *_carried(report),
+        *_efforts(report),
+        *_ranges(report),
+        *_base(report),
+        *_idle(report),
+        *_shares(report),
+    ]
 
 
 def _carried(report: TorqueNumbers) -> list[str]:
@@ -71,8 +79,30 @@ def _ranges(report: TorqueNumbers) -> list[str]:
     ]
 
 
+def _base(report: TorqueNumbers) -> list[str]:
+    base = report.dynamics.base
+    if not base.size:
+        return []
+    force, moment = (np.linalg.norm(part, axis=1).max() for part in (base[:, :3], base[:, 3:]))
+    return [
+        f"The root flies freely: the world must supply up to {force:.4g} N and {moment:.4g} N·m "
+        "at it."
+    ]
+
+
+def _idle(report: TorqueNumbers) -> list[str]:
+    loads = report.dynamics.idle_load.max(axis=0)
+    return [
+        f"No motor holds {', '.join(group.joints)}: taken at rest; its load is {load:.1e} of the "
+        "largest."
+        for group, load in zip(report.dynamics.idle, loads, strict=True)
+    ]
+
+
 def _shares(report: TorqueNumbers) -> list[str]:
     said = []
+    if (doubt := float(report.dynamics.uncertainty.max())) > DOUBTFUL:
+        said.append(f"Near a singular pose the file's digits may move torques by {doubt:.0%}.")
     if report.names and not report.dynamics.unique.all():
         said.append(
             "There are more motors than freedoms: they share the load with the least sum of "

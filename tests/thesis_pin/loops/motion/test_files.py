@@ -141,9 +141,7 @@ def test_a_column_that_two_joints_could_mean_is_refused_and_its_unit_tells_them_
 def flying():
     import pinocchio as pin
 
-    return ClosedRobot(
-        chain(("turn", "revolute")).urdf, root_joint=pin.JointModelFreeFlyer()
-    )
+    return ClosedRobot(chain(("turn", "revolute")).urdf, root_joint=pin.JointModelFreeFlyer())
 
 
 def test_a_base_s_angles_are_about_the_world_s_x_then_y_then_z(tmp_path):
