@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.messages import say
 from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.registry import found
-from thesis_pin.command.targets import free
+from thesis_pin.command.registry import Robot, found
+from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
 from thesis_pin.files import is_standard_output, write_file, write_folder
+from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:  # help has to be quick
     import numpy as np
     from numpy.typing import NDArray
 
-    from thesis_pin.command.robot import Robot
     from thesis_pin.pages.scene import Scene
 
 
@@ -63,12 +63,12 @@ class Answer:
 
     Attributes:
         document: Makes it JSON-ready.
-        tell: Prints it for people.
+        tell: Puts it for people.
         yes: Whether what was asked for is possible.
     """
 
     document: Callable[[], Mapping[str, object]]
-    tell: Callable[[], None]
+    tell: Callable[[], Iterable[Part]]
     yes: bool = True
 
 
@@ -90,11 +90,11 @@ def give(
     if arguments.json:
         write_file(arguments.json, content)
     if free(arguments):
-        answer.tell()
+        print_parts(answer.tell())
     return ExitCode.DONE if answer.yes else ExitCode.NO
 
 
-def report(robot: Robot, what: str, arguments: argparse.Namespace) -> ExitCode:
+def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion that the robot's own options ask for; see :func:`deliver`."""
     return deliver(
         arguments,
@@ -126,7 +126,7 @@ def deliver(
         make: Works the report out.
         figures: ``module:function`` of the report's files, by name.
         page: The same of its page.
-        table: The same of what prints it.
+        table: The same of its tables and paragraphs.
     """
     from thesis_pin.report.writers import csv_bytes, json_bytes
 
@@ -148,7 +148,7 @@ def deliver(
     if arguments.html:
         write_file(arguments.html, written)
     if free(arguments):
-        _called(table)(answer)
+        print_parts(_called(table)(answer))
     refused = arguments.strict and not answer.within_limits
     return ExitCode.NO if refused else ExitCode.DONE
 
@@ -211,11 +211,11 @@ def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Say what a specification describes."""
+    from thesis_pin.report.info import told
 
     def answer() -> Answer:
-        loaded = _load(robot, arguments)
-        document, tell = _hook(robot, robot.info), _hook(robot, robot.print_info)
-        return Answer(lambda: document(loaded), lambda: tell(loaded))
+        document = _hook(robot, robot.info)(_load(robot, arguments))
+        return Answer(lambda: document, lambda: told(document))
 
     return give(arguments, answer)
 

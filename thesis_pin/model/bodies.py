@@ -44,8 +44,8 @@ def odd_bodies(description: Description) -> Iterator[str]:
     for link in description.links.values():
         if link.inertial is not None and _link_excess(link) > ROUNDING:
             yield (
-                f"{_place(description, link)}: no body has its inertia; what is fixed to it "
-                "makes up for that"
+                f"{_place(description, link)}: no body has its inertia; only that of all "
+                "that is fixed together counts"
             )
     for body in moving_bodies(description):
         name = _link_of(body, description)
@@ -113,7 +113,8 @@ def _link_excess(link: Link) -> float:
         return 0.0
     if link.inertial.mass < 0.0:
         return np.inf
-    return _excess(link.inertial.tensor, float(np.abs(link.inertial.tensor).max()))
+    size = float(np.abs(link.inertial.tensor).max())
+    return _excess(link.inertial.tensor, max(size, link.inertial.mass))
 
 
 def _link_of(body: MovingBody, description: Description) -> str:

@@ -45,7 +45,7 @@ def joined(description: Description, beside: Supplement) -> Description:
         else:
             kept.append(one)
     supplement = replace(
-        beside,
+        own,
         closures=(*kept, *beside.closures),
         couplings=(*own.couplings, *beside.couplings),
         motors=beside.motors or own.motors,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from thesis_pin.pages.page import Page, Table, Tile, html, parameters_table, software
+from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
 from thesis_pin.pages.scene import thinned
 from thesis_pin.pages.torque_scene import scene
+from thesis_pin.report.tables import Table
 from thesis_pin.report.torque.curves import plots
 from thesis_pin.report.torque.document import TorqueReport
+from thesis_pin.report.torque.tables import loops_table, motors_table
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -53,36 +53,5 @@ def _tiles(report: TorqueReport) -> list[Tile]:
 
 
 def _tables(report: TorqueReport) -> list[Table]:
-    a = report.actuators
-    motors = Table(
-        "Motors",
-        ("motor", "peak", "RMS", "unit", "of its limit", "peak speed", "peak W", "net J"),
-        [
-            (
-                name,
-                f"{a.peak_torque[k]:.4g}",
-                f"{a.rms_torque[k]:.4g}",
-                report.units[k],
-                f"{report.effort_use[k]:.0%}" if report.effort_use[k] else "–",
-                f"{a.peak_speed[k]:.4g}",
-                f"{a.peak_power[k]:.4g}",
-                f"{a.net_work[k]:z.4g}",
-            )
-            for k, name in enumerate(report.names)
-        ],
-    )
-    tables = [motors]
-    if report.robot.loops:
-        moments = np.linalg.norm(report.dynamics.moment, axis=-1).max(axis=0)
-        forces = report.loop_force_size.max(axis=0)
-        tables.append(
-            Table(
-                "Loops, peaks",
-                ("loop", "type", "force N", "moment N·m"),
-                [
-                    (loop.name, loop.kind, f"{force:.4g}", f"{moment:.4g}")
-                    for loop, force, moment in zip(report.robot.loops, forces, moments, strict=True)
-                ],
-            )
-        )
-    return [*tables, parameters_table(report.parameters), software()]
+    loops = [loops_table(report)] if report.robot.loops else []
+    return [motors_table(report), *loops, parameters_table(report.parameters), software()]
