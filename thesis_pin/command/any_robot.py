@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from thesis_pin.command.options import number
 from thesis_pin.command.registry import Words
-from thesis_pin.command.values import number
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.loops.closures import ClosedRobot
