@@ -121,6 +121,7 @@ CONTRADICTIONS = {
     "pollard-pin urdf": [],
     "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
     "thesis-pin check": [],
+    "thesis-pin formats": [],
     "thesis-pin torque": [["--json", "-", "--html", "-"]],
 }
 """Flags that contradict a verb's example, its outputs, or each other."""

@@ -167,3 +167,16 @@ def test_a_motion_that_is_none_of_the_robot_s_is_refused(header, says, capfd, tm
     code, out, err = torque(capfd, *POLLARD, bad)
     assert (code, out) == (2, "")
     assert says in err
+
+
+def test_what_check_writes_reads_back_as_the_same_robot(capfd, tmp_path):
+    code, _, err = check(capfd, *POLLARD, "--write", tmp_path / "made")
+    assert code == 0
+    assert "pollard.closures.yaml" in err
+    again = [tmp_path / "made" / f"pollard.{end}" for end in ("urdf", "closures.yaml")]
+    found = []
+    for pair in (POLLARD, again):
+        code, out, _ = torque(capfd, *pair, MOTION, "--json", "-")
+        assert code == 0
+        found.append(json.loads(out)["torque"])
+    assert found[0] == found[1]

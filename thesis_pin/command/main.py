@@ -16,6 +16,15 @@ def _strictly(words: Words) -> None:
     )
 
 
+def _written(words: Words) -> None:
+    words.add_argument(
+        "--write",
+        dest="out",
+        metavar="DIR",
+        help="write the robot there as a URDF and a closure file, whatever it was read from",
+    )
+
+
 COMMAND = Command(
     "thesis-pin",
     "Any robot, with closed loops or without: is its description sound, what do its motors need?",
@@ -28,7 +37,7 @@ COMMAND = Command(
             "check urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml",
             "thesis_pin.loops.soundness:check",
             "thesis_pin.command.check:run",
-            (which_robot, which_pose, _strictly, partial(add_json, what="the findings")),
+            (which_robot, which_pose, _strictly, _written, partial(add_json, what="the findings")),
         ),
         Verb(
             "torque",
@@ -44,6 +53,15 @@ COMMAND = Command(
                 which_pose,
                 partial(add_report, breaks="a motor or joint leaves its limits"),
             ),
+        ),
+        Verb(
+            "formats",
+            "what of a robot's file is read?",
+            "Formats of robots: what of each is used, and what is passed over and named.",
+            "formats",
+            "thesis_pin.report.formats:formats",
+            "thesis_pin.command.formats:run",
+            (partial(add_json, what="the formats"),),
         ),
     ),
 )
