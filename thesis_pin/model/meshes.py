@@ -32,6 +32,9 @@ def with_mesh_paths(
         tag: ``visual`` or ``collision``: whose meshes.
         environment: Variables that name packages; the process's own by default.
 
+    Returns:
+        The text, written anew.
+
     Raises:
         ModelError: A mesh isn't found; says which, of what link, and where it was looked for.
     """
@@ -47,6 +50,26 @@ def with_mesh_paths(
                     found[name] = _found(name, description.mesh_folders, environment, where)
                 mesh.set("filename", found[name])
     return canonical(root)
+
+
+def with_absolute_meshes(description: Description) -> str:
+    """The URDF's text, in which relative names of meshes that are there are absolute.
+
+    Names that say a scheme, as ``package://``, stay: they mean the same from anywhere. If
+    nothing changes, the text is the file's own.
+    """
+    root, text = parse_xml("URDF", description.text, where=description.where)
+    changed = False
+    for mesh in root.iter("mesh"):
+        name = mesh.get("filename", "")
+        if "://" in name or Path(name).is_absolute():
+            continue
+        for folder in description.mesh_folders:
+            if (path := _by_handler(name, folder)) is not None:
+                mesh.set("filename", path)
+                changed = True
+                break
+    return canonical(root) if changed else text
 
 
 def _found(name: str, folders: Sequence[str], environment: Mapping[str, str], where: str) -> str:
