@@ -41,6 +41,7 @@ from thesis_pin.loops.loads import (
     external_forces,
     open_tree_forces,
 )
+from thesis_pin.loops.newton import CUT
 from thesis_pin.loops.solve import Solved, solve
 from thesis_pin.loops.survey import Survey
 from thesis_pin.loops.surveying import surveyed
@@ -230,9 +231,9 @@ class _Work:
             return other
         except BadInput:
             if self.check:
-                raise
+                raise error from None
         values = np.linalg.svd(scaled, compute_uv=False)
-        rank = int((values > 10 * self.survey.noise).sum())
+        rank = int((values > max(CUT, 10 * self.survey.noise)).sum())
         return replace(self.survey, rank=rank, passive_rank=-1, idle=())
 
     def _uncertainty(

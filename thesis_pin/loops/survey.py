@@ -37,7 +37,7 @@ NEARLY = 1e-3
 _STEPS, _LENGTH = 12, 0.15  # poses of the survey, steps between them [rad]
 _SURVIVES = 0.3  # least share of a step that closing leaves, where a mechanism moves
 _SEEN, _CHANCE = 3.0, 6.0  # gaps this much above the equations' own noise; what they may hide
-_OPEN = 1e-3  # largest scaled gap that could be a file's rounding
+_OPEN = 3e-4  # largest scaled gap that could be a file's rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,9 +162,10 @@ class _Walk:
     def __init__(self, equations: Equations, scale: Scale, q: Array, cut: float) -> None:
         self.equations, self.scale, self.cut = equations, scale, cut
         self.data = equations.model.createData()
+        self.widest = max(_OPEN, cut)
         self.every = np.arange(equations.model.nv, dtype=np.intp)
         self.first = self._closed(q)
-        _refuse_open(equations, self.first)
+        _refuse_open(equations, self.first, self.widest)
         self.configurations = [self.first.q]
         self.gaps = [self.first.scaled]
         self.shares: list[float] = []
@@ -186,7 +187,7 @@ class _Walk:
                     pin.integrate(equations.model, q, scale.columns * step), iterations=30
                 )
                 within = ((low - slack <= moved.q) & (moved.q <= high + slack)).all()
-                if moved.converged and moved.scaled <= _OPEN and (within or not inside):
+                if moved.converged and moved.scaled <= self.widest and (within or not inside):
                     went = pin.difference(equations.model, q, moved.q) / scale.columns
                     self.shares.append(float(went @ step) / float(step @ step))
                     q = moved.q
@@ -235,8 +236,8 @@ def _blocks(
     return tuple(blocks)
 
 
-def _refuse_open(equations: Equations, settled: Settled) -> None:
-    if np.abs(settled.gap).max(initial=0.0) > TOLERANCES.loop_closure and settled.scaled > _OPEN:
+def _refuse_open(equations: Equations, settled: Settled, widest: float) -> None:
+    if np.abs(settled.gap).max(initial=0.0) > TOLERANCES.loop_closure and settled.scaled > widest:
         raise Unreachable(*_open(equations, settled))
 
 
