@@ -1,4 +1,8 @@
-"""Every tolerance that decides something, by name and with its unit."""
+"""Every tolerance that decides something, by name and with its unit.
+
+What tells a right line of a thesis from a wrong one belongs to the audits and stands
+with their verdicts: :data:`thesis_pin.audit.rows.HOLDS`.
+"""
 
 from __future__ import annotations
 
@@ -36,6 +40,24 @@ class Tolerances:
             forces scaled to moments [m²/s].
         clearance: Depth of a swinging sole's corner below the floor still taken as
             touching it [m].
+        instant: What counts as just before or after a change of a gait, relative to the
+            time the gait or phase takes [-].
+        path_end: How far beyond a path's ends a time still means them, relative to the
+            path's duration [-].
+        path_join: Jump of pose or rate where two paths meet, still taken as none
+            [m], [rad], [m/s], [rad/s].
+        straight: Area that three points span, relative to the square of their largest
+            distance from the first, below which they lie on a line [-].
+        on_circle: How far rounding may throw a double root off the unit circle [-].
+        same_mode: Angles nearer than this are one assembly mode [rad].
+        vanishing: Coefficient relative to the largest, or determinant over squared
+            lengths, that is replaced before one divides by it [-], [m²].
+        time_unit: Relative width of the interval in which the fastest time unit counts as
+            found [-].
+        unbalanced: Force or moment an explicit model may leave over: above rounding,
+            below anything physical [N], [N·m].
+        explicit_rank: Singular value of an explicit model's equations, relative to the
+            largest, taken as zero [-].
     """
 
     rotation_orthogonality: float = 1e-9
@@ -55,6 +77,16 @@ class Tolerances:
     wrench: float = 1e-7
     impulse: float = 1e-9
     clearance: float = 1e-9
+    instant: float = 1e-9
+    path_end: float = 1e-9
+    path_join: float = 1e-9
+    straight: float = 1e-9
+    on_circle: float = 1e-2
+    same_mode: float = 1e-6
+    vanishing: float = 1e-14
+    time_unit: float = 1e-5
+    unbalanced: float = 1e-8
+    explicit_rank: float = 1e-11
 
 
 TOLERANCES = Tolerances()

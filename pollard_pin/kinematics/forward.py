@@ -34,8 +34,6 @@ MODES = 8
 """Most assembly modes that six motor angles can have."""
 
 _NODES = np.arange(16) * (2 * np.pi / 16)  # more than 2·4 + 1 samples fix a polynomial of degree 4
-_ON_CIRCLE = 1e-2  # how far a double root may be thrown off the unit circle by rounding
-_SAME = 1e-6  # angles [rad] nearer than this are one mode
 
 
 @dataclass(frozen=True)
@@ -193,12 +191,13 @@ def _candidates(ends: np.ndarray, lever: np.ndarray, right: np.ndarray) -> np.nd
     series = series[:, np.r_[-4:0, 0:5]]
     size = np.abs(series).max(axis=1)
     lead = series[:, -1]
-    lead = np.where(np.abs(lead) < 1e-14 * size, 1e-14 * np.where(size > 0, size, 1.0), lead)
+    least = TOLERANCES.vanishing
+    lead = np.where(np.abs(lead) < least * size, least * np.where(size > 0, size, 1.0), lead)
     companion = np.zeros((count, 8, 8), dtype=complex)
     companion[:, np.arange(1, 8), np.arange(7)] = 1.0
     companion[:, :, 7] = -series[:, :8] / lead[:, None]
     roots = np.linalg.eigvals(companion)
-    on_circle = np.abs(np.abs(roots) - 1.0) < _ON_CIRCLE
+    on_circle = np.abs(np.abs(roots) - 1.0) < TOLERANCES.on_circle
     theta_54 = np.where(on_circle, np.angle(roots), np.nan)
 
     a, b, e = _linear(ends, lever, right, theta_54)
@@ -231,7 +230,7 @@ def _polish(
         slope = (a2 - dz * rz) * c + (b2 - dx * rz) * s - e2
         gap, along = a * c + b * s - e, b * c - a * s
         det = along[:, 0] * slope[:, 1] - along[:, 1] * slope[:, 0]
-        det = np.where(np.abs(det) < 1e-14, 1e-14, det)
+        det = np.where(np.abs(det) < TOLERANCES.vanishing, TOLERANCES.vanishing, det)
         step_43 = (gap[:, 0] * slope[:, 1] - gap[:, 1] * slope[:, 0]) / det
         step_54 = (along[:, 0] * gap[:, 1] - along[:, 1] * gap[:, 0]) / det
         pairs[..., 0] -= np.clip(step_43, -0.3, 0.3)
@@ -247,7 +246,7 @@ def _distinct(pairs: np.ndarray) -> np.ndarray:
     """The pairs without repetitions, sorted by θ54."""
     kept: list[np.ndarray] = []
     for pair in pairs[np.argsort(pairs[:, 1])]:
-        if all(np.abs(wrap(pair - other)).max() > _SAME for other in kept):
+        if all(np.abs(wrap(pair - other)).max() > TOLERANCES.same_mode for other in kept):
             kept.append(pair)
     return np.array(kept).reshape(-1, 2)
 

@@ -18,6 +18,7 @@ from pollard_pin.specification import Specification
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import instance, shown
+from thesis_pin.tolerances import TOLERANCES
 
 _REACH = 60 * math.pi  # the parameter of appendix B runs from −60π to 60π
 _MM = 1e-3
@@ -121,7 +122,7 @@ def arc(
     one, two = middle - first[:3], last[:3] - first[:3]
     normal = np.cross(one, two)
     area = float(np.linalg.norm(normal))
-    if area < 1e-9 * max(float(one @ one), float(two @ two)):
+    if area < TOLERANCES.straight * max(float(one @ one), float(two @ two)):
         raise TrajectoryError(
             "start, via and end of an arc lie on a line", remedy="Use a line, or move via"
         )
@@ -222,7 +223,7 @@ def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
             ("rate", end.rate, start.rate),
         ):
             jump = float(np.abs(one - two).max())
-            if jump > 1e-9:
+            if jump > TOLERANCES.path_join:
                 raise TrajectoryError(
                     f"the {what} jumps by {jump:.3g} between segments {number} and {number + 1}",
                     remedy="Let the segments meet, and use rest-to-rest timing around corners",

@@ -18,6 +18,7 @@ from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples, blocks
+from thesis_pin.tolerances import TOLERANCES
 
 Timing = Literal["constant-rate", "rest-to-rest"]
 TIMINGS: tuple[str, ...] = get_args(Timing)
@@ -107,7 +108,7 @@ class ToolPath:
         time = np.atleast_1d(finite_array("time", time))
         if time.ndim != 1 or not time.size:
             raise WrongShape("time", time.shape, "(n,), n at least 1")
-        slack = 1e-9 * self.duration
+        slack = TOLERANCES.path_end * self.duration
         if (time < -slack).any() or (time > self.duration + slack).any():
             raise TrajectoryError(
                 f"time runs from {time.min():g} to {time.max():g} s",

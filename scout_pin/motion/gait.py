@@ -169,7 +169,7 @@ class Gait:
         samples = whole("samples", samples, 2)
         changes = [p.start for p in self.phases] + [p.end for p in self.phases]
         changes += [x for curves in self.curves.values() for curve in curves for x in curve.x]
-        side = 1e-9 * (self.end - self.start)
+        side = TOLERANCES.instant * (self.end - self.start)
         near = np.concatenate([np.unique(changes) - side, np.unique(changes) + side])
         near = near[(near > self.start) & (near < self.end)]
         return np.union1d(np.linspace(self.start, self.end, samples), near)
@@ -247,7 +247,7 @@ class Gait:
             if phase.end == phase.start:
                 continue
             # Inside the phase, so that curves of the neighbours don't count.
-            margin = 1e-9 * (phase.end - phase.start)
+            margin = TOLERANCES.instant * (phase.end - phase.start)
             t = np.linspace(phase.start + margin, phase.end - margin, 65)
             for side in ("left", "right"):
                 if phase.support not in (side, "double"):

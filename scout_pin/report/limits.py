@@ -13,6 +13,7 @@ from scout_pin.motion.gait import Gait, GaitMotion
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.tolerances import TOLERANCES
 
 _TRIED = 32  # samples of double support added at a time to those it is bisected on
 _MOST = 2048  # samples of double support among which they are chosen
@@ -142,7 +143,7 @@ def _limit_in_double_support(
         lower = 1e-3 * upper
         if (use(active, lower) > 1.0).any():
             return 0.0
-        while upper / lower > 1.0 + 1e-5:
+        while upper / lower > 1.0 + TOLERANCES.time_unit:
             middle = float(np.sqrt(lower * upper))
             kept = (use(active, middle) <= 1.0).all()
             lower, upper = (middle, upper) if kept else (lower, middle)

@@ -30,11 +30,10 @@ from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import NoSolution, UnknownName
 from thesis_pin.model.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.tolerances import TOLERANCES
 
 Interval = Literal[1, 2, 3]
 """T_1: left foot bears the robot; T_2: both; T_3: right foot (4.6)."""
-
-_UNBALANCED = 1e-8  # N, N·m: above rounding, below anything physical
 
 
 @dataclass(frozen=True)
@@ -146,8 +145,8 @@ class ExplicitModel(ExplicitTerms[References]):
         flat = (x.reshape(-1, *x.shape[len(shape) :]) for x in (force, actuation, jacobian))
         found = np.array([solve_one(*one) for one in zip(*flat, strict=True)])
         force_left, moment_left = found[:, -2:].max(axis=0, initial=0.0)
-        if max(force_left, moment_left) > _UNBALANCED:
-            forces = force_left > _UNBALANCED
+        if max(force_left, moment_left) > TOLERANCES.unbalanced:
+            forces = force_left > TOLERANCES.unbalanced
             raise NoSolution(
                 f"(4.23) in T_{interval} has no solution in the {self.edition} edition",
                 float(force_left if forces else moment_left),
@@ -225,12 +224,12 @@ def resting(parameters: Parameters, q: np.ndarray, v: np.ndarray, a: np.ndarray)
 def solve_one(force: np.ndarray, actuation: np.ndarray, jacobian: np.ndarray) -> np.ndarray:
     """τ, λ and what is left over, force rows [N] and moment rows [N·m], for one state."""
     system = np.hstack([actuation, jacobian.T])
-    solution = np.linalg.lstsq(system, force, rcond=1e-11)[0]
+    solution = np.linalg.lstsq(system, force, rcond=TOLERANCES.explicit_rank)[0]
     _, singular, rows = np.linalg.svd(system)
-    free = rows[int((singular > 1e-11 * singular[0]).sum()) :].T
+    free = rows[int((singular > TOLERANCES.explicit_rank * singular[0]).sum()) :].T
     if free.shape[1]:
         # Of all solutions the one with the least Σ τ²; all its terms are N²·m².
-        step = np.linalg.lstsq(free[:12], -solution[:12], rcond=1e-11)[0]
+        step = np.linalg.lstsq(free[:12], -solution[:12], rcond=TOLERANCES.explicit_rank)[0]
         solution = solution + free @ step
     left = system @ solution - force
     return np.concatenate([solution, [np.linalg.norm(left[:3]), np.linalg.norm(left[3:])]])

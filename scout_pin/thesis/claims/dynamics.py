@@ -26,7 +26,7 @@ from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import NoSolution
 from thesis_pin.model.inertia import Reading
-from thesis_pin.tolerances import GRAVITY
+from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
 SEED = 20100
 
@@ -145,7 +145,7 @@ def _stance(interval: Interval) -> ClaimResult:
     # What no λ can carry of a resting robot's weight, joint torques being free.
     weight = ExplicitModel().C(q[0])[:6]
     carried = printed[0][:, :6].T
-    left = weight - carried @ np.linalg.lstsq(carried, weight, rcond=1e-11)[0]
+    left = weight - carried @ np.linalg.lstsq(carried, weight, rcond=TOLERANCES.explicit_rank)[0]
     effect: dict[str, float | str] = {"unbalanced force [N]": float(np.linalg.norm(left[:3]))}
     return ClaimResult(outside, float(np.abs(corrected - truth).max()), note, effect)
 

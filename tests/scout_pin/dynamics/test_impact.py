@@ -32,7 +32,14 @@ def test_impact_stops_the_landing_foot_and_keeps_momentum(scout):
             np.testing.assert_allclose(jacobians[held] @ after, 0.0, atol=1e-10)
         lost = 0.5 * (v @ mass @ v - after @ mass @ after)
         assert impact.energy_lost == pytest.approx(lost, abs=1e-12)
+        # Carnot: what stops dead loses the energy of the velocity that it loses.
+        carnot = 0.5 * (v - after) @ mass @ (v - after)
+        assert impact.energy_lost == pytest.approx(carnot, rel=1e-9)
         assert impact.energy_lost > 0
+        foot = motion.left_foot if side == "left" else motion.right_foot
+        planned = np.concatenate([foot.velocity[0], foot.omega[0]])
+        assert np.abs(planned).max() > 1e-3
+        np.testing.assert_allclose(impact.foot_velocity, planned, atol=1e-12)
         assert (impact.impulse[:, 2] > 0).all()
         # The foot that was let go leaves the floor, it isn't pressed into it.
         for other in set(SIDES) - set(impact.held):

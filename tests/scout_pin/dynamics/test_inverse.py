@@ -12,6 +12,7 @@ from scout_pin.dynamics.stability import (
     zero_moment_point,
 )
 from scout_pin.motion.files import load_gait
+from thesis_pin.tolerances import TOLERANCES
 
 from ..conftest import sole_jacobians
 
@@ -100,3 +101,9 @@ def test_joint_friction_opposes_motion_and_is_nothing_at_rest(lopsided):
     v = np.array([0.0, 2.0, -3.0] + [0.0] * 9)
     torque = joint_friction(lopsided, v)
     np.testing.assert_allclose(torque[:3], [0.0, 0.005 * 2 + 0.01, -0.005 * 3 - 0.01])
+    # Rounding isn't motion: at half of the static speed there is no Coulomb friction.
+    slow = np.zeros(12)
+    slow[:4] = TOLERANCES.static * np.array([0.5, -0.5, 2.0, -2.0])
+    expected = np.zeros(12)
+    expected[2:4] = 0.01, -0.01
+    np.testing.assert_allclose(joint_friction(lopsided, slow), expected, atol=1e-10)

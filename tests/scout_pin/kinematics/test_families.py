@@ -1,5 +1,7 @@
 """Poses that leave an angle free: reached wherever some member of a family reaches."""
 
+from dataclasses import replace
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -80,6 +82,19 @@ def test_a_singular_pose_reached_within_the_limits_has_a_valid_branch(leg, kind,
     inside = ((theta >= leg.lower) & (theta <= leg.upper)).all(axis=-1)
     solutions = leg_inverse_kinematics(leg, leg_forward_kinematics(leg, theta[inside]))
     assert solutions.valid.any(axis=-1).all()
+
+
+@pytest.mark.parametrize("joint", range(6))
+@pytest.mark.parametrize("kind", ["yaw free", "axis free", "both free"])
+def test_a_family_that_one_narrow_joint_bounds_has_a_valid_branch(leg, kind, joint, rng):
+    """Only a few of the family's members keep the limit, and no other limit is met there."""
+    theta = singular_angles(leg, kind, rng, 60)
+    poses = leg_forward_kinematics(leg, theta)
+    for angles, pose in zip(theta, poses, strict=True):
+        lower, upper = np.full(6, -4.0), np.full(6, 4.0)
+        lower[joint], upper[joint] = angles[joint] - 1e-4, angles[joint] + 1e-4
+        narrow = replace(leg, lower=lower, upper=upper)
+        assert leg_inverse_kinematics(narrow, pose).valid.any()
 
 
 @pytest.mark.parametrize("kind", KINDS)
