@@ -7,11 +7,8 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
-from thesis_pin.command.options import add_branch, add_json, add_robot
-from thesis_pin.command.parser import Parser
-from thesis_pin.command.registry import Command, Verb
-from thesis_pin.command.robot import Robot
-from thesis_pin.command.values import count, number
+from thesis_pin.command.options import add_branch, add_json, add_robot, count, number
+from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 
 def _which_path(words: argparse.ArgumentParser) -> None:
@@ -144,7 +141,7 @@ COMMAND = Command(
             "joint angles for a pose of the tool, every useful branch",
             "The twelve joint angles that bring the spray tip to a pose.",
             "ik 0.45 0 0.05 0 10 0",
-            (_which_pose,),
+            _which_pose,
         ),
         Verb(
             "fk",

@@ -11,11 +11,10 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, USEFUL_BRANCHES, Bra
 from pollard_pin.model import Pollard, load
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.specification import Specification
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.messages import say
 from thesis_pin.command.output import print_table, print_text
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.targets import free
+from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
 from thesis_pin.command.verbs import Answer, give
 from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.files import write_file, write_folder
@@ -67,7 +66,7 @@ def report(
 
 def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:
     """The branches of the tool pose that the arguments ask for."""
-    from pollard_pin.report.tables import ik_document, print_solutions
+    from pollard_pin.report.tables import ik_document, solutions_table
 
     pose = np.array(arguments.pose)
     pose[3:] = np.radians(pose[3:])
@@ -79,15 +78,15 @@ def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:
         no = str(error)
         return Answer(
             lambda: ik_document(robot, solutions) | {"explanation": no},
-            lambda: print_text(no),
+            lambda: [no],
             yes=False,
         )
-    return Answer(lambda: ik_document(robot, solutions), lambda: print_solutions(solutions))
+    return Answer(lambda: ik_document(robot, solutions), lambda: solutions_table(solutions))
 
 
 def fk(arguments: argparse.Namespace) -> ExitCode:
     """Print or write the assembly modes of six motor angles."""
-    from pollard_pin.report.tables import fk_document, print_modes
+    from pollard_pin.report.tables import fk_document, modes_table
 
     def answer() -> Answer:
         robot = load(arguments.specification, inertia=arguments.inertia)
@@ -97,8 +96,8 @@ def fk(arguments: argparse.Namespace) -> ExitCode:
         except Unreachable as error:
             no = str(error)
             document = fk_document(robot, modes) | {"explanation": no}
-            return Answer(lambda: document, lambda: print_text(no), yes=False)
-        return Answer(lambda: fk_document(robot, modes), lambda: print_modes(robot, modes))
+            return Answer(lambda: document, lambda: [no], yes=False)
+        return Answer(lambda: fk_document(robot, modes), lambda: modes_table(robot, modes))
 
     return give(arguments, answer)
 

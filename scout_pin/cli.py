@@ -7,11 +7,8 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
-from thesis_pin.command.options import add_branch
-from thesis_pin.command.parser import Parser
-from thesis_pin.command.registry import Command
-from thesis_pin.command.robot import Robot
-from thesis_pin.command.values import number
+from thesis_pin.command.options import add_branch, number
+from thesis_pin.command.registry import Command, Parser, Robot
 
 _branch = partial(
     add_branch,
@@ -96,7 +93,7 @@ COMMAND = Command(
             "joint angles of one leg for a foot pose, every branch",
             "Every set of joint angles that brings a sole to a pose in the torso frame.",
             "ik left --position -0.0445 -0.02 -0.22 --rotation 5 0 10",
-            (_which_pose,),
+            _which_pose,
         ),
         common.info_verb(ROBOT, "info --specification examples/lopsided.toml"),
         common.urdf_verb(

@@ -36,7 +36,7 @@ def report(
 def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:
     """The branches of the foot pose that the arguments ask for."""
     from scout_pin.kinematics.solutions import branch_numbers
-    from scout_pin.report.tables import ik_document, print_solutions
+    from scout_pin.report.tables import ik_document, solutions_table
     from thesis_pin.numeric.rotations import euler_placement, transform
 
     pose, zero = np.concatenate([arguments.position, np.radians(arguments.rotation)]), np.zeros(3)
@@ -47,6 +47,6 @@ def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:
     reached = solutions.reachable if only is None else solutions.reachable[only]
     return Answer(
         lambda: ik_document(robot, solutions, pose, only),
-        lambda: print_solutions(solutions, only),
+        lambda: solutions_table(solutions, only),
         yes=bool(reached.any()),
     )

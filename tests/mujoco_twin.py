@@ -58,6 +58,16 @@ class Twin:
                 a[to_v][:3] = turn.T @ qacc[dof][:3] - np.cross(qvel[dof][3:], linear)
         return q, v, a
 
+    def to_qpos(self, q):
+        """MuJoCo's qpos of a configuration."""
+        qpos = self.model.qpos0.copy()
+        for kind, at, _, to, _ in self.spans():
+            qpos[at] = q[to]
+            if kind in (0, 1):
+                x, y, z, w = q[to][-4:]
+                qpos[at] = [*q[to][:-4], w, x, y, z]
+        return qpos
+
     def to_mujoco(self, q, force):
         """Generalized forces of Pinocchio as MuJoCo counts them."""
         result = np.zeros(self.model.nv)
@@ -82,3 +92,40 @@ def twin(path):
         if robot.model.existJointName(name):
             joints[name] = number
     return Twin(robot, model, mujoco.MjData(model), joints)
+
+
+def equality_jacobian(model, qpos):
+    """Jacobian of MuJoCo's equalities at a pose, shape ``(rows, nv)``."""
+    data = mujoco.MjData(model)
+    data.qpos = qpos
+    mujoco.mj_forward(model, data)
+    found = np.zeros((data.nefc, model.nv))
+    if mujoco.mj_isSparse(model):
+        parts = (data.efc_J_rownnz, data.efc_J_rowadr, data.efc_J_colind)
+        mujoco.mju_sparse2dense(found, data.efc_J.ravel(), *parts)
+    else:
+        found[:] = data.efc_J.reshape(data.nefc, model.nv)
+    return found[data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY]
+
+
+def driven(model, qpos, qvel, torques):
+    """Acceleration under generalized forces, equalities as rigid, by MuJoCo's terms.
+
+    The equalities' own rate of change is taken by central differences along ``qvel``.
+    """
+    data = mujoco.MjData(model)
+    data.qpos, data.qvel = qpos, qvel
+    mujoco.mj_forward(model, data)
+    mass = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, mass)
+    rows = equality_jacobian(model, qpos)
+    step, poses = 1e-5, []
+    for sign in (1, -1):
+        poses.append(qpos.copy())
+        mujoco.mj_integratePos(model, poses[-1], qvel, sign * step)
+    ahead, behind = (equality_jacobian(model, pose) for pose in poses)
+    drift = (ahead - behind) @ qvel / (2 * step)
+    size = len(rows)
+    system = np.block([[mass, -rows.T], [rows, np.zeros((size, size))]])
+    load = np.r_[torques + data.qfrc_passive - data.qfrc_bias, -drift]
+    return np.linalg.lstsq(system, load, rcond=1e-10)[0][: model.nv]

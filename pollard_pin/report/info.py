@@ -1,4 +1,4 @@
-"""What a specification describes, as a document and as tables."""
+"""What a specification describes, as a document."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.model import Pollard
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, JOINT_SYMBOLS, LINK_NAMES
 from pollard_pin.urdf import JOINT_AXES
-from thesis_pin.command import info as printed
 from thesis_pin.report import info
 
 
@@ -62,8 +61,3 @@ def typical_pose(robot: Pollard) -> np.ndarray:
     """A pose inside the workspace: where the specification puts appendix B's curve."""
     placement = robot.specification.assumptions.placement
     return np.concatenate([placement.position, np.radians(placement.orientation_deg)])
-
-
-def print_info(robot: Pollard) -> None:
-    """Print :func:`document` for people."""
-    printed.print_info(document(robot))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pollard_pin.report.curves import plots
 from pollard_pin.report.document import TrajectoryReport
+from pollard_pin.report.tables import motors_table
 from pollard_pin.report.view import path_scene
-from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
+from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.pages.page import (
     Page,
-    Table,
     Tile,
     assumptions_table,
     html,
@@ -16,6 +16,7 @@ from thesis_pin.pages.page import (
     software,
 )
 from thesis_pin.pages.scene import thinned
+from thesis_pin.report.tables import Table
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -57,38 +58,6 @@ def _tiles(report: TrajectoryReport) -> list[Tile]:
 
 
 def _tables(report: TrajectoryReport) -> list[Table]:
-    a, (reading, other) = report.actuators, report.other_reading
-    motors = Table(
-        "Motors",
-        (
-            "motor",
-            "",
-            "peak N·m",
-            "RMS N·m",
-            "peak rad/s",
-            "peak W",
-            "work + J",
-            "work − J",
-            "net J",
-            f"peak N·m, {reading}",
-        ),
-        [
-            (
-                name,
-                ACTUATOR_SYMBOLS[k],
-                f"{a.peak_torque[k]:.4f}",
-                f"{a.rms_torque[k]:.4f}",
-                f"{a.peak_speed[k]:.3f}",
-                f"{a.peak_power[k]:.4f}",
-                f"{a.positive_work[k]:.4f}",
-                f"{a.negative_work[k]:z.4f}",
-                f"{a.net_work[k]:z.5f}",
-                f"{other[k]:.4f}",
-            )
-            for k, name in enumerate(a.names)
-        ],
-        note="The last column has the other reading of the printed inertias.",
-    )
     joints = Table(
         "Joint reactions, peaks",
         ("joint", "", "force N", "moment N·m"),
@@ -100,7 +69,7 @@ def _tables(report: TrajectoryReport) -> list[Table]:
         ],
     )
     return [
-        motors,
+        motors_table(report),
         joints,
         assumptions_table(report.assumptions()),
         parameters_table(report.parameters),

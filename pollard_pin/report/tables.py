@@ -1,6 +1,8 @@
-"""Tables and small documents of the command ``pollard-pin``."""
+"""What a trajectory report and kinematics say: tables, paragraphs, small documents."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -11,45 +13,52 @@ from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin.command.output import print_table, print_text
 from thesis_pin.report import branches
+from thesis_pin.report.tables import Part, Table
 
 
-def print_report(report: TrajectoryReport) -> None:
-    """Print the summary of a trajectory report."""
-    a, time = report.actuators, report.joints.time
-    three = report.three is not None
-    rows = []
-    for k, symbol in enumerate(ACTUATOR_SYMBOLS[: 3 if three else 6]):
-        rows.append(
-            (
-                symbol,
-                f"{a.peak_torque[k]:.4f}",
-                f"{a.rms_torque[k]:.4f}",
-                f"{a.peak_speed[k]:.3f}",
-                f"{a.peak_power[k]:.4f}",
-                f"{a.positive_work[k]:.4f}",
-                f"{a.negative_work[k]:.4f}",
-                f"{a.net_work[k]:.5f}",
-            )
-        )
-    print_table(
+def motors_table(report: TrajectoryReport) -> Table:
+    """What every motor has to do; the last column has the other reading's torques."""
+    a, (reading, other) = report.actuators, report.other_reading
+    columns = {
+        "motor": list(a.names),
+        "": ACTUATOR_SYMBOLS[: len(a.names)],
+        "peak N·m": [f"{value:.4f}" for value in a.peak_torque],
+        "RMS N·m": [f"{value:.4f}" for value in a.rms_torque],
+        "peak rad/s": [f"{value:.3f}" for value in a.peak_speed],
+        "peak W": [f"{value:.4f}" for value in a.peak_power],
+        "work + J": [f"{value:.4f}" for value in a.positive_work],
+        "work − J": [f"{value:z.4f}" for value in a.negative_work],
+        "net J": [f"{value:z.5f}" for value in a.net_work],
+        f"peak N·m, {reading}": [f"{value:.4f}" for value in other[: len(a.names)]],
+    }
+    return Table(
+        "Motors",
+        list(columns),
+        list(zip(*columns.values(), strict=True)),
+        note="The last column has the other reading of the printed inertias.",
+    )
+
+
+def summary(report: TrajectoryReport) -> Iterator[Part]:
+    """A trajectory report in a table and paragraphs."""
+    time = report.joints.time
+    yield Table(
+        f"{report.robot.specification.name} on {report.path.name}, {report.path.duration:g} s, "
+        f"{report.robot.inertia} inertias (N·m, rad/s, W, J)",
         ("motor", "peak", "RMS", "speed", "power", "work +", "work −", "net"),
-        rows,
-        title=f"{report.robot.specification.name} on {report.path.name}, "
-        f"{report.path.duration:g} s, {report.robot.inertia} inertias "
-        "(N·m, rad/s, W, J)",
+        [row[1:9] for row in motors_table(report).rows[: 6 if report.three is None else 3]],
     )
     condition, margin = report.holding.condition, report.solutions.margin
     reading, other = report.other_reading
     force, joint_force = report.loop_force_size.max(axis=0), report.peak_reactions[0]
     joint = int(np.argmax(joint_force))
-    if not three:
-        print_text(
+    if report.three is None:
+        yield (
             f"Energy: the motors' net work is {report.work_done[-1].sum() * 1e3:.4f} mJ, the "
             f"robot's energy changes by {report.energy_change * 1e3:.4f} mJ."
         )
-    print_text(
+    yield from (
         f"Loop reactions: up to {force[0]:.3f} N and {force[1]:.3f} N in the ball joints; the "
         f"most loaded other joint is {JOINT_NAMES[joint]} with "
         f"{joint_force[joint]:.2f} N.",
@@ -100,8 +109,8 @@ def ik_document(robot: Pollard, solutions: Solutions) -> dict[str, object]:
     )
 
 
-def print_solutions(solutions: Solutions) -> None:
-    """Print joint angles of one pose: two tables, a row a branch."""
+def solutions_table(solutions: Solutions) -> Iterator[Part]:
+    """Joint angles of one pose: two tables, a row a branch."""
     for title, joints in (("chain 0", range(6)), ("chains 1 and 2", range(6, 12))):
         rows = []
         for k, branch in enumerate(solutions.branches):
@@ -111,8 +120,8 @@ def print_solutions(solutions: Solutions) -> None:
             rows.append((str(branch), *angles))
         if rows:
             columns = ("branch", *(JOINT_SYMBOLS[j] for j in joints))
-            print_table(columns, rows, title=f"{title}, degrees")
-    print_text(_best(solutions))
+            yield Table(f"{title}, degrees", columns, rows)
+    yield _best(solutions)
 
 
 def _best(solutions: Solutions) -> str:
@@ -147,17 +156,17 @@ def fk_document(robot: Pollard, modes: Assemblies) -> dict[str, object]:
     }
 
 
-def print_modes(robot: Pollard, modes: Assemblies) -> None:
-    """Print the assembly modes of one set of motor angles."""
+def modes_table(robot: Pollard, modes: Assemblies) -> Iterator[Part]:
+    """The assembly modes of one set of motor angles."""
     rows = []
     for k in range(int(modes.count)):
         pose = [f"{value:.4f}" for value in modes.pose[k, :3]]
         pose += [f"{value:.2f}" for value in np.degrees(modes.pose[k, 3:])]
         rows.append((str(robot.branch_of(modes.angles[k])), *pose))
     if rows:
-        print_table(("branch", *POSE_NAMES), rows, title="assembly modes, metres and degrees")
+        yield Table("assembly modes, metres and degrees", ("branch", *POSE_NAMES), rows)
     worst = float(np.nanmax(modes.residual))
-    print_text(
+    yield from (
         f"{len(rows)} assembly modes; ball joints closed to {worst:.0e} m.",
         *(
             f"{robot.branch_of(modes.angles[k])} is outside the joint limits: "

@@ -1,4 +1,4 @@
-"""What a specification describes, as a document and as tables."""
+"""What a specification describes, as a document."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import numpy as np
 from scout_pin.model import Scout
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from scout_pin.urdf import JOINT_AXES
-from thesis_pin.command import info as printed
 from thesis_pin.report import info
 
 
@@ -50,8 +49,3 @@ def document(robot: Scout) -> info.Info:
         neutral={f"{side}_sole": foot[:3, 3].copy() for side, foot in feet.items()},
         stated=spec.assumptions,
     )
-
-
-def print_info(robot: Scout) -> None:
-    """Print :func:`document` for people."""
-    printed.print_info(document(robot))

@@ -6,11 +6,10 @@ import numpy as np
 
 from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
+from scout_pin.report.tables import joints_table
 from scout_pin.report.view import gait_scene
-from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.pages.page import (
     Page,
-    Table,
     Tile,
     assumptions_table,
     html,
@@ -18,6 +17,7 @@ from thesis_pin.pages.page import (
     software,
 )
 from thesis_pin.pages.scene import thinned
+from thesis_pin.report.tables import Table
 from thesis_pin.tolerances import TOLERANCES
 
 MOST_SAMPLES = 1201
@@ -72,38 +72,8 @@ def _tiles(report: GaitReport) -> list[Tile]:
 
 
 def _tables(report: GaitReport) -> list[Table]:
-    a = report.actuators
-    joints = Table(
-        "Joints",
-        (
-            "joint",
-            "",
-            "peak N·m",
-            "RMS N·m",
-            "peak rad/s",
-            "peak W",
-            "work + mJ",
-            "work − mJ",
-            "servo",
-        ),
-        [
-            (
-                name,
-                JOINT_SYMBOLS[k],
-                f"{a.peak_torque[k]:.3f}",
-                f"{a.rms_torque[k]:.3f}",
-                f"{a.peak_speed[k]:.2f}",
-                f"{a.peak_power[k]:.3f}",
-                f"{a.positive_work[k] * 1e3:.1f}",
-                f"{a.negative_work[k] * 1e3:z.1f}",
-                f"{report.servo_use[k]:.0%}",
-            )
-            for k, name in enumerate(a.names)
-        ],
-        note="'servo' is the worst |τ|/stall + |θ̇|/no-load, at most 100 %.",
-    )
     return [
-        joints,
+        joints_table(report),
         *_impacts(report),
         assumptions_table(report.assumptions()),
         parameters_table(report.parameters),

@@ -1,8 +1,9 @@
-"""Tables and small documents of the command ``scout-pin``."""
+"""What a gait report and inverse kinematics say: tables, paragraphs, small documents."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,40 +11,52 @@ import numpy as np
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
 from scout_pin.specification import JOINT_SYMBOLS
-from thesis_pin.command.output import print_table, print_text
 from thesis_pin.report import branches
+from thesis_pin.report.tables import Part, Table
 
 if TYPE_CHECKING:  # inverse kinematics alone needs no report
     from scout_pin.model import Scout
     from scout_pin.report.document import GaitReport
 
 
-def print_report(report: GaitReport) -> None:
-    """Print the summary of a gait report."""
-    a, use = report.actuators, report.servo_use
-    rows = [
-        (
-            name,
-            JOINT_SYMBOLS[k],
-            f"{a.peak_torque[k]:.3f}",
-            f"{a.rms_torque[k]:.3f}",
-            f"{a.peak_speed[k]:.2f}",
-            f"{a.peak_power[k]:.3f}",
-            f"{use[k]:.0%}",
-        )
-        for k, name in enumerate(a.names)
-    ]
-    duration = report.joints.time[-1] - report.joints.time[0]
-    print_table(
-        ("joint", "", "peak N·m", "RMS N·m", "peak rad/s", "peak W", "servo"),
-        rows,
-        title=f"{report.robot.specification.name}, gait {report.gait.name!r}: {duration:g} s, "
-        f"time unit {report.time_unit:g} s, {len(report.joints.time)} samples",
+_WORK = ("work + mJ", "work − mJ")
+"""What a terminal has no room for."""
+
+
+def joints_table(report: GaitReport, *, work: bool = True) -> Table:
+    """What every joint has to do; ``work`` adds its work."""
+    a = report.actuators
+    columns = {
+        "joint": list(a.names),
+        "": list(JOINT_SYMBOLS),
+        "peak N·m": [f"{value:.3f}" for value in a.peak_torque],
+        "RMS N·m": [f"{value:.3f}" for value in a.rms_torque],
+        "peak rad/s": [f"{value:.2f}" for value in a.peak_speed],
+        "peak W": [f"{value:.3f}" for value in a.peak_power],
+        "work + mJ": [f"{value * 1e3:.1f}" for value in a.positive_work],
+        "work − mJ": [f"{value * 1e3:z.1f}" for value in a.negative_work],
+        "servo": [f"{value:.0%}" for value in report.servo_use],
+    }
+    kept = [name for name in columns if work or name not in _WORK]
+    return Table(
+        "Joints",
+        kept,
+        list(zip(*(columns[name] for name in kept), strict=True)),
+        note="'servo' is the worst |τ|/stall + |θ̇|/no-load, at most 100 %.",
     )
-    s, f = report.robot, report.fastest
+
+
+def summary(report: GaitReport) -> Iterator[Part]:
+    """A gait report in a table and paragraphs."""
+    s, f, time = report.robot, report.fastest, report.joints.time
+    yield replace(
+        joints_table(report, work=False),
+        title=f"{s.specification.name}, gait {report.gait.name!r}: {time[-1] - time[0]:g} s, "
+        f"time unit {report.time_unit:g} s, {len(time)} samples",
+    )
     torque, line = (f"{x:.4f} s" if x is not None else "none" for x in (f.torque, f.line))
     used = report.peak_friction_used
-    print_text(
+    yield from (
         f"Servo limits: {s.stall_torque.min():g} N·m, {s.no_load_speed.min():g} rad/s; "
         "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
         f"Fastest time unit by speed {f.speed:.4f} s, by torque {torque}, by both (line) {line}.",
@@ -55,14 +68,14 @@ def print_report(report: GaitReport) -> None:
     )
     for impact in report.impacts:
         normal = impact.impulse[0, 2]
-        print_text(
+        yield (
             f"Touchdown of the {impact.side} foot at t = {impact.t:g}: "
             f"{-impact.foot_velocity[2] * 1e3:.0f} mm/s down, impulse {normal * 1e3:.1f} mN·s, "
             f"joints jump by {abs(impact.velocity_jump).max():.2f} rad/s, "
             f"{impact.energy_lost * 1e3:.2f} mJ lost"
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
-    print_text("", *report.verdict())
+    yield from ("", *report.verdict())
 
 
 def ik_document(
@@ -101,8 +114,8 @@ def _numbers(only: int | None) -> Sequence[int]:
     return range(len(BRANCHES)) if only is None else (only,)
 
 
-def print_solutions(solutions: LegSolutions, only: int | None = None) -> None:
-    """Print joint angles of one pose, a row a branch; ``only`` as for :func:`ik_document`."""
+def solutions_table(solutions: LegSolutions, only: int | None = None) -> list[Part]:
+    """Joint angles of one pose, a row a branch; ``only`` as for :func:`ik_document`."""
     rows = []
     for k in _numbers(only):
         label = branches.label(BRANCHES[k])
@@ -113,6 +126,8 @@ def print_solutions(solutions: LegSolutions, only: int | None = None) -> None:
         rows.append((label, *angles, "valid" if solutions.valid[k] else "limits"))
     side = solutions.geometry.names[0].split("_")[0]
     columns = ("branch", "hip yaw", "roll", "pitch", "knee", "ankle", "roll", "")
-    print_table(columns, rows, title=f"{side} leg, angles in degrees")
     text = solutions.explain((), only)
-    print_text(text[0].upper() + text[1:] + ".")
+    return [
+        Table(f"{side} leg, angles in degrees", columns, rows),
+        text[0].upper() + text[1:] + ".",
+    ]

@@ -20,8 +20,8 @@ from thesis_pin.audit.text import (
     summary_lines,
     used_causes,
 )
-from thesis_pin.pages.page import Table
 from thesis_pin.pages.player import render, web_file
+from thesis_pin.report.tables import Table
 
 
 def page(report: AuditReport) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from thesis_pin.command.registry import Words
+
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.loops.closures import ClosedRobot
-
-Words = argparse.ArgumentParser
 
 
 def which_robot(words: Words) -> None:

@@ -7,8 +7,7 @@ import difflib
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.targets import free
+from thesis_pin.command.running import ExitCode, free
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # the commands' help imports this module and must stay quick

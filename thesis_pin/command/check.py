@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 
 from thesis_pin.command.any_robot import loaded
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.output import print_table, print_text
+from thesis_pin.command.running import ExitCode
 from thesis_pin.command.verbs import Answer, give
 from thesis_pin.loops.soundness import Soundness, check
+from thesis_pin.report.tables import Part, Table
 
 
 def run(arguments: argparse.Namespace) -> ExitCode:
@@ -22,18 +22,18 @@ def run(arguments: argparse.Namespace) -> ExitCode:
     return give(arguments, answer, "checking")
 
 
-def _tell(found: Soundness) -> None:
+def _tell(found: Soundness) -> list[Part]:
     robot = found.robot
     rows = [
         (loop.name, loop.kind, *loop.frames, f"{gap.distance:.1e}", f"{gap.angle:.1e}")
         for loop, gap in zip(robot.loops, found.assembly.gaps, strict=False)
     ]
-    if rows:
-        print_table(("loop", "type", "frame", "frame", "gap m", "gap rad"), rows)
-    print_text(
+    columns = ("loop", "type", "frame", "frame", "gap m", "gap rad")
+    return [
+        *([Table("", columns, rows)] if rows else []),
         f"{robot.model.name}: {robot.model.njoints - 1} joints, "
         f"{len(robot.actuators)} motors ({', '.join(robot.actuators)}).",
         *found.sentences(),
         *(f"Warning: {one}" for one in found.warnings),
         *(f"Not used: {one}" for one in robot.description.passed_over),
-    )
+    ]

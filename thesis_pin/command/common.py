@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import argparse
+from collections.abc import Callable
 from functools import partial
 
 from thesis_pin.command import options, verbs
-from thesis_pin.command.registry import Verb, Words
-from thesis_pin.command.robot import Robot
-from thesis_pin.command.values import count
+from thesis_pin.command.registry import Robot, Verb, Words
+
+
+def _verb(
+    robot: Robot,
+    name: str,
+    texts: tuple[str, str, str],
+    python: str,
+    run: Callable[[Robot, argparse.Namespace], int],
+    *add: Callable[[Words], None],
+) -> Verb:
+    """A verb of a robot; ``texts`` are its help, its description and its example."""
+    which = partial(options.add_robot, another=robot.another)
+    return Verb(name, *texts, robot.name_of(python), partial(run, robot), (which, *add))
 
 
 def report_verb(
@@ -36,78 +48,41 @@ def report_verb(
     def how_many(words: Words) -> None:
         words.add_argument(
             "--samples",
-            type=count("--samples", 2),
+            type=options.count("--samples", 2),
             default=samples,
             metavar="N",
             help=f"evenly spaced samples; more stand beside abrupt changes (default: {samples})",
         )
 
-    return Verb(
-        name,
-        help,
-        description,
-        example,
-        robot.name_of(robot.report),
-        partial(verbs.report, robot, f"working out the {name}"),
-        (
-            partial(options.add_robot, another=robot.another),
-            robot.motion,
-            how_many,
-            partial(options.add_report, breaks=breaks),
-        ),
-    )
+    add = (robot.motion, how_many, partial(options.add_report, breaks=breaks))
+    run = partial(verbs.report, what=f"working out the {name}")
+    return _verb(robot, name, (help, description, example), robot.report, run, *add)
 
 
 def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
     """The verb that shows a motion."""
-    return Verb(
-        "view",
-        help,
-        description,
-        example,
-        robot.name_of(robot.scene),
-        partial(verbs.view, robot),
-        (partial(options.add_robot, another=robot.another), robot.motion, options.add_view),
-    )
+    add = (robot.motion, options.add_view)
+    return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
 
 
 def ik_verb(
-    robot: Robot,
-    help: str,
-    description: str,
-    example: str,
-    add: Sequence[Callable[[Words], None]],
+    robot: Robot, help: str, description: str, example: str, pose: Callable[[Words], None]
 ) -> Verb:
-    """The verb for inverse kinematics; ``add`` adds the words of its pose."""
-    return Verb(
-        "ik",
-        help,
-        description,
-        example,
-        robot.name_of(robot.inverse_kinematics),
-        partial(verbs.ik, robot),
-        (
-            partial(options.add_robot, another=robot.another),
-            *add,
-            partial(options.add_json, what="the branches"),
-        ),
-    )
+    """The verb for inverse kinematics; ``pose`` adds the words of its pose."""
+    add = (pose, partial(options.add_json, what="the branches"))
+    texts = (help, description, example)
+    return _verb(robot, "ik", texts, robot.inverse_kinematics, verbs.ik, *add)
 
 
 def info_verb(robot: Robot, example: str) -> Verb:
     """The verb that says what a specification describes."""
-    return Verb(
-        "info",
+    texts = (
         "what a specification describes",
         "Joints, limits, bodies and assumptions of a robot.",
         example,
-        robot.name_of(robot.info),
-        partial(verbs.info, robot),
-        (
-            partial(options.add_robot, another=robot.another),
-            partial(options.add_json, what="it"),
-        ),
     )
+    json = partial(options.add_json, what="it")
+    return _verb(robot, "info", texts, robot.info, verbs.info, json)
 
 
 def urdf_verb(robot: Robot, help: str, description: str) -> Verb:
@@ -118,23 +93,13 @@ def urdf_verb(robot: Robot, help: str, description: str) -> Verb:
             "--out", metavar="DIR", help="write all files there (default: print the URDF)"
         )
 
-    return Verb(
-        "urdf",
-        help,
-        description,
-        "urdf --out my_robot",
-        robot.name_of(robot.files),
-        partial(verbs.urdf, robot),
-        (
-            partial(options.add_robot, another=robot.another),
-            out,
-            partial(options.add_json, what="names and sizes of the files"),
-        ),
-    )
+    texts = (help, description, "urdf --out my_robot")
+    json = partial(options.add_json, what="names and sizes of the files")
+    return _verb(robot, "urdf", texts, robot.files, verbs.urdf, out, json)
 
 
 def audit_verb(robot: Robot, example: str) -> Verb:
-    """The verb for the thesis's equations."""
+    """The verb for the thesis's equations; no other specification has any."""
     return Verb(
         "audit",
         "is this printed equation of the thesis right?",

@@ -7,8 +7,7 @@ from functools import partial
 
 from thesis_pin.command.any_robot import which_pose, which_robot
 from thesis_pin.command.options import add_json
-from thesis_pin.command.parser import Parser
-from thesis_pin.command.registry import Command, Verb, Words
+from thesis_pin.command.registry import Command, Parser, Verb, Words
 
 
 def _strictly(words: Words) -> None:

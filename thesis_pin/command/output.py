@@ -1,6 +1,6 @@
 """Tables and paragraphs for people, on whatever standard output is.
 
-What its encoding can't say is replaced by what it can (:mod:`thesis_pin.command.readable`),
+What its encoding can't say is replaced by what it can (:mod:`thesis_pin.command.text`),
 before the lines are laid out; what doesn't fit its width is wrapped or stacked, so
 that no number is ever cut.
 """
@@ -11,8 +11,9 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from thesis_pin.command.readable import readable
+from thesis_pin.command.text import readable
 from thesis_pin.errors import CannotWrite
+from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -46,6 +47,15 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title:
         _print(console, table)
     else:
         _stack(console, headings, cells, name)
+
+
+def print_parts(parts: Iterable[Part]) -> None:
+    """Print tables and paragraphs in their order."""
+    for part in parts:
+        if isinstance(part, str):
+            print_text(part)
+        else:
+            print_table(part.columns, part.rows, title=part.title)
 
 
 def print_text(*paragraphs: str) -> None:

@@ -1,19 +1,58 @@
-"""Verbs and commands as data: what their parsers, their help and the tests are made from."""
+"""Verbs, commands and robots' hooks as data: what parsers, help and tests are made from."""
 
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any
+from typing import Any, NoReturn
 
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.messages import say
-from thesis_pin.command.parser import Parser
-from thesis_pin.command.running import run
+from thesis_pin.command.running import ExitCode, run
+from thesis_pin.command.text import clean, say
 from thesis_pin.version import __version__
+
+_NEGATIVE = re.compile(r"-(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-inf(inity)?|-nan", re.IGNORECASE)
+"""Words that begin with a minus and are values all the same; ours to judge where not finite."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose help keeps its lines and whose words are never guessed at."""
+
+    def __init__(
+        self, *, prog: str | None = None, description: str = "", epilog: str = "", help: str = ""
+    ) -> None:
+        super().__init__(
+            prog=prog,
+            description=description,
+            epilog=epilog,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+        )
+        # argparse knows -1 and -0.5 but takes -1e-3 for a flag.
+        self._negative_number_matcher = re.compile(f"(?:{_NEGATIVE.pattern})$", re.IGNORECASE)
+        self.add_argument(
+            "--debug",
+            action="store_true",
+            default=argparse.SUPPRESS,  # so that a verb's parser keeps what stood before it
+            help="show the traceback of a mistake of ours",
+        )
+
+    def parse_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> argparse.Namespace:
+        """As argparse does, but refuse ``--flag=--``, of which argparse makes an empty list."""
+        for word in sys.argv[1:] if args is None else args:
+            if word.startswith("--") and word.endswith("=--"):
+                self.error(f"argument {word[:-3]}: '--' is no value")
+        return super().parse_args(args, namespace)
+
+    def error(self, message: str) -> NoReturn:
+        """As argparse does, but without what a terminal would obey."""
+        super().error(clean(message))
+
 
 Arguments = argparse.Namespace
 Words = argparse.ArgumentParser
@@ -94,6 +133,58 @@ class Command:
             say(f"{self.name}: error: {words[0]} has moved; use: {self.moved[words[0]]}")
             return ExitCode.BAD_INPUT
         return run(self.parser(), words)
+
+
+@dataclass(frozen=True)
+class Robot:
+    """Where the common verbs find a robot's functions: ``module:function`` of its package.
+
+    Attributes:
+        package: Its package.
+        another: What another specification may describe, for help.
+        motion: Add the options that say which motion.
+        makes_report: Report on the motion that the arguments ask for; see
+            :class:`thesis_pin.command.verbs.MakeReport`.
+        report: The public function behind it.
+        page: The report as a page.
+        scene: The report as a scene.
+        solves: Inverse kinematics that the arguments ask for, an
+            :class:`~thesis_pin.command.verbs.Answer`.
+        inverse_kinematics: The public method behind it.
+        figures, table: The report as files, and in tables and paragraphs.
+        load, specification: Read a specification, with its model and without.
+        info: What it describes, see :mod:`thesis_pin.report.info`.
+        urdf, files: Its URDF in one reading, and everything generated from it.
+        thesis, audit: The thesis ready to be audited, and the function that does it.
+    """
+
+    package: str
+    another: str
+    motion: Callable[[Words], None]
+    report: str
+    page: str
+    scene: str
+    inverse_kinematics: str
+    makes_report: str = "verbs:report"
+    solves: str = "verbs:ik"
+    figures: str = "report.figures:figures"
+    table: str = "report.tables:summary"
+    load: str = "model:load"
+    specification: str = "specification:Specification.read"
+    info: str = "report.info:document"
+    urdf: str = "urdf:urdf"
+    files: str = "urdf:files"
+    audit: str = "thesis.audit:audit"
+    thesis: str = "thesis.audit:THESIS"
+
+    @property
+    def command(self) -> str:
+        """Name of its command."""
+        return self.package.replace("_", "-")
+
+    def name_of(self, hook: str) -> str:
+        """A hook's full name, for :func:`found`."""
+        return f"{self.package}.{hook}"
 
 
 def found(name: str) -> object:

@@ -6,18 +6,117 @@ import argparse
 import contextlib
 import errno
 import os
+import signal
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from enum import IntEnum
 from pathlib import Path
+from threading import current_thread, main_thread
+from types import FrameType
 
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.messages import say
-from thesis_pin.command.readable import prepare_streams
-from thesis_pin.command.targets import targets
-from thesis_pin.command.termination import tidy_end
-from thesis_pin.errors import CannotWrite, ThesisPinError
+from thesis_pin.command.text import prepare_streams, say
+from thesis_pin.errors import BadInput, CannotWrite, ThesisPinError
+from thesis_pin.files import Claim, check_file, is_standard_output
 from thesis_pin.model.engine import require_pinocchio
+
+
+class ExitCode(IntEnum):
+    """How a command ends. A closed pipe ends quietly with ``DONE``."""
+
+    DONE = 0
+    """Also when a limit is violated, unless ``--strict`` asks."""
+    NO = 1
+    """Done, and the answer is no; the reason is on standard output and in the JSON."""
+    BAD_INPUT = 2
+    """What was given can't be used."""
+    CANNOT_WRITE = 3
+    """An output couldn't be written."""
+    BUG = 70
+    """A mistake of ours."""
+    INTERRUPTED = 130
+    """By Ctrl-C; nothing is half-written."""
+
+
+_FILES = ("json", "html", "markdown")
+"""Options that name a file; ``-`` is standard output."""
+
+
+@contextlib.contextmanager
+def targets(parsed: argparse.Namespace) -> Iterator[None]:
+    """Refuse outputs that can't be written before anything is worked out or written.
+
+    While this lasts, no other run writes to ``--out``.
+
+    Args:
+        parsed: The parsed arguments; ``out`` becomes a claim on its folder.
+
+    Raises:
+        BadInput: Two outputs want standard output.
+        CannotWrite: An output can't be written.
+        Busy: Another run is at work for the folder.
+    """
+    taken = [f"--{option}" for option in _FILES if is_standard_output(_value(parsed, option))]
+    if len(taken) > 1:
+        raise BadInput(
+            f"{' and '.join(taken)} can't both be standard output",
+            remedy="Write one of them to a file",
+        )
+    for option in _FILES:
+        if (target := _value(parsed, option)) is not None:
+            check_file(target)
+    out = _value(parsed, "out")
+    if out is None:
+        yield
+        return
+    with Claim(out) as claim:
+        if claim.mixture:
+            say(
+                f"{out} holds a mixture: a run was killed while it wrote {claim.mixture[0]}"
+                + (f" and {len(claim.mixture) - 1} more files" if claim.mixture[1:] else "")
+            )
+        parsed.out = claim
+        yield
+
+
+def free(parsed: argparse.Namespace) -> bool:
+    """Whether standard output is still free for text."""
+    return not any(is_standard_output(_value(parsed, option)) for option in _FILES)
+
+
+def _value(parsed: argparse.Namespace, option: str) -> str | None:
+    value: str | None = getattr(parsed, option, None)
+    return value
+
+
+SIGNALS = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
+"""What a process manager, or a terminal that is closed, sends."""
+
+
+@contextlib.contextmanager
+def tidy_end() -> Iterator[None]:
+    """Let signals that end the process run what is to be done at its end; also a decorator.
+
+    By default they end it on the spot. Signals that the caller ignores, as ``nohup`` does,
+    or treats in its own way stay as they are.
+    """
+    ours = [
+        number
+        for number in SIGNALS
+        if current_thread() is main_thread() and signal.getsignal(number) is signal.SIG_DFL
+    ]
+    for number in ours:
+        signal.signal(number, _exit)
+    try:
+        yield
+    finally:
+        for number in ours:
+            signal.signal(number, signal.SIG_DFL)
+
+
+def _exit(number: int, frame: FrameType | None) -> None:
+    sys.exit(128 + number)  # what a shell reports for a process that a signal ended
+
 
 _FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF}
 """What printing fails with; files report it as :class:`CannotWrite`, standard output can't."""

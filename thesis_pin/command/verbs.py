@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.messages import say
 from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.registry import found
-from thesis_pin.command.targets import free
+from thesis_pin.command.registry import Robot, found
+from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
 from thesis_pin.files import is_standard_output, write_file, write_folder
+from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:  # help has to be quick
     import numpy as np
     from numpy.typing import NDArray
 
-    from thesis_pin.command.robot import Robot
     from thesis_pin.pages.scene import Scene
 
 
@@ -63,12 +63,12 @@ class Answer:
 
     Attributes:
         document: Makes it JSON-ready.
-        tell: Prints it for people.
+        tell: Puts it for people.
         yes: Whether what was asked for is possible.
     """
 
     document: Callable[[], Mapping[str, object]]
-    tell: Callable[[], None]
+    tell: Callable[[], Iterable[Part]]
     yes: bool = True
 
 
@@ -90,11 +90,11 @@ def give(
     if arguments.json:
         write_file(arguments.json, content)
     if free(arguments):
-        answer.tell()
+        print_parts(answer.tell())
     return ExitCode.DONE if answer.yes else ExitCode.NO
 
 
-def report(robot: Robot, what: str, arguments: argparse.Namespace) -> ExitCode:
+def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
 
     Every content exists before the first file is written; but if a figure or the
@@ -120,7 +120,7 @@ def report(robot: Robot, what: str, arguments: argparse.Namespace) -> ExitCode:
     if arguments.html:
         write_file(arguments.html, page)
     if free(arguments):
-        _hook(robot, robot.table)(answer)
+        print_parts(_hook(robot, robot.table)(answer))
     refused = arguments.strict and not answer.within_limits
     return ExitCode.NO if refused else ExitCode.DONE
 
@@ -183,11 +183,11 @@ def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Say what a specification describes."""
+    from thesis_pin.report.info import told
 
     def answer() -> Answer:
-        loaded = _load(robot, arguments)
-        document, tell = _hook(robot, robot.info), _hook(robot, robot.print_info)
-        return Answer(lambda: document(loaded), lambda: tell(loaded))
+        document = _hook(robot, robot.info)(_load(robot, arguments))
+        return Answer(lambda: document, lambda: told(document))
 
     return give(arguments, answer)
 

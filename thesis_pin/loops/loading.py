@@ -17,7 +17,8 @@ def load(
     """Load a robot with closed loops.
 
     Args:
-        file: Path of its description.
+        file: Path of its description: URDF or URDF+, MJCF, SDF; or ``example:NAME`` for a
+            robot of example-robot-data, as ``example:panda``.
         closures: Path of the closure file, for what the description can't say.
         root_joint: Joint between world and root link, ``None`` for what the files say.
 
@@ -27,8 +28,9 @@ def load(
     Raises:
         BadInput: A file can't be read.
         SpecificationError: The closure file breaks its schema.
-        UnknownName: It names a frame or joint the URDF doesn't have.
-        ModelError: The URDF isn't a sound tree, or a motor or loop makes no sense.
+        UnknownName: It names a frame or joint that the robot doesn't have; or there is no
+            such example.
+        ModelError: The file doesn't describe a mechanism, or a motor or loop makes no sense.
     """
     beside = None if closures is None else ClosureFile.read(closures)
     described = checked(read(file, motors=() if beside is None else beside.name_mot))

@@ -7,7 +7,7 @@ given as inertia alone are common in files and harmless.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -19,11 +19,12 @@ ROUNDING = 1e-12
 """Part of an inertia that sums make by rounding."""
 
 DIGITS = 1e-3
-"""Part of an inertia that its rounded decimals may be wrong by; more is refused."""
+"""Part of an inertia that its rounded decimals may be wrong by; more is refused. Also the
+part of the robot's mass and largest inertia below which a body is too small to matter."""
 
 
 def check_bodies(description: Description, *, free_root: bool = False) -> None:
-    """Refuse a moving body that can't be.
+    """Refuse a moving body that can't be, unless it is too small to matter.
 
     Args:
         description: What was read; its joints are a tree.
@@ -32,8 +33,9 @@ def check_bodies(description: Description, *, free_root: bool = False) -> None:
     Raises:
         NonPhysicalInertia: With the link, its eigenvalues and by how much.
     """
-    for body in moving_bodies(description):
-        if body.joint or free_root:
+    bodies = list(moving_bodies(description))
+    for body in bodies:
+        if (body.joint or free_root) and not _negligible(body, bodies):
             _check(body, description)
 
 
@@ -44,8 +46,8 @@ def odd_bodies(description: Description) -> Iterator[str]:
     for link in description.links.values():
         if link.inertial is not None and _link_excess(link) > ROUNDING:
             yield (
-                f"{_place(description, link)}: no body has its inertia; what is fixed to it "
-                "makes up for that"
+                f"{_place(description, link)}: no body has its inertia; only that of all "
+                "that is fixed together counts"
             )
     for body in moving_bodies(description):
         name = _link_of(body, description)
@@ -59,8 +61,8 @@ def odd_bodies(description: Description) -> Iterator[str]:
             continue
         _, tensor = _centroidal(body)
         excess = _excess(tensor, _scale(body))
-        if ROUNDING < excess <= DIGITS:
-            yield f"{where}: its moments of inertia break the triangle's rule by {excess:.1g}"
+        if excess > ROUNDING:
+            yield f"{where}: no body has the inertia that moves with it; it is off by {excess:.1g}"
         gyration = float(np.sqrt(max(np.linalg.eigvalsh(tensor)[-1], 0.0) / body.mass))
         if 0.0 < reach < gyration:
             yield (
@@ -88,6 +90,13 @@ def _check(body: MovingBody, description: Description) -> None:
     )
 
 
+def _negligible(body: MovingBody, bodies: Sequence[MovingBody]) -> bool:
+    """Whether a body's inertia can't be told from none among those of the robot."""
+    mass = sum(one.mass for one in bodies)
+    largest = max(_scale(one) for one in bodies if one is not body) if len(bodies) > 1 else 0.0
+    return 0.0 <= body.mass <= DIGITS * mass and _scale(body) <= DIGITS * largest
+
+
 def _centroidal(body: MovingBody) -> tuple[Array, Array]:
     com = body.moment / body.mass
     return com, np.asarray(body.tensor - parallel_axis(body.mass, com))
@@ -113,7 +122,8 @@ def _link_excess(link: Link) -> float:
         return 0.0
     if link.inertial.mass < 0.0:
         return np.inf
-    return _excess(link.inertial.tensor, float(np.abs(link.inertial.tensor).max()))
+    size = float(np.abs(link.inertial.tensor).max())
+    return _excess(link.inertial.tensor, max(size, link.inertial.mass))
 
 
 def _link_of(body: MovingBody, description: Description) -> str:

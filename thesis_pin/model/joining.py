@@ -14,7 +14,7 @@ def joined(description: Description, beside: Supplement) -> Description:
 
     The closure file has the last word: its motors are the motors, its closures replace those
     of the description between the same two bodies and those that names of frames suggest.
-    All else is added to what the description says.
+    All else is added to what the description says, or replaces what is called the same.
 
     Args:
         description: What the robot's own file says.
@@ -45,12 +45,12 @@ def joined(description: Description, beside: Supplement) -> Description:
         else:
             kept.append(one)
     supplement = replace(
-        beside,
+        own,
         closures=(*kept, *beside.closures),
-        couplings=(*own.couplings, *beside.couplings),
-        motors=beside.motors or own.motors,
+        couplings=tuple({one.name: one for one in (*own.couplings, *beside.couplings)}.values()),
+        motors=beside.motors,
         joint_types={**own.joint_types, **beside.joint_types},
-        springs=(*own.springs, *beside.springs),
+        springs=tuple({one.joint: one for one in (*own.springs, *beside.springs)}.values()),
         armature={**own.armature, **beside.armature},
         damping={**own.damping, **beside.damping},
         friction={**own.friction, **beside.friction},

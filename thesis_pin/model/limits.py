@@ -30,6 +30,7 @@ class Limits:
         phases: Phases of support of a gait.
         values: Numbers, texts and tables of a TOML file.
         nesting: Levels of tables, lists or elements inside each other.
+        bodies_nesting: Levels of elements in formats whose bodies stand inside each other.
         key: Length of a key or name [characters].
         text: Length of any other text [characters].
         elements: Elements of a URDF.
@@ -54,6 +55,7 @@ class Limits:
     phases: int = 10_000
     values: int = 100_000
     nesting: int = 32
+    bodies_nesting: int = 256
     key: int = 200
     text: int = 20_000
     elements: int = 200_000

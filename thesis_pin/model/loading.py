@@ -18,6 +18,7 @@ from thesis_pin.errors import ModelError, UnknownName
 from thesis_pin.model.bodies import check_bodies, odd_bodies
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.meshes import with_mesh_paths
 from thesis_pin.model.soundness import check_agreement, check_description
 from thesis_pin.numeric.checks import instance, shown
 
@@ -209,12 +210,17 @@ class LoadedRobot:
         return folder
 
     def _geometry(self, kind: Any) -> pin.GeometryModel:
-        folders = list(self.description.mesh_folders)
-        if folders:
-            folders += [str(Path(folder).parent) for folder in folders]
-            return pin.buildGeomFromUrdfString(self.model, self.urdf, kind, package_dirs=folders)
-        text = self.urdf.replace('filename="', f'filename="{self._folder}/')
-        return pin.buildGeomFromUrdfString(self.model, text, kind)
+        if self._meshes:
+            text = self.urdf.replace('filename="', f'filename="{self._folder}/')
+        else:
+            tag = "visual" if kind == pin.GeometryType.VISUAL else "collision"
+            text = with_mesh_paths(self.description, tag)
+        try:
+            return pin.buildGeomFromUrdfString(self.model, text, kind)
+        except (RuntimeError, ValueError) as error:
+            raise ModelError(
+                f"Pinocchio can't read its geometry ({error})", where=self.description.where
+            ) from None
 
     @functools.cached_property
     def visual_model(self) -> pin.GeometryModel:

@@ -16,6 +16,7 @@ from thesis_pin.pages import player as viewer
 from thesis_pin.pages.plots import MARGINS, figure
 from thesis_pin.pages.scene import Scene
 from thesis_pin.report.curves import Plot
+from thesis_pin.report.tables import Table
 
 _SOFTWARE = ("thesis-pin", "pin", "numpy", "scipy", "meshcat", "plotly")
 
@@ -33,17 +34,6 @@ class Tile:
     label: str
     value: str
     good: bool | None = None
-
-
-@dataclass(frozen=True)
-class Table:
-    """A table; the first column is text, the others are numbers unless ``prose``."""
-
-    title: str
-    columns: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    note: str = ""
-    prose: bool = False
 
 
 @dataclass(frozen=True)

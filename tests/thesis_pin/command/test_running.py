@@ -1,16 +1,17 @@
-"""Every way a command can end has its exit code."""
+"""However a command ends, it says so, tidily."""
 
 import errno
 import os
+import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
 
-from thesis_pin.command.exits import ExitCode
-from thesis_pin.command.parser import Parser
-from thesis_pin.command.running import run
+from thesis_pin.command.registry import Parser
+from thesis_pin.command.running import SIGNALS, ExitCode, run, tidy_end
 from thesis_pin.errors import BadInput, Busy, CannotWrite, Unreachable
 
 ROOT = Path(__file__).parents[3]
@@ -87,7 +88,7 @@ def process(verb, **options):
     """A command whose verb is a line of Python, in a process of its own."""
     code = (
         "import sys, os\n"
-        "from thesis_pin.command.parser import Parser\n"
+        "from thesis_pin.command.registry import Parser\n"
         "from thesis_pin.command.running import run\n"
         f"def verb(_):\n    {verb}\n    return 0\n"
         "p = Parser(prog='robot-pin'); p.set_defaults(run=verb)\n"
@@ -136,3 +137,80 @@ def test_the_documents_list_every_code():
     table = CONVENTIONS.split("## Exit codes")[1].split("\n## ")[0]
     rows = [line.split("|")[1].strip() for line in table.splitlines() if line.startswith("| ")]
     assert [row for row in rows if row.isdigit()] == [str(code.value) for code in ExitCode]
+
+
+HOLDS_MESHES = """
+import sys, time
+import scout_pin
+from thesis_pin.command.running import tidy_end
+
+with tidy_end():
+    robot = scout_pin.load()
+    robot.visual_model  # Pinocchio reads meshes from files
+    print("ready", flush=True)
+    time.sleep(300)
+"""
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_robot_whose_command_a_signal_ends_leaves_no_temporary_folder(tmp_path, number):
+    process = subprocess.Popen(
+        [sys.executable, "-c", HOLDS_MESHES],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=ROOT,
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+    )
+    try:
+        ready = process.stdout.readline()
+        during = list(tmp_path.iterdir())
+        process.send_signal(number)
+        _, rest = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert ready == "ready\n"
+    assert during, "the folder that has to go was never there"
+    assert process.returncode == 128 + number
+    assert "Traceback" not in rest
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_open_is_closed_and_the_signals_are_as_before():
+    closed = []
+
+    @tidy_end()
+    def verb():
+        try:
+            signal.raise_signal(signal.SIGTERM)
+        finally:
+            closed.append(True)
+
+    with pytest.raises(SystemExit) as ended:
+        verb()
+    assert (ended.value.code, closed) == (143, [True])
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+
+
+def test_ignored_signals_stay_ignored_as_nohup_wants():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with tidy_end():
+            signal.raise_signal(signal.SIGHUP)
+            assert signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_a_command_run_in_a_thread_leaves_signals_alone():
+    seen = []
+
+    @tidy_end()
+    def verb():
+        seen.append(signal.getsignal(signal.SIGTERM))
+
+    thread = threading.Thread(target=verb)
+    thread.start()
+    thread.join()
+    assert seen == [signal.SIG_DFL]

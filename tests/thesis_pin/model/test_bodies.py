@@ -81,11 +81,26 @@ def test_points_rods_plates_and_rounding_are_no_fault(moments):
 def test_moments_off_by_their_last_digit_are_odd_and_by_more_are_refused():
     (first, second) = odd(link("arm", 1.0, (0.0100, 0.0200, 0.03001), "0.3 0 0"))
     assert "no body has its inertia" in first
-    assert "break the triangle's rule by 0.0003" in second
+    assert "moves with it; it is off by 0.0003" in second
     with pytest.raises(NonPhysicalInertia):
         check_bodies(arm(link("arm", 1.0, FLAT)))
     with pytest.raises(NonPhysicalInertia, match="isn't positive"):
         check_bodies(arm(link("arm", 1.0, (-0.001, 0.01, 0.01))))
+
+
+def test_a_body_too_small_to_matter_is_only_odd():
+    """A frame of a gram that somebody gave an inertia, as Cassie's foot references."""
+
+    def with_reference(mass, moments):
+        big = link("arm", 1.0, (0.1, 0.1, 0.1))
+        return arm(big, link("ref", mass, moments), joint("k", "arm", "ref"))
+
+    found = with_reference(1e-4, (1e-6, 1e-6, 9e-6))
+    check_bodies(found)
+    assert any("'ref': no body has the inertia that moves" in one for one in odd_bodies(found))
+    for heavy in (with_reference(0.1, (1e-6, 1e-6, 9e-6)), with_reference(1e-4, FLAT)):
+        with pytest.raises(NonPhysicalInertia, match="link 'ref'"):
+            check_bodies(heavy)
 
 
 def test_bodies_without_mass_are_odd_at_the_end_of_a_chain_only():

@@ -69,10 +69,8 @@ def test_a_closure_file_without_loops_leaves_those_of_the_frames():
     assert [motor.joint for motor in found.supplement.motors] == ["motor_left"]
 
 
-@pytest.mark.parametrize(
-    ("file", "motors"), [(FILE, ["motor_left", "motor_right"]), ("", ["motor_right"])]
-)
-def test_motors_are_the_closure_files_if_it_names_any(file, motors):
+@pytest.mark.parametrize(("file", "motors"), [(FILE, ["motor_left", "motor_right"]), ("", [])])
+def test_motors_are_those_of_the_closure_file_also_if_it_names_none(file, motors):
     text = URDF.replace('name="motor_right"', 'name="motor_right" independent="true"')
     found = read_urdf(text)
     empty = "closed_loop: []\ntype: []\nname_mot: []\nthesis_pin: {format: 1}\n"

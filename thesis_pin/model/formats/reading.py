@@ -13,6 +13,7 @@ from xml.parsers import expat
 
 from thesis_pin.errors import ModelError
 from thesis_pin.model.description import Description
+from thesis_pin.model.examples import located
 from thesis_pin.model.formats import urdf
 from thesis_pin.model.formats.mjcf.reading import read_mjcf
 from thesis_pin.model.formats.sdf.reading import read_sdf
@@ -27,14 +28,16 @@ def read(path: str | Path, *, motors: Sequence[str] = ()) -> Description:
     """Read a robot's description.
 
     Args:
-        path: The file.
+        path: The file; or ``example:NAME`` for a robot of example-robot-data.
         motors: Joints, or parts of their names, that aren't cut if a loop has others.
 
     Raises:
-        BadInput: It can't be read, or what reads its format isn't installed.
+        BadInput: It can't be read, there is no such example, or what reads its format
+            isn't installed.
         UnknownName: It names something that isn't there.
         ModelError: It is of no known format, or something in it makes no sense.
     """
+    path = located(path)
     kind = _BY_SUFFIX.get(Path(str(path)).suffix.lower(), "URDF")
     content = read_bytes(kind, path, LIMITS.urdf_bytes)
     tag = root_tag(content)

@@ -24,7 +24,8 @@ class Element(PlainElement):
 class _Reader:
     """What happens at every event of the parser."""
 
-    def __init__(self, kind: str, where: str, encoding: str | None, texts: bool) -> None:
+    def __init__(self, kind: str, where: str, encoding: str | None, nesting: int) -> None:
+        self.nesting = nesting
         self.kind, self.where = kind, where
         self.builder = TreeBuilder(element_factory=Element)
         self.depth = self.count = 0
@@ -33,13 +34,11 @@ class _Reader:
         self.parser.StartElementHandler = self.start
         self.parser.EndElementHandler = self.end
         self.parser.EntityDeclHandler = self.entity
-        if texts:
-            self.parser.CharacterDataHandler = self.builder.data
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         self.depth, self.count = self.depth + 1, self.count + 1
-        if self.depth > LIMITS.nesting:
-            self.refuse(f"is nested deeper than {LIMITS.nesting} levels")
+        if self.depth > self.nesting:
+            self.refuse(f"is nested deeper than {self.nesting} levels")
         if self.count > LIMITS.elements:
             self.refuse(f"has more than {LIMITS.elements:,} elements")
         element = self.builder.start(tag, attributes)
@@ -60,7 +59,12 @@ class _Reader:
 
 
 def parse_xml(
-    kind: str, content: bytes | str, *, where: str, texts: bool = False
+    kind: str,
+    content: bytes | str,
+    *,
+    where: str,
+    texts: bool = False,
+    nesting: int = LIMITS.nesting,
 ) -> tuple[Element, str]:
     """Root element of a document, and the document's text.
 
@@ -69,6 +73,7 @@ def parse_xml(
         content: Its bytes, in the encoding they declare; or its text.
         where: File, for messages.
         texts: Whether what stands between elements is kept.
+        nesting: Levels of elements at most.
 
     Returns:
         The root, and the text; in other encodings than UTF-8 it is written anew.
@@ -81,7 +86,9 @@ def parse_xml(
         raise BadInput(f"the {kind} is {shown(content)}", allowed="its text", where=where)
     # Text has left its encoding behind, whatever its first line still says.
     data = content.encode("utf-8", "surrogatepass") if isinstance(content, str) else content
-    reader = _Reader(kind, where, "utf-8" if isinstance(content, str) else None, texts)
+    reader = _Reader(kind, where, "utf-8" if isinstance(content, str) else None, nesting)
+    if texts:
+        reader.parser.CharacterDataHandler = reader.builder.data
     if len(data) > LIMITS.urdf_bytes:
         size = f"{LIMITS.urdf_bytes / 2**20:g} MiB"
         raise ModelError(f"the {kind} is larger than {size}", where=where, allowed=size)
@@ -89,6 +96,8 @@ def parse_xml(
         reader.parser.Parse(data, True)
     except expat.ExpatError as error:
         raise ModelError(f"not well-formed XML ({error})", where=where) from None
+    except ModelError:
+        raise
     except (LookupError, ValueError) as error:  # an encoding that Python doesn't have
         raise ModelError(f"not XML that can be read ({error})", where=where) from None
     root = reader.builder.close()

@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from thesis_pin.errors import ModelError
 from thesis_pin.model.description import Array, Description, Inertial, Joint, Link
 from thesis_pin.model.formats.cutting import Cutter, fresh
 from thesis_pin.model.formats.mjcf.equalities import Equalities
 from thesis_pin.model.formats.mjcf.forces import Forces
 from thesis_pin.model.formats.mjcf.names import about, name_at, names_of, turned
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT, UNLIMITED, pose, write_urdf
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.supplement import Supplement
 
 if TYPE_CHECKING:
@@ -39,6 +41,9 @@ def describe(
 ) -> Description:
     """Read a compiled model.
 
+    Raises:
+        ModelError: It has more joints than are taken.
+
     Args:
         model: The model.
         where: File name for messages.
@@ -46,6 +51,10 @@ def describe(
         passed_over: What isn't used already; more may be added.
         lines: Of the bodies and joints by their names, where they are known.
     """
+    if model.njnt > LIMITS.joints:
+        raise ModelError(
+            f"{model.njnt:,} joints move", where=where, allowed=f"at most {LIMITS.joints:,}"
+        )
     reading = _Reading(model, where, warnings, passed_over, lines)
     reading.read_bodies()
     closures = tuple(reading.equalities.closures(reading.made))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -44,7 +45,7 @@ def read_mjcf(path: str | Path, content: bytes | None = None) -> Description:
     """
     where = str(path)
     content = read_bytes(KIND, path, LIMITS.urdf_bytes) if content is None else content
-    root, text = parse_xml(KIND, content, where=where)
+    root, text = parse_xml(KIND, content, where=where, nesting=LIMITS.bodies_nesting)
     if root.tag != "mujoco":
         raise ModelError(
             f"the root element is <{root.tag}>", where=f"{where}:{root.line}", allowed="<mujoco>"
@@ -52,13 +53,13 @@ def read_mjcf(path: str | Path, content: bytes | None = None) -> Description:
     folder = Path(path).resolve().parent
     included = _included(root, folder, where)
     spec = _spec(text, included, folder, where)
-    warnings, passed_over = _strip(spec, where)
-    model = _compile(spec, where)
+    said, passed_over = _strip(spec, where)
+    model = _compile(spec, where, said)
     lines = (
         {body.name: line_of(body) for body in spec.bodies},
         {joint.name: line_of(joint) for joint in spec.joints},
     )
-    return describe(model, where, warnings, passed_over, lines)
+    return describe(model, where, said, passed_over, lines)
 
 
 def has_mujoco() -> bool:
@@ -89,16 +90,23 @@ def _spec(text: str, included: dict[str, bytes], folder: Path, where: str) -> mu
     return spec
 
 
-def _compile(spec: mujoco.MjSpec, where: str) -> mujoco.MjModel:
+def _compile(spec: mujoco.MjSpec, where: str, said: list[str]) -> mujoco.MjModel:
     try:
-        return spec.compile()
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            model = spec.compile()
+        said += [f"{where}: MuJoCo: {_one_line(one.message)}" for one in caught]
+        return model
     except (ValueError, RuntimeError, OSError) as error:
         raise _refused(error, where) from None
 
 
 def _refused(error: Exception, where: str) -> ModelError:
-    said = re.sub(r"\s+", " ", str(error)).strip()
-    return ModelError(f"MuJoCo can't compile it ({said})", where=where)
+    return ModelError(f"MuJoCo can't compile it ({_one_line(error)})", where=where)
+
+
+def _one_line(message: object) -> str:
+    return re.sub(r"\s+", " ", str(message)).strip()
 
 
 def _included(root: Element, folder: Path, where: str) -> dict[str, bytes]:
@@ -117,7 +125,8 @@ def _included(root: Element, folder: Path, where: str) -> dict[str, bytes]:
                 raise ModelError("it includes more files", where=here, allowed=f"{_MOST_FILES}")
             content = read_bytes(KIND, folder / name, LIMITS.urdf_bytes)
             found[name] = content
-            waiting.append((parse_xml(KIND, content, where=name)[0], name))
+            nesting = LIMITS.bodies_nesting
+            waiting.append((parse_xml(KIND, content, where=name, nesting=nesting)[0], name))
     return found
 
 
@@ -145,7 +154,7 @@ def _strip(spec: mujoco.MjSpec, where: str) -> tuple[list[str], list[str]]:
     """Take out what doesn't move bodies; warnings, and what acts and is passed over."""
     import mujoco
 
-    warnings: list[str] = []
+    said: list[str] = []
     passed = [f"{where}: tendon {item.name!r}" for item in spec.tendons]
     passed += [f"{where}: plugin {item.name or item.plugin_name!r}" for item in spec.plugins]
     on_joints = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
@@ -167,18 +176,22 @@ def _strip(spec: mujoco.MjSpec, where: str) -> tuple[list[str], list[str]]:
             spec.delete(item)
     for item in list(spec.tendons):
         spec.delete(item)
-    needed = _strip_geometry(spec, warnings, where)
+    needed = _strip_geometry(spec, said, where)
     for mesh in list(spec.meshes):
         if mesh.name not in needed:
             spec.delete(mesh)
+    fields = {shape.hfieldname for shape in spec.geoms}
+    for field in list(spec.hfields):
+        if field.name not in fields:
+            spec.delete(field)
     for shape in (*spec.geoms, *spec.sites):
         shape.material = ""
     for item in (*spec.materials, *spec.textures):
         spec.delete(item)
-    return warnings, passed
+    return said, passed
 
 
-def _strip_geometry(spec: mujoco.MjSpec, warnings: list[str], where: str) -> set[str]:
+def _strip_geometry(spec: mujoco.MjSpec, said: list[str], where: str) -> set[str]:
     """Take out geometry that no inertia is made of; the meshes that some is made of."""
     import mujoco
 
@@ -202,7 +215,7 @@ def _strip_geometry(spec: mujoco.MjSpec, warnings: list[str], where: str) -> set
         needed |= {shape.meshname for shape in shapes if shape.meshname}
     if missing:
         names = ", ".join(sorted(missing)[:5]) + (" …" if len(missing) > 5 else "")
-        warnings.append(
+        said.append(
             f"{where}: missing meshes are left out, which is harmless as the bodies have "
             f"inertials: {names}"
         )

@@ -178,6 +178,11 @@ def _named(model: Element, where: str) -> dict[str, Element]:
     for tag, most in (("link", LIMITS.links), ("joint", LIMITS.links)):
         if counts[tag] > most:
             raise ModelError(f"there are {counts[tag]:,} {tag}s", where=where, allowed=f"{most:,}")
+    moving = sum(e.tag == "joint" and e.get("type") != "fixed" for e in found.values())
+    if moving > LIMITS.joints:
+        raise ModelError(
+            f"{moving:,} joints move", where=where, allowed=f"at most {LIMITS.joints:,}"
+        )
     return found
 
 

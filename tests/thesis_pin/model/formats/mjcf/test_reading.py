@@ -27,7 +27,8 @@ def _file(tmp_path, body, rest="", compiler="", before=""):
 HINGES = f"""
 <body name="base" pos="0.1 0.2 0.3" euler="10 20 30">{INERTIAL}
   <body name="one" pos="0.4 0 0.1" euler="-30 5 70">{INERTIAL}
-    <joint name="a" axis="1 2 3" pos="0.1 0.2 -0.1" ref="25" range="-40 80" limited="true"/>
+    <joint name="a" axis="1 2 3" pos="0.1 0.2 -0.1" ref="25" range="-40 80" limited="true"
+      armature="0.4"/>
     <body name="two" pos="0 0.3 0"> {SMALL}
       <joint name="b" type="slide" axis="0 1 1" ref="0.2"/>
       <joint name="c" axis="0 0 1" pos="0 0.05 0"/>
@@ -88,6 +89,7 @@ def test_bodies_stand_and_weigh_as_in_mujoco(name, tmp_path):
             np.testing.assert_allclose(place.rotation.ravel(), data.xmat[number], atol=1e-13)
         want = np.zeros(pair.model.nv)
         mujoco.mj_rne(pair.model, data, 1, want)
+        want += pair.model.dof_armature * qacc
         found = pair.to_mujoco(q, pin.rnea(robot.model, robot.data, q, v, a))
         np.testing.assert_allclose(found, want, atol=1e-12)
 
@@ -181,7 +183,7 @@ def test_actuators_of_joints_are_motors_and_others_are_named(tmp_path):
     assert found.joints["a"].limit[2] == 100
     assert found.passed_over == (
         f"{path}: tendon 'rope'",
-        f"{path}:18: actuator 't', which acts on a tendon",
+        f"{path}:19: actuator 't', which acts on a tendon",
         f"{path}: actuator 'w', which acts on a ball or free joint",
     )
 
@@ -320,3 +322,31 @@ def test_without_mujoco_it_says_what_to_install(tmp_path, monkeypatch):
 def test_nothing_is_written_beside_the_file(tmp_path):
     read_mjcf(_file(tmp_path, HINGES, CONNECT))
     assert [path.name for path in tmp_path.iterdir()] == ["robot.xml"]
+
+
+def test_what_the_compiler_says_is_a_warning(tmp_path):
+    path = _file(tmp_path, HINGES, compiler='settotalmass="7"')
+    found = read_mjcf(path)
+    total = sum(link.inertial.mass for link in found.links.values() if link.inertial)
+    assert total == pytest.approx(7)
+    assert all(line.startswith(f"{path}: MuJoCo: ") for line in found.warnings)
+
+
+def test_bodies_stand_inside_each_other_deeper_than_tables(tmp_path):
+    body = "".join(f'<body name="b{k}">{SMALL}<joint/>' for k in range(60)) + "</body>" * 60
+    assert len(read_mjcf(_file(tmp_path, body)).joints) == 60
+    deep = "<body>" * 300 + "</body>" * 300
+    with pytest.raises(ModelError, match=r"robot\.xml:1: the MJCF is nested deeper than 256"):
+        read_mjcf(_file(tmp_path, deep))
+
+
+def test_missing_fields_of_heights_of_the_ground_are_left_out(tmp_path):
+    asset = '<asset><hfield name="h" file="no.png" size="1 1 1 1"/></asset>'
+    body = HINGES + '<geom type="hfield" hfield="h"/>'
+    assert "a" in read_mjcf(_file(tmp_path, body, before=asset)).joints
+
+
+def test_more_joints_than_pinocchio_has_memory_for_are_refused(tmp_path):
+    body = "".join(f'<body name="b{k}">{SMALL}<joint/></body>' for k in range(201))
+    with pytest.raises(ModelError, match="201 joints move; allowed: at most 200"):
+        read_mjcf(_file(tmp_path, body))

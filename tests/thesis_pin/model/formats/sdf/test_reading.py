@@ -383,3 +383,10 @@ def test_a_model_of_a_world_is_read(tmp_path):
         f'<sdf version="1.6"><world name="w"><model name="m">{_link("a")}</model></world></sdf>'
     )
     assert list(read_sdf(path).links) == ["a"]
+
+
+def test_more_joints_than_pinocchio_has_memory_for_are_refused(tmp_path):
+    links = [_link(f"l{k}") for k in range(202)]
+    joints = [_joint(f"j{k}", "revolute", f"l{k}", f"l{k + 1}") for k in range(201)]
+    with pytest.raises(ModelError, match="201 joints move; allowed: at most 200"):
+        read_sdf(_file(tmp_path, *links, *joints))

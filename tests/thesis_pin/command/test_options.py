@@ -4,7 +4,7 @@ import argparse
 
 import pytest
 
-from thesis_pin.command.values import count, number
+from thesis_pin.command.options import count, number
 
 
 @pytest.mark.parametrize(

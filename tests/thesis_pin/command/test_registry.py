@@ -2,7 +2,7 @@
 
 import pytest
 
-from thesis_pin.command.parser import Parser
+from thesis_pin.command.registry import Parser
 
 
 def reading(*words, **options):
