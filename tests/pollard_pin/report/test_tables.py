@@ -11,19 +11,21 @@ from pollard_pin import ALL_BRANCHES
 from pollard_pin.report.tables import (
     fk_document,
     ik_document,
-    print_modes,
-    print_report,
-    print_solutions,
+    modes_table,
+    solutions_table,
+    summary,
 )
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES
+from thesis_pin.report.tables import Table
 
 POSE = np.array([0.45, 0.05, 0.05, 0.2, -0.1, 0.3])
 
 
-@pytest.fixture
-def wide(monkeypatch):
-    monkeypatch.setenv("COLUMNS", "200")
-    monkeypatch.setenv("NO_COLOR", "1")
+def said(parts):
+    """What a terminal is given: the rows of its tables, and its paragraphs as one text."""
+    parts = list(parts)
+    rows = [list(row) for part in parts if isinstance(part, Table) for row in part.rows]
+    return rows, " ".join(part for part in parts if not isinstance(part, Table))
 
 
 @pytest.fixture(scope="module")
@@ -31,14 +33,9 @@ def report(pollard):
     return pollard_pin.trajectory_report(pollard, pollard_pin.appendix_b(), samples=201)
 
 
-def test_each_motors_row_shows_its_own_peaks_and_work(report, wide, capsys):
-    print_report(report)
-    out = capsys.readouterr().out
-    rows = {
-        line.split()[0]: line.split()[1:]
-        for line in out.splitlines()
-        if line.strip() and line.split()[0] in ACTUATOR_SYMBOLS
-    }
+def test_each_motors_row_shows_its_own_peaks_and_work(report):
+    cells, text = said(summary(report))
+    rows = {symbol: rest for symbol, *rest in cells}
     columns = report.columns()
     for symbol, name in zip(ACTUATOR_SYMBOLS, ACTUATOR_NAMES, strict=True):
         torque, speed = columns[f"torque_{name}_Nm"], columns[f"theta_rate_{name}_rad_s"]
@@ -49,7 +46,6 @@ def test_each_motors_row_shows_its_own_peaks_and_work(report, wide, capsys):
         assert net == pytest.approx(columns[f"work_{name}_J"][-1], abs=0.51e-5)
         assert given + taken == pytest.approx(net, abs=1.1e-4)
         assert given >= 0 >= taken
-    text = " ".join(out.split())
     for i, shown in zip(
         (1, 2), re.search(r"up to ([\d.]+) N and ([\d.]+) N", text).groups(), strict=True
     ):
@@ -59,7 +55,7 @@ def test_each_motors_row_shows_its_own_peaks_and_work(report, wide, capsys):
     works = sum(columns[f"work_{name}_J"][-1] for name in ACTUATOR_NAMES)
     assert net == pytest.approx(1e3 * works, abs=0.51e-4)
     for sentence in report.verdict():
-        assert " ".join(sentence.split()) in text
+        assert sentence in text
 
 
 def closed_by_pinocchio(robot, angles):
@@ -92,21 +88,20 @@ def test_each_branch_of_the_document_closes_pinocchios_robot(pollard):
         assert one["valid"] == bool(inside.all())
 
 
-def test_printed_branches_are_degrees_by_their_labels(pollard, wide, capsys):
+def test_printed_branches_are_degrees_by_their_labels(pollard):
     found = pollard.inverse_kinematics(POSE, ALL_BRANCHES)
-    print_solutions(found)
-    out = capsys.readouterr().out
+    rows, text = said(solutions_table(found))
     for k, branch in enumerate(found.branches):
-        lines = [line.split() for line in out.splitlines() if line.split()[:1] == [str(branch)]]
+        mine = [row[1:] for row in rows if row[0] == str(branch)]
         if not found.reachable[k]:
-            assert not lines
+            assert not mine
             continue
-        angles = [float(cell) for line in lines for cell in line[1:]]
+        angles = [float(cell) for row in mine for cell in row]
         np.testing.assert_allclose(angles, np.degrees(found.angles[k]), atol=0.51e-3)
-    assert f"{int(found.valid.sum())} of {len(ALL_BRANCHES)} branches are valid" in out
+    assert f"{int(found.valid.sum())} of {len(ALL_BRANCHES)} branches are valid" in text
 
 
-def test_each_mode_is_closed_and_its_pose_has_its_angles(pollard, wide, capsys):
+def test_each_mode_is_closed_and_its_pose_has_its_angles(pollard):
     """Each pose, asked for again on the mode's branch, gives the mode's angles."""
     angles = pollard.inverse_kinematics(POSE, pollard_pin.DEFAULT_BRANCH).angles
     motors = [angles[JOINT_NAMES.index(name)] for name in ACTUATOR_NAMES]
@@ -124,14 +119,8 @@ def test_each_mode_is_closed_and_its_pose_has_its_angles(pollard, wide, capsys):
         assert np.abs(turn).max() < 1e-6
         beyond = np.maximum(pollard.lower - mode["angles"], mode["angles"] - pollard.upper)
         assert mode["outside_limits"] == [JOINT_NAMES[j] for j in np.flatnonzero(beyond > 1e-9)]
-    print_modes(pollard, modes)
-    out = capsys.readouterr().out
+    rows, _ = said(modes_table(pollard, modes))
     for mode in document["modes"]:
-        rows = [
-            line.split()[1:]
-            for line in out.splitlines()
-            if line.split()[:1] == [mode["branch"]] and len(line.split()) == 7
-        ]
         shown = [*mode["pose"][:3], *np.degrees(mode["pose"][3:])]
         wanted = [*(f"{x:.4f}" for x in shown[:3]), *(f"{x:.2f}" for x in shown[3:])]
-        assert wanted in rows
+        assert [mode["branch"], *wanted] in rows
