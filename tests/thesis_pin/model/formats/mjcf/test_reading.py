@@ -8,7 +8,6 @@ from mujoco_twin import twin
 
 from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.model.formats.mjcf import reading
 from thesis_pin.model.formats.mjcf.reading import read_mjcf
 
 INERTIAL = '<inertial pos="0.1 -0.2 0.3" mass="1.5" fullinertia="0.3 0.4 0.5 0.01 0.02 -0.03"/>'
@@ -312,12 +311,6 @@ def test_what_is_no_model_is_refused_with_its_place(text, says, tmp_path):
     path.write_text(text)
     with pytest.raises(BadInput, match=says):
         read_mjcf(path)
-
-
-def test_without_mujoco_it_says_what_to_install(tmp_path, monkeypatch):
-    monkeypatch.setattr(reading, "has_mujoco", lambda: False)
-    with pytest.raises(BadInput, match=r"pip install 'thesis-pin\[mujoco\]'"):
-        read_mjcf(_file(tmp_path, HINGES))
 
 
 def test_nothing_is_written_beside_the_file(tmp_path):
