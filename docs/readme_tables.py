@@ -1,4 +1,4 @@
-"""Tables of the README and of CONTRIBUTING.md, worked out by the package itself.
+"""Tables of the README, CONTRIBUTING.md and docs/any_robot.md, worked out by the package itself.
 
 Run ``python docs/readme_tables.py`` to renew them; a test fails when they are stale.
 """
@@ -86,6 +86,19 @@ def audits() -> Iterator[str]:
         yield f"| [{name}](docs/audit/{name}.md) | {' | '.join(cells)} |"
 
 
+def formats() -> Iterator[str]:
+    """What is read of each format of robots."""
+    from thesis_pin.report.formats import FORMATS
+
+    yield "| format | told by | used | not used, and named |"
+    yield "| --- | --- | --- | --- |"
+    for one in FORMATS:
+        needs = f" (needs {one.needs})" if one.needs else ""
+        cells = [one.name + needs, one.known_by, "; ".join(one.used), "; ".join(one.passed_over)]
+        cells = [re.sub(r"(<[a-z_]+>)", r"`\1`", cell) for cell in cells]
+        yield f"| {' | '.join(cells)} |"
+
+
 def rooms() -> Iterator[str]:
     """Packages and modules from the ground up, in the order that the layers' contracts give."""
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -114,6 +127,7 @@ Tables = Mapping[str, Callable[[], Iterator[str]]]
 TABLES: dict[str, Tables] = {
     "README.md": {"gaits": gaits, "paths": paths, "audits": audits},
     "CONTRIBUTING.md": {"rooms": rooms},
+    "docs/any_robot.md": {"formats": formats},
 }
 
 

@@ -39,34 +39,16 @@ SKEWED_PATH = SPECIFICATIONS / "skewed.toml"
 """A robot of the same kind with unequal side chains and β54 ≠ 0."""
 
 JOINT_NAMES = (
-    "chain0_shoulder",
-    "chain0_elbow_pitch",
-    "chain0_elbow_yaw",
-    "wrist_roll",
-    "wrist_yaw",
-    "tool_roll",
-    "chain1_shoulder",
-    "chain1_rod_pitch",
-    "chain1_rod_yaw",
-    "chain2_shoulder",
-    "chain2_rod_pitch",
-    "chain2_rod_yaw",
+    *("chain0_shoulder", "chain0_elbow_pitch", "chain0_elbow_yaw"),
+    *("wrist_roll", "wrist_yaw", "tool_roll"),
+    *("chain1_shoulder", "chain1_rod_pitch", "chain1_rod_yaw"),
+    *("chain2_shoulder", "chain2_rod_pitch", "chain2_rod_yaw"),
 )
 """The twelve joints of the cut-open tree, in the order of every ``(..., 12)`` array."""
 
 JOINT_SYMBOLS = (
-    "θ21",
-    "θ43",
-    "θ54",
-    "θ1615",
-    "θ1716",
-    "θ1817",
-    "θ211",
-    "θ651",
-    "θ761",
-    "θ212",
-    "θ652",
-    "θ762",
+    *("θ21", "θ43", "θ54", "θ1615", "θ1716", "θ1817"),
+    *("θ211", "θ651", "θ761", "θ212", "θ652", "θ762"),
 )
 """The thesis's symbols of :data:`JOINT_NAMES`."""
 

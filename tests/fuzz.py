@@ -96,6 +96,7 @@ def targets() -> dict[str, tuple[str, str, Callable[[Path], object]]]:
     import scout_pin
     from thesis_pin.loops.kinematics import mobility
     from thesis_pin.loops.loading import load
+    from thesis_pin.model.pair import pair
 
     scout, pollard = scout_pin.load(), pollard_pin.load()
     pose = [0.45, 0.05, 0.05, 0.1, 0.2, 0.1]
@@ -121,6 +122,14 @@ def targets() -> dict[str, tuple[str, str, Callable[[Path], object]]]:
         robot = load(path, LOOPS / "five_bar.yaml")
         return mobility(robot, robot.q0)
 
+    def dialects(path: Path) -> object:
+        robot = load(path)
+        return pair(robot.description), mobility(robot, robot.q0)
+
+    def beside(path: Path) -> object:
+        robot = load(LOOPS / "dialects.urdf", path)
+        return pair(robot.description), mobility(robot, robot.q0)
+
     time = np.linspace(0, 1, 9)
     walk = "t,support,torso_x,torso_z,left_foot_y\n" + "".join(
         f"{t:g},{'left' if t < 0.5 else 'double'},{0.01 * t:g},0.25,0.02\n" for t in time
@@ -142,6 +151,8 @@ def targets() -> dict[str, tuple[str, str, Callable[[Path], object]]]:
         "path": ((ROOT / "examples" / "spray_arch.toml").read_text(), ".toml", spray),
         "poses": (tool, ".csv", spray),
         "loops": ((LOOPS / "five_bar.yaml").read_text(), ".yaml", loops),
+        "dialects": ((LOOPS / "dialects.urdf").read_text(), ".urdf", dialects),
+        "beside": ((LOOPS / "dialects.yaml").read_text(), ".yaml", beside),
         "tree": ((LOOPS / "five_bar.urdf").read_text(), ".urdf", tree),
     }
 

@@ -13,6 +13,16 @@ from .loops.dynamics import (
     simulate as simulate,
 )
 
+# Motions of any robot
+from .loops.motion.files import (
+    JointMotion as JointMotion,
+    read_motion as read_motion,
+)
+from .report.torque.document import (
+    TorqueReport as TorqueReport,
+    torque_report as torque_report,
+)
+
 # Viewer
 from .pages.player import write_html as write_html
 from .pages.scene import Scene as Scene

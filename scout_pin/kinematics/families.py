@@ -81,7 +81,9 @@ def axis_bounds(leg: LegGeometry, v: Floats, a: Floats, j11: Floats) -> Floats:
 
 
 def _swings(leg: LegGeometry, d: Floats, foot: Floats) -> list[Floats]:
-    """δ at which the four-bar linkage meets reach or a limit of joint 3, 4 or 5.
+    """δ or −δ at which the four-bar linkage meets reach or a limit of joint 3, 4 or 5.
+
+    Both signs are tried by whoever asks: e = −z mirrors the plane, and a sine has both.
 
     Args:
         leg: Geometry of the leg.
@@ -93,8 +95,7 @@ def _swings(leg: LegGeometry, d: Floats, foot: Floats) -> list[Floats]:
     squares = [(x_3 + x_4) ** 2, (x_3 - x_4) ** 2]
     squares += [x_3 * x_3 + x_4 * x_4 + 2 * x_3 * x_4 * np.cos(gamma) for gamma in _limits(leg, 3)]
     for square in squares:  # of the distance from p3 to p5
-        swing = _acos(_over(d * d + x_2 * x_2 - square, 2 * x_2 * d))
-        found += [swing, -swing]
+        found.append(_acos(_over(d * d + x_2 * x_2 - square, 2 * x_2 * d)))
     for gamma in _limits(leg, 2):  # the triangle p2, p4, p5
         along, across = x_2 + x_3 * np.cos(gamma), x_3 * np.sin(gamma)
         reach, lag = np.hypot(along, across), np.arctan2(across, along)

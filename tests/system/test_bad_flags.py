@@ -70,6 +70,7 @@ NUMBERS = {
     "--speed": {"2.5"},
     "--hold": {"2.5"},
     "--samples": set(),
+    "--precision": {"0"},
     "--points": set(),
     "--jobs": set(),
     "--port": {"0"},
@@ -120,6 +121,8 @@ CONTRADICTIONS = {
     "pollard-pin urdf": [],
     "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
     "thesis-pin check": [],
+    "thesis-pin formats": [],
+    "thesis-pin torque": [["--json", "-", "--html", "-"]],
 }
 """Flags that contradict a verb's example, its outputs, or each other."""
 

@@ -26,6 +26,8 @@ SEEN = {
     "fk": set(),
     "info": set(),
     "check": set(),
+    "formats": set(),
+    "torque": {"--out", "--html"},
 }
 """How one sees what a verb found, beside the terminal."""
 

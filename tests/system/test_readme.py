@@ -17,7 +17,7 @@ def blocks(language):
 
 
 @pytest.mark.bytes
-@pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md"])
+@pytest.mark.parametrize("document", ["README.md", "CONTRIBUTING.md", "docs/any_robot.md"])
 def test_tables_are_what_the_package_works_out_now(document):
     renew = runpy.run_path(str(ROOT / "docs" / "readme_tables.py"))["renewed"]
     text = (ROOT / document).read_text(encoding="utf-8")

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from commands import run
+from commands import ROOT, run
 
 DATA = Path(__file__).parents[1] / "thesis_pin" / "loops" / "data"
 BAR, LOOPS = DATA / "five_bar.urdf", DATA / "five_bar.yaml"
@@ -103,3 +103,80 @@ def test_a_free_root_s_freedoms_are_nobody_s_to_hold(capfd):
     assert code == 0
     assert "8 by rank" in " ".join(out.split())
     assert "6 of them the free root's" in " ".join(out.split())
+
+
+MOTION = ROOT / "examples" / "pollard_motors.csv"
+POLLARD = [ROOT / "urdf" / "pollard" / f"pollard.{end}" for end in ("urdf", "closures.yaml")]
+
+
+def torque(capfd, *words):
+    return run("thesis-pin torque", ["torque", *map(str, words)], capfd)
+
+
+def test_torque_says_what_each_motor_needs_on_80_columns(capfd, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    code, out, err = torque(capfd, *POLLARD, MOTION)
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    assert "chain1_shoulder" in out
+    assert "No motor exceeds its limits" in out
+
+
+def test_torque_writes_its_report_and_the_same_numbers_everywhere(capfd, tmp_path):
+    code, out, _ = torque(capfd, *POLLARD, MOTION, "--out", tmp_path / "made", "--json", "-")
+    assert code == 0
+    document = json.loads(out)
+    assert json.loads((tmp_path / "made" / "report.json").read_bytes()) == document
+    header, *rows = (tmp_path / "made" / "samples.csv").read_text().splitlines()
+    column = header.split(",").index("torque_chain0_shoulder_Nm")
+    found = [float(row.split(",")[column]) for row in rows]
+    assert found == [torques[0] for torques in document["torque"]]
+    names = {path.name for path in (tmp_path / "made").iterdir()}
+    assert {"motors.png", "joints.svg", "loops.png", "manifest.sha256"} <= names
+
+
+def test_a_motion_without_rates_is_answered_and_what_is_not_judged_is_said(capfd, tmp_path):
+    lines = [line.split(",") for line in MOTION.read_text().splitlines()[1:]]
+    kept = [k for k, name in enumerate(lines[0]) if not name.endswith(("_rate", "_acceleration"))]
+    bare = tmp_path / "bare.csv"
+    bare.write_text("\n".join(",".join(line[k] for k in kept) for line in lines) + "\n")
+    code, out, err = torque(capfd, *POLLARD, bare)
+    assert (code, err) == (0, "")
+    assert "come from a cubic spline" in " ".join(out.split())
+    assert "isn't judged yet" in " ".join(out.split())
+
+
+def test_torque_beyond_a_limit_is_a_no_only_when_asked_strictly(capfd, tmp_path):
+    weak = tmp_path / "weak.urdf"
+    text = POLLARD[0].read_text()
+    assert 'effort="10.0"' in text
+    weak.write_text(text.replace('effort="10.0"', 'effort="0.1"'))
+    for flags, wanted in (((), 0), (("--strict",), 1)):
+        code, out, err = torque(capfd, weak, POLLARD[1], MOTION, *flags)
+        assert (code, err) == (wanted, "")
+        assert "Motor chain0_shoulder needs" in " ".join(out.split())
+
+
+@pytest.mark.parametrize(
+    ("header", "says"),
+    [("t,chain0_sholder\n", "unknown column"), ("t,chain0_shoulder\n0,1\n1,nan\n", "nan")],
+)
+def test_a_motion_that_is_none_of_the_robot_s_is_refused(header, says, capfd, tmp_path):
+    bad = tmp_path / "bad.csv"
+    bad.write_text(header)
+    code, out, err = torque(capfd, *POLLARD, bad)
+    assert (code, out) == (2, "")
+    assert says in err
+
+
+def test_what_check_writes_reads_back_as_the_same_robot(capfd, tmp_path):
+    code, _, err = check(capfd, *POLLARD, "--write", tmp_path / "made")
+    assert code == 0
+    assert "pollard.closures.yaml" in err
+    again = [tmp_path / "made" / f"pollard.{end}" for end in ("urdf", "closures.yaml")]
+    found = []
+    for pair in (POLLARD, again):
+        code, out, _ = torque(capfd, *pair, MOTION, "--json", "-")
+        assert code == 0
+        found.append(json.loads(out)["torque"])
+    assert found[0] == found[1]

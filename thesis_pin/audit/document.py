@@ -41,9 +41,7 @@ def document(report: AuditReport) -> dict[str, object]:
         },
         "causes": {
             name: {
-                "title": cause.title,
-                "enters": cause.enters,
-                "explanation": cause.explanation,
+                **vars(cause),
                 "rows": [row.id for row in report.rows if row.cause == name],
             }
             for name, cause in report.causes.items()
@@ -53,28 +51,13 @@ def document(report: AuditReport) -> dict[str, object]:
 
 
 def row_document(row: Row) -> dict[str, object]:
-    """One row as JSON."""
-    return {
-        "id": row.id,
-        "source": row.source,
-        "number": list(row.number),
-        "left": row.left,
-        "printed": list(row.printed),
-        "corrected": {str(k): text for k, text in row.corrected.items()} or None,
-        "verdict": row.verdict,
-        "attribution": row.attribution or None,
-        "why": row.why or None,
-        "residual_printed": _finite(row.residual_printed),
-        "residual_corrected": _finite(row.residual_corrected),
-        "places": list(row.places),
-        "kinds": list(row.kinds),
-        "reason": row.reason or None,
-        "effect": row.effect or None,
-        "note": row.note or None,
-        "cause": row.cause or None,
-        "check": row.check or None,
-    }
-
-
-def _finite(value: float | None) -> float | None:
-    return value if value is not None and math.isfinite(value) else None
+    """One row as JSON; what doesn't apply to it is null."""
+    said = {name: list(x) if isinstance(x, tuple) else x for name, x in vars(row).items()}
+    said["corrected"] = {str(k): text for k, text in row.corrected.items()}
+    for name in ("corrected", "attribution", "why", "reason", "effect", "note", "cause", "check"):
+        said[name] = said[name] or None
+    residuals = {"printed": row.residual_printed, "corrected": row.residual_corrected}
+    for name, value in residuals.items():
+        finite = value is not None and math.isfinite(value)
+        said[f"residual_{name}"] = value if finite else None
+    return said

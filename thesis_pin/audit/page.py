@@ -5,12 +5,10 @@ from __future__ import annotations
 import html
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.text import (
-    KIND_NOTE,
     VERDICT_NOTE,
     chapter_table,
     effect_text,
@@ -35,12 +33,13 @@ def page(report: AuditReport) -> str:
         for row in sorted(report.rows, key=lambda row: order.get(row.id, len(order)))
     ]
     sections = [(s.name, str(s.rows), str(s.checked)) for s in report.sections]
+    shown = [chapter_table(report), kind_table(report)]
     return render(
         "audit.html",
         report=report,
         summary=list(summary_lines(report)),
         reading=" ".join((*VERDICT_NOTE, *report.effects)).replace("*", ""),
-        tables=list(_tables(report)),
+        tables=[replace(one, title=one.title.capitalize()) for one in shown if one.rows],
         causes=[(cause, len(rows)) for cause, rows in used_causes(report)],
         rows=articles,
         coverage=Table("Section by section", ("section", "lines", "computed"), sections),
@@ -48,16 +47,6 @@ def page(report: AuditReport) -> str:
         audit_style=web_file("audit.css"),
         script=web_file("audit.js"),
     ).decode()
-
-
-def _tables(report: AuditReport) -> Iterator[Table]:
-    headings, rows = chapter_table(report)
-    yield Table("Verdicts by chapter", headings, rows)
-    headings, rows = kind_table(report)
-    described = [(*row, KINDS[row[0]]) for row in rows]
-    if rows:
-        title = "Mended lines by kind of slip"
-        yield Table(title, (*headings, "what it is"), described, KIND_NOTE, prose=True)
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.rows import HOLDS, VERDICTS, AuditReport, Row
 from thesis_pin.audit.slips import Cause
+from thesis_pin.report.tables import Table
 
 
 def residual_text(value: float | None) -> str:
@@ -72,23 +73,25 @@ def summary_lines(report: AuditReport) -> Iterator[str]:
     yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
 
 
-def chapter_table(report: AuditReport) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """Verdicts by chapter: headings and rows; a verdict that nowhere occurs has no column."""
+def chapter_table(report: AuditReport) -> Table:
+    """Verdicts by chapter; a verdict that nowhere occurs has no column."""
     verdicts = [v for v in VERDICTS if report.counts[v]]
     rows = [
         (chapter, str(sum(counts.values())), *(str(counts[v] or "-") for v in verdicts))
         for chapter, counts in report.by_chapter.items()
     ]
     total = ("all", str(len(report.rows)), *(str(report.counts[v]) for v in verdicts))
-    return ("chapter", "lines", *verdicts), [*rows, total]
+    return Table("verdicts by chapter", ("chapter", "lines", *verdicts), [*rows, total])
 
 
-def kind_table(report: AuditReport) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """Mended lines by kind of slip: headings and rows, without the definitions."""
+def kind_table(report: AuditReport, *, defined: bool = True) -> Table:
+    """Mended lines by kind of slip; ``defined`` says what each kind is."""
     rows = [
-        (kind, *(str(n or "-") for n in counts.values())) for kind, counts in report.by_kind.items()
+        (kind, *(str(n or "-") for n in counts.values()), *[KINDS[kind]] * defined)
+        for kind, counts in report.by_kind.items()
     ]
-    return ("kind of slip", "misprint", "wrong"), rows
+    columns = ("kind of slip", "misprint", "wrong", *["what it is"] * defined)
+    return Table("mended lines by kind of slip", columns, rows, KIND_NOTE, prose=True)
 
 
 VERDICT_NOTE = (
@@ -198,10 +201,9 @@ def markdown(report: AuditReport, command: str) -> str:
     lines += ["", "Outside the audit:", ""]
     lines += [f"- {what}: {why}." for what, why in report.beyond]
     lines += ["", "## Verdicts by chapter", ""]
-    lines += _markdown_table(*chapter_table(report))
+    lines += _markdown_table(chapter_table(report))
     lines += ["", "## Mended lines by kind of slip", ""]
-    headings, rows = kind_table(report)
-    lines += _markdown_table((*headings, "what it is"), [(*row, KINDS[row[0]]) for row in rows])
+    lines += _markdown_table(kind_table(report))
     lines += ["", KIND_NOTE, "", "## Failures by cause", ""]
     lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
     lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
@@ -214,13 +216,13 @@ def markdown(report: AuditReport, command: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+def _markdown_table(table: Table) -> Iterator[str]:
     """A table whose columns of numbers are set to the right."""
-    listed = [tuple(row) for row in rows]
-    numbers = [all(re.fullmatch(r"\d+|-", row[k]) for row in listed) for k in range(len(headings))]
-    yield "| " + " | ".join(headings) + " |"
+    count = len(table.columns)
+    numbers = [all(re.fullmatch(r"\d+|-", row[k]) for row in table.rows) for k in range(count)]
+    yield "| " + " | ".join(table.columns) + " |"
     yield "| " + " | ".join("---:" if right else "---" for right in numbers) + " |"
-    yield from ("| " + " | ".join(_cell(cell) for cell in row) + " |" for row in listed)
+    yield from ("| " + " | ".join(_cell(cell) for cell in row) + " |" for row in table.rows)
 
 
 def used_causes(report: AuditReport) -> list[tuple[Cause, list[Row]]]:

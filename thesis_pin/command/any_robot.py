@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from thesis_pin.command.options import number
 from thesis_pin.command.registry import Words
 
 if TYPE_CHECKING:  # help has to be quick
@@ -24,6 +25,16 @@ def which_robot(words: Words) -> None:
     )
 
 
+def which_motion(words: Words) -> None:
+    """The file of the joints' motion."""
+    words.add_argument(
+        "motion",
+        metavar="MOTION",
+        help="CSV with t [s] and a column per motor or joint: NAME, NAME_rate, "
+        "NAME_acceleration (SI, or NAME_deg and the like)",
+    )
+
+
 def which_pose(words: Words) -> None:
     """From where the loops are closed, and what the root does."""
     words.add_argument(
@@ -34,6 +45,13 @@ def which_pose(words: Words) -> None:
     )
     words.add_argument(
         "--free-flyer", action="store_true", help="let the root fly freely (default: as described)"
+    )
+    words.add_argument(
+        "--precision",
+        type=number("--precision"),
+        metavar="RAD",
+        help="loop equations that differ by less count as one; 0 takes every one as real "
+        "(default: told from the file's own noise)",
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import difflib
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from thesis_pin.command.running import ExitCode, free
@@ -26,7 +27,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     from thesis_pin.audit import text as faces
     from thesis_pin.audit.document import document
     from thesis_pin.audit.page import page
-    from thesis_pin.command.output import print_entries, print_table, print_text
+    from thesis_pin.command.output import print_entries, print_parts, print_table, print_text
     from thesis_pin.command.progress import track
     from thesis_pin.files import write_file
     from thesis_pin.report.writers import json_bytes
@@ -52,10 +53,9 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
         return ExitCode.DONE
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])
-    headings, chapters = faces.chapter_table(report)
-    print_table([_NARROW.get(h, h) for h in headings], chapters, title="verdicts by chapter")
-    print_table(*faces.kind_table(report), title="mended lines by kind of slip")
-    print_text(faces.KIND_NOTE, "")
+    chapters, kinds = faces.chapter_table(report), faces.kind_table(report, defined=False)
+    narrow = [_NARROW.get(heading, heading) for heading in chapters.columns]
+    print_parts([replace(chapters, columns=narrow), kinds, kinds.note, ""])
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
     print_table(columns, faces.failure_rows(report, every=arguments.every, width=_TITLE))
     print_text(

@@ -6,8 +6,11 @@ import argparse
 
 from thesis_pin.command.any_robot import loaded
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.text import say
 from thesis_pin.command.verbs import Answer, give
+from thesis_pin.files import write_folder
 from thesis_pin.loops.soundness import Soundness, check
+from thesis_pin.model.pair import pair
 from thesis_pin.report.tables import Part, Table
 
 
@@ -15,7 +18,12 @@ def run(arguments: argparse.Namespace) -> ExitCode:
     """Say whether a description is sound, where it closes, and what holds it."""
 
     def answer() -> Answer:
-        found = check(loaded(arguments), pose=arguments.pose)
+        robot = loaded(arguments)
+        found = check(robot, pose=arguments.pose, precision=arguments.precision)
+        if arguments.out:
+            files = {name: text.encode() for name, text in pair(robot.description).items()}
+            write_folder(arguments.out, files)
+            say(f"wrote {', '.join(files)} to {arguments.out}")
         yes = found.sound and (found.held or not arguments.strict)
         return Answer(found.document, lambda: _tell(found), yes=yes)
 

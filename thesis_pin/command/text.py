@@ -10,6 +10,8 @@ import re
 import sys
 import unicodedata
 
+from thesis_pin.errors import escaped
+
 LONGEST = 1000
 """Characters of a line, beyond which a message is cut."""
 MOST_LINES = 200
@@ -35,10 +37,7 @@ def clean(text: str) -> str:
 
 
 def _line(line: str) -> str:
-    visible = "".join(
-        letter if letter.isprintable() else letter.encode("unicode_escape").decode("ascii")
-        for letter in line[: LONGEST + 1]
-    )
+    visible = escaped(line[: LONGEST + 1], LONGEST + 1, keep="")
     if len(visible) <= LONGEST and len(line) <= LONGEST:
         return visible
     return f"{visible[:LONGEST]}... ({len(line)} characters)"

@@ -95,32 +95,60 @@ def give(
 
 
 def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
-    """Report on a motion where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
+    """Report on a motion that the robot's own options ask for; see :func:`deliver`."""
+    return deliver(
+        arguments,
+        what,
+        lambda bar: _report(robot, arguments, lambda _: arguments.samples, bar),
+        figures=robot.name_of(robot.figures),
+        page=robot.name_of(robot.page),
+        table=robot.name_of(robot.table),
+    )
+
+
+def deliver(
+    arguments: argparse.Namespace,
+    what: str,
+    make: Callable[[Bar], Report],
+    *,
+    figures: str,
+    page: str,
+    table: str,
+) -> ExitCode:
+    """Put a report where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
 
     Every content exists before the first file is written; but if a figure or the
     page fails, the data are written all the same.
+
+    Args:
+        arguments: With ``out``, ``json``, ``html`` and ``strict``.
+        what: What is going on meanwhile, for a progress bar.
+        make: Works the report out.
+        figures: ``module:function`` of the report's files, by name.
+        page: The same of its page.
+        table: The same of its tables and paragraphs.
     """
     from thesis_pin.report.writers import csv_bytes, json_bytes
 
     files: dict[str, bytes] = {}
-    content = page = b""
+    content = written = b""
     with Bar(what) as bar:
-        answer = _report(robot, arguments, lambda _: arguments.samples, bar)
+        answer = make(bar)
         if arguments.json or arguments.out:
             content = json_bytes(answer.document())
         if arguments.out:
             files = {"report.json": content, "samples.csv": csv_bytes(answer.columns())}
         try:
-            drawn = _hook(robot, robot.figures)(answer) if arguments.out else {}
-            page = _hook(robot, robot.page)(answer) if arguments.html else b""
+            drawn = _called(figures)(answer) if arguments.out else {}
+            written = _called(page)(answer) if arguments.html else b""
         except Exception:
             _deliver(arguments, files, content)
             raise
     _deliver(arguments, files | drawn, content)
     if arguments.html:
-        write_file(arguments.html, page)
+        write_file(arguments.html, written)
     if free(arguments):
-        print_parts(_hook(robot, robot.table)(answer))
+        print_parts(_called(table)(answer))
     refused = arguments.strict and not answer.within_limits
     return ExitCode.NO if refused else ExitCode.DONE
 
@@ -231,7 +259,11 @@ def audit(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def _hook(robot: Robot, name: str) -> Any:
     """One of the robot's functions, imported when it is needed."""
-    return found(robot.name_of(name))
+    return _called(robot.name_of(name))
+
+
+def _called(name: str) -> Any:
+    return found(name)
 
 
 def _load(robot: Robot, arguments: argparse.Namespace) -> Any:

@@ -10,12 +10,11 @@ import pinocchio as pin
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from thesis_pin.errors import Unreachable
+from thesis_pin.loops.closing import close_each, loop_gaps
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.kinematics import close, residual, residual_derivative
+from thesis_pin.loops.kinematics import residual, residual_derivative
 from thesis_pin.loops.poses import in_range, named_pose, neutral
-from thesis_pin.model.closure_types import rows_of
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -76,7 +75,9 @@ class Assembly:
         return max(self.gaps, key=lambda gap: max(gap.distance, gap.angle), default=None)
 
 
-def assembly(robot: ClosedRobot, pose: str | None = None) -> Assembly:
+def assembly(
+    robot: ClosedRobot, pose: str | None = None, *, precision: float | None = None
+) -> Assembly:
     """A closed configuration of a robot, inside the joints' ranges if there is one.
 
     The search starts at the pose asked for; without one at the neutral pose and the
@@ -85,6 +86,7 @@ def assembly(robot: ClosedRobot, pose: str | None = None) -> Assembly:
     Args:
         robot: The robot.
         pose: See :func:`thesis_pin.loops.poses.named_pose`; then nothing else is tried.
+        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
 
     Returns:
         What was found; if nothing closes, where the gap is least.
@@ -92,10 +94,10 @@ def assembly(robot: ClosedRobot, pose: str | None = None) -> Assembly:
     best: Assembly | None = None
     starts = list(_starts(robot, pose))
     for start, q in starts:
-        try:
-            closed = close(robot, q)
-        except Unreachable:
+        closing = close_each(robot, q, precision=precision)
+        if not closing.closed:
             continue
+        closed = closing.q
         found = Assembly(closed, True, start, gaps(robot, closed), outside(robot, closed))
         if not found.outside:
             return found
@@ -107,19 +109,15 @@ def assembly(robot: ClosedRobot, pose: str | None = None) -> Assembly:
 def gaps(robot: ClosedRobot, q: Array) -> tuple[Gap, ...]:
     """How far each loop, then each coupling, is open at a configuration ``(nq,)``."""
     opening = residual(robot, q)
-    found, row = [], 0
-    for loop in robot.loops:
-        mask = rows_of(loop.kind)
-        shifts = sum(mask[:3]) if mask is not None and any(mask) else 1
-        part = opening[row : row + loop.size]
-        distance, angle = (float(np.linalg.norm(x)) for x in (part[:shifts], part[shifts:]))
-        found.append(Gap(loop.name, loop.frames, distance, angle))
-        row += loop.size
-    known = singles(robot.model)
-    for coupling, value in zip(robot.supplement.couplings, opening[row:], strict=False):
+    found = [
+        Gap(loop.name, loop.frames, *map(float, gap))
+        for loop, gap in zip(robot.loops, loop_gaps(robot, opening), strict=True)
+    ]
+    known, first = singles(robot.model), len(opening) - len(robot.couplings)
+    for coupling, value in zip(robot.couplings, np.abs(opening[first:]).tolist(), strict=True):
         turns = any(known[name].turns for name in coupling.coefficients if name in known)
-        size = abs(float(value))
-        found.append(Gap(coupling.name, (), 0.0 if turns else size, size if turns else 0.0))
+        distance, angle = (0.0, value) if turns else (value, 0.0)
+        found.append(Gap(coupling.name, (), distance, angle))
     return tuple(found)
 
 

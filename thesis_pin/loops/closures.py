@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
+from math import inf
 
 import numpy as np
 import pinocchio as pin
@@ -29,6 +30,9 @@ from thesis_pin.model.joining import joined
 from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
 from thesis_pin.model.supplement import Closure, Motor, Supplement
 
+NO_LIMIT = 1e30
+"""Torque, force or speed from which a joint's limit stands for none."""
+
 
 class ClosedRobot(LoadedRobot):
     """A tree with closed loops and motors; its calculus is in :mod:`thesis_pin.loops.kinematics`.
@@ -42,7 +46,8 @@ class ClosedRobot(LoadedRobot):
     Attributes:
         description: What it was made from.
         loops: The closed loops, in the file's order.
-        motors: What is known of each motor, in the file's order.
+        motors: What is known of each motor, in the file's order; of effort and speed the
+            limits of its joint, if nothing else is said.
         actuators: Names of the motor joints, in the file's order.
         actuated: Their places in a velocity vector, shape ``(motors,)``.
         actuated_q: Where they begin in a configuration vector, shape ``(motors,)``; a
@@ -200,5 +205,16 @@ def _motors(model: pin.Model, given: Sequence[Motor], where: str) -> tuple[Motor
                     remedy="Write each motor's full name once",
                 )
             name = joint if motor.name == part else motor.name
-            motors[joint] = replace(motor, joint=joint, name=name)
+            motors[joint] = _limited(model, replace(motor, joint=joint, name=name))
     return tuple(motors.values())
+
+
+def _limited(model: pin.Model, motor: Motor) -> Motor:
+    """A motor with the limits of its joint where it says none itself; 0 there says none."""
+    place = model.joints[model.getJointId(motor.joint)].idx_v
+    effort, speed = model.upperEffortLimit[place], model.upperVelocityLimit[place]
+    if motor.effort == (-inf, inf) and 0.0 < effort < NO_LIMIT:
+        motor = replace(motor, effort=(-float(effort), float(effort)))
+    if motor.speed == inf and 0.0 < speed < NO_LIMIT:
+        motor = replace(motor, speed=float(speed))
+    return motor

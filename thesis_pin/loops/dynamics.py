@@ -41,6 +41,7 @@ from thesis_pin.loops.loads import (
     external_forces,
     open_tree_forces,
 )
+from thesis_pin.loops.newton import CUT
 from thesis_pin.loops.solve import Solved, solve
 from thesis_pin.loops.survey import Survey
 from thesis_pin.loops.surveying import surveyed
@@ -77,7 +78,7 @@ class LoopDynamics:
         freedom: Degrees of freedom by rank, shape ``(...)``.
         condition: Condition number of Nᵀ B, shape ``(...)``.
         uncertainty: How far the torques may be off because of the file's noise, relative to
-            the largest of them; zero where that can't matter, shape ``(...)``.
+            the largest of them, at most, shape ``(...)``.
         gaps: Opening of each loop [m], [rad], shape ``(..., loops, 2)``.
         unique: Whether the motors' torques are determined (as many as freedoms).
         determined: Whether the loop forces are (independent equations), shape ``(...)``.
@@ -230,9 +231,9 @@ class _Work:
             return other
         except BadInput:
             if self.check:
-                raise
+                raise error from None
         values = np.linalg.svd(scaled, compute_uv=False)
-        rank = int((values > 10 * self.survey.noise).sum())
+        rank = int((values > max(CUT, 10 * self.survey.noise)).sum())
         return replace(self.survey, rank=rank, passive_rank=-1, idle=())
 
     def _uncertainty(
@@ -245,9 +246,13 @@ class _Work:
         tau: Array,
         solved: Solved,
     ) -> Array:
-        """Five times what moving along the weakest motion, by the noise, does to the torques."""
+        """Five times what moving along the weakest motion, by the noise, does to the torques.
+
+        Where that is little, its estimate from the weakest singular value alone.
+        """
         robot, survey, scale = self.robot, self.survey, self.robot.scale
-        result = np.zeros(len(q))
+        with np.errstate(divide="ignore"):
+            result = np.asarray(5 * survey.blur / solved.weakest**2)
         some = np.flatnonzero(is_uncertain(survey, solved.weakest))
         if not some.size or not survey.rank:
             return result
@@ -256,7 +261,8 @@ class _Work:
         motors = len(robot.actuators)
         largest = np.abs(solved.driven[some, :motors]).max(axis=1, initial=0.0)
         largest = np.maximum(largest, 1e-3 * np.abs(tau[some]).max(axis=1))
-        step = survey.noise / values
+        largest_share = np.zeros(len(some))
+        step = survey.blur / values
         for sign in (1.0, -1.0):
             moves = sign * step[:, None] * motions * scale.columns
             moved = np.array(
@@ -270,8 +276,9 @@ class _Work:
             again = solve(survey, scale, other, forces, self.driven, robot.passive).driven
             change = np.abs(again - solved.driven[some])[:, :motors].max(axis=1, initial=0.0)
             share = 5 * change / np.where(largest > 0, largest, 1.0)
-            result[some] = np.maximum(result[some], share)
-        result[some] = np.where(survey.noise > 1e-3 * values**2, result[some], 0.0)
+            largest_share = np.maximum(largest_share, share)
+        # A step as long as the way to the singularity may end beyond it: nothing is known.
+        result[some] = np.where(step > 0.5 * values, np.inf, largest_share)
         if self.check and (result > REFUSED).any():
             k = int(np.argmax(result > REFUSED))
             raise SingularPose(

@@ -107,8 +107,8 @@ class Equations:
                 pin.computeJointJacobians(model, data, q[k])
             else:
                 pin.computeJointJacobiansTimeVariation(model, data, q[k], v[k])
-                rates[k] = data.dJ
-            columns[k] = data.J
+                rates[k] = data.dJ.reshape(6, -1)  # of one joint it is flat
+            columns[k] = data.J.reshape(6, -1)
             for slot, (turn, point) in enumerate(seen):
                 turns[k, slot], points[k, slot] = turn, point
         turns, points = turns[:, self._which], points[:, self._which]

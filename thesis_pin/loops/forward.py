@@ -27,6 +27,7 @@ from thesis_pin.loops.survey import Survey, describe_gap
 from thesis_pin.loops.surveying import surveyed
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import function, instance, real
+from thesis_pin.numeric.complements import complement
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 Array = NDArray[np.float64]
@@ -131,7 +132,7 @@ class ForwardDynamics:
             raise SingularPose("the robot moves only infinitesimally: no acceleration is its own")
         poses = robot.system.poses(data, q[None], v[None])
         matrix = scale.rows[:, None] * robot.system.jacobian(poses)[0] * scale.columns
-        left, values, right = np.linalg.svd(matrix)
+        left, values, right = np.linalg.svd(matrix, full_matrices=False)
         rank = survey.rank
         next_one = values[rank] if rank < len(values) else 0.0
         if rank and values[rank - 1] < 10 * max(survey.noise, next_one):
@@ -141,7 +142,7 @@ class ForwardDynamics:
             )
         known = left[:, :rank].T @ (scale.rows * robot.system.drift(poses, v[None])[0])
         opened = -scale.columns * (right[:rank].T @ (known / values[:rank]))
-        allowed = scale.columns[:, None] * right[rank:].T
+        allowed = scale.columns[:, None] * complement(right[:rank])
         mass = pin.crba(robot.model, data, q)
         return allowed, opened, np.triu(mass) + np.triu(mass, 1).T
 

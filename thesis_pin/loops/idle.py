@@ -65,8 +65,8 @@ def idle_groups(
     if rank >= len(passive):
         return ()
     model = equations.model
-    null = np.linalg.svd(matrix)[2][rank:] if len(matrix) else np.eye(len(passive))
-    project = null.T @ null
+    held = np.linalg.svd(matrix, full_matrices=False)[2][:rank]
+    project = np.eye(len(passive)) - held.T @ held
     mass = pin.crba(model, model.createData(), q)
     mass = np.triu(mass) + np.triu(mass, 1).T
     mass = scale.columns[:, None] * mass * scale.columns

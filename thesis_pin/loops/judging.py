@@ -147,4 +147,4 @@ def refuse_opening(
 
 def is_uncertain(survey: Survey, weakest: Array) -> NDArray[np.bool_]:
     """Where the file's noise may move torques by more than it is large, ``(n,)``."""
-    return np.asarray(survey.noise > 1e-3 * weakest**2)
+    return np.asarray(survey.blur > 1e-3 * weakest**2)

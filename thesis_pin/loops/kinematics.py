@@ -29,6 +29,7 @@ from thesis_pin.loops.rows import WELD
 from thesis_pin.loops.surveying import surveyed
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import instance
+from thesis_pin.numeric.complements import complement
 
 Array = NDArray[np.float64]
 
@@ -159,9 +160,9 @@ def mobility(robot: ClosedRobot, q: ArrayLike, *, precision: float | None = None
     q = vector("q", q, model.nq)
     survey, scale = surveyed(robot, q, precision), robot.scale
     matrix = scale.rows[:, None] * jacobian(robot, q) * scale.columns
-    _, values, rows = np.linalg.svd(matrix)
+    _, values, rows = np.linalg.svd(matrix, full_matrices=False)
     rank = int((values > 10 * survey.noise).sum())
-    driven = np.linalg.svd(rows[rank:, robot.actuated], compute_uv=False)
+    driven = np.linalg.svd(complement(rows[:rank])[robot.actuated], compute_uv=False)
     return Mobility(
         equations=robot.equations,
         independent=rank,

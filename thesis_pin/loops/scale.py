@@ -74,4 +74,4 @@ def _slides(model: pin.Model) -> NDArray[np.bool_]:
     """Which velocities are translations."""
     data = model.createData()
     pin.computeJointJacobians(model, data, pin.neutral(model))
-    return np.asarray(np.abs(data.J[3:]).max(axis=0, initial=0.0) < 1e-9)
+    return np.asarray(np.abs(data.J.reshape(6, -1)[3:]).max(axis=0, initial=0.0) < 1e-9)

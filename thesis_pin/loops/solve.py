@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.loops.scale import Scale
 from thesis_pin.loops.survey import Block, Survey
+from thesis_pin.numeric.complements import complement
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -147,8 +148,8 @@ def _by_rank(
     """Redundant motors, and structures: they share with the least sum of squares."""
     count, _, nv = scaled.shape
     rank, weights = survey.rank, scale.columns[driven]
-    left, values, basis = np.linalg.svd(scaled)
-    motions = basis[:, rank:]
+    left, values, basis = np.linalg.svd(scaled, full_matrices=False)
+    motions = np.swapaxes(complement(basis[:, :rank]), 1, 2)
     shares, condition = np.zeros((count, len(driven))), np.full(count, np.inf)
     if nv > rank and len(driven):
         inner, singular, outer = np.linalg.svd(motions[:, :, driven] * weights, full_matrices=False)

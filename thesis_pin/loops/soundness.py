@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,12 +10,15 @@ from numpy.typing import NDArray
 
 from thesis_pin.loops.assembly import Assembly, assembly
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.joints import is_free, singles
+from thesis_pin.loops.joints import singles
 from thesis_pin.loops.kinematics import Mobility, mobility
 from thesis_pin.model.second_reading import second_reading
 from thesis_pin.tolerances import TOLERANCES
 
 SCHEMA, VERSION = "thesis-pin/check", 1
+
+MOST_JOINTS = 8
+"""Joints of an idle group that are named."""
 
 
 @dataclass(frozen=True)
@@ -49,15 +53,10 @@ class Soundness:
         return self.assembly.q if self.closes else None
 
     @property
-    def base(self) -> int:
-        """Freedoms of a free root, which no motor is asked to hold."""
-        return 6 if is_free(self.robot.model) else 0
-
-    @property
     def held(self) -> bool:
         """Whether the motors hold every freedom but a free root's."""
         found = self.mobility
-        return found is not None and found.held >= found.freedom - self.base
+        return found is not None and found.held >= found.freedom - found.base
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -112,10 +111,21 @@ class Soundness:
             else {
                 "counted": found.counted,
                 "by_rank": found.freedom,
-                "base": self.base,
+                "base": found.base,
                 "equations": found.equations,
                 "independent": found.independent,
                 "held_by_motors": found.held,
+                "moves": found.moves,
+                "noise": found.noise,
+                "idle": [
+                    {
+                        "joints": list(group.joints),
+                        "freedoms": group.freedoms,
+                        "inertia": group.inertia,
+                        "light": group.light,
+                    }
+                    for group in found.idle
+                ],
                 "configuration": self.closed,
             },
             "explanation": " ".join(self.sentences()),
@@ -135,53 +145,71 @@ class Soundness:
             f"Degrees of freedom: {found.freedom} by rank "
             f"({found.independent} of {found.equations} loop equations are independent), "
             f"{found.counted} by counting"
-            + (f", {self.base} of them the free root's." if self.base else "."),
-            *self._judged(),
-            _held(len(self.robot.actuators), found, self.base),
+            + (f", {found.base} of them the free root's." if found.base else "."),
+            *self._judged(found),
+            *_held(len(self.robot.actuators), found),
             *doubts,
         )
 
-    def _judged(self) -> tuple[str, ...]:
-        if not self.assembly.gaps:
-            return ()
-        most = max(max(gap.distance, gap.angle) for gap in self.assembly.gaps)
-        said = (f"It was judged in the assembly nearest to {self.assembly.start}.",)
-        if most <= TOLERANCES.loop_closure:
-            return said
-        return (*said, f"Its widest gap there is {self.assembly.widest}: the file's digits.")
+    def _judged(self, found: Mobility) -> Iterator[str]:
+        if self.assembly.gaps:
+            yield f"It was judged in the assembly nearest to {self.assembly.start}."
+        most = max((max(gap.distance, gap.angle) for gap in self.assembly.gaps), default=0.0)
+        if most > TOLERANCES.loop_closure:
+            yield f"Its widest gap there is {self.assembly.widest}: the file's digits."
+        if not found.moves and found.independent < self.robot.model.nv:
+            yield "It moves only infinitesimally: a step along its freedom doesn't survive closing."
+        if found.by_tolerance:
+            yield (
+                "It moves only because equations that differ by "
+                f"{found.noise:.1e} rad count as equal; --precision 0 takes every one as real."
+            )
 
 
-def _held(motors: int, found: Mobility, base: int) -> str:
+def _held(motors: int, found: Mobility) -> Iterator[str]:
     """What the motors hold, in words."""
-    asked = found.freedom - base
+    asked = found.freedom - found.base
     if not motors:
-        return "No motors are named."
-    if found.held < asked:
-        return (
-            f"The motors hold {found.held} of them: with all motors still, "
-            f"{asked - found.held} can move by itself."
+        yield "No motors are named."
+    elif found.held >= asked:
+        rest = " but the root's" if found.base else ""
+        more = f", {motors - asked} more than needed" if motors > asked else ""
+        yield f"The motors hold all of them{rest}{more}."
+    else:
+        loose = asked - found.held
+        yield (
+            f"The motors hold {found.held} of them: with all motors still, {loose} can move by "
+            f"{'itself' if loose == 1 else 'themselves'}."
         )
-    rest = " but the root's" if base else ""
-    if motors > asked:
-        return f"The motors hold all of them{rest}, {motors - asked} more than needed."
-    return f"The motors hold all of them{rest}."
+    for group in found.idle:
+        named = ", ".join(group.joints[:MOST_JOINTS])
+        more = f" and {len(group.joints) - MOST_JOINTS} more" * (len(group.joints) > MOST_JOINTS)
+        kind = "light enough to do no harm if nothing loads it" if group.light else "with inertia"
+        yield (
+            f"No motor holds {named}{more} ({group.freedoms}, {group.inertia:.1e} of the largest "
+            f"inertia: {kind})."
+        )
 
 
-def check(robot: ClosedRobot, *, pose: str | None = None) -> Soundness:
+def check(
+    robot: ClosedRobot, *, pose: str | None = None, precision: float | None = None
+) -> Soundness:
     """Look for a closed configuration of a robot, count its freedom, read it a second time.
 
     Args:
         robot: From :func:`thesis_pin.load`.
         pose: Where to look; see :func:`thesis_pin.loops.assembly.assembly`.
+        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
 
     Returns:
         What was found; the same for the same robot.
 
     Raises:
         UnknownName: There is no such pose.
-        ModelError: yourdfpy can't read the URDF.
+        ModelError: yourdfpy can't read the URDF, or nobody can tell whether some equation
+            of the loops is real.
     """
     differences = tuple(second_reading(robot.description))
-    found = assembly(robot, pose)
-    moves = mobility(robot, found.q) if found.closed else None
+    found = assembly(robot, pose, precision=precision)
+    moves = mobility(robot, found.q, precision=precision) if found.closed else None
     return Soundness(robot, found, moves, differences)

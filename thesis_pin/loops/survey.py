@@ -36,7 +36,8 @@ NEARLY = 1e-3
 
 _STEPS, _LENGTH = 12, 0.15  # poses of the survey, steps between them [rad]
 _SURVIVES = 0.3  # least share of a step that closing leaves, where a mechanism moves
-_OPEN = 1e-3  # largest scaled gap that could be a file's rounding
+_SEEN, _CHANCE = 3.0, 6.0  # gaps this much above the equations' own noise; what they may hide
+_OPEN = 3e-4  # largest scaled gap that could be a file's rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +62,8 @@ class Survey:
     Attributes:
         rank: Number of independent equations, at every generic pose.
         noise: How far the file's digits let dependent equations differ [rad].
+        blur: How far that may move joints where the mechanism is well conditioned [rad]; more
+            than the noise where only the loops' gaps show it, which may be small by chance.
         weakest: Typical weakest singular value of the independent ones [rad].
         passive_rank: Rank of the passive columns, generically.
         blocks: Parts of the passive columns that don't touch each other.
@@ -74,6 +77,7 @@ class Survey:
 
     rank: int
     noise: float
+    blur: float
     weakest: float
     passive_rank: int
     blocks: tuple[Block, ...]
@@ -126,6 +130,7 @@ def survey(
     if walk.gaps[0] > limit:
         raise Unreachable(*_open(equations, walk.first))
     noise = max(shown, max(gaps, default=0.0))
+    blur = noise if noise <= _SEEN * shown else _CHANCE * noise
     weakest = float(middle[rank - 1]) if rank else 1.0
     if precision is None and weakest < max(NEARLY, MARGIN * noise):
         raise ModelError(
@@ -147,7 +152,7 @@ def survey(
     freedom = equations.model.nv - rank
     moves = not freedom or float(np.median(walk.shares or [1.0])) >= _SURVIVES
     return Survey(
-        rank, noise, weakest, passive_rank, blocks, freedom, moves, idle, walk.first.q, cut
+        rank, noise, blur, weakest, passive_rank, blocks, freedom, moves, idle, walk.first.q, cut
     )
 
 
@@ -157,9 +162,10 @@ class _Walk:
     def __init__(self, equations: Equations, scale: Scale, q: Array, cut: float) -> None:
         self.equations, self.scale, self.cut = equations, scale, cut
         self.data = equations.model.createData()
+        self.widest = max(_OPEN, cut)
         self.every = np.arange(equations.model.nv, dtype=np.intp)
         self.first = self._closed(q)
-        _refuse_open(equations, self.first)
+        _refuse_open(equations, self.first, self.widest)
         self.configurations = [self.first.q]
         self.gaps = [self.first.scaled]
         self.shares: list[float] = []
@@ -181,7 +187,7 @@ class _Walk:
                     pin.integrate(equations.model, q, scale.columns * step), iterations=30
                 )
                 within = ((low - slack <= moved.q) & (moved.q <= high + slack)).all()
-                if moved.converged and moved.scaled <= _OPEN and (within or not inside):
+                if moved.converged and moved.scaled <= self.widest and (within or not inside):
                     went = pin.difference(equations.model, q, moved.q) / scale.columns
                     self.shares.append(float(went @ step) / float(step @ step))
                     q = moved.q
@@ -202,10 +208,11 @@ class _Walk:
     def _direction(self, matrix: Array, generator: np.random.Generator) -> Array | None:
         """A random unit step along the motions that the loops leave; None if there are none."""
         touched = np.abs(matrix).max(axis=0, initial=0.0) > 0
-        _, values, right = np.linalg.svd(matrix)
-        null = right[(values > self.cut).sum() :]
-        step = null.T @ generator.normal(size=len(null))
-        step = np.where(touched, step, 0.0)  # joints of no loop would only dilute the step
+        _, values, right = np.linalg.svd(matrix, full_matrices=False)
+        held = right[values > self.cut]
+        # Joints of no loop would only dilute the step.
+        step = np.where(touched, generator.normal(size=matrix.shape[1]), 0.0)
+        step -= held.T @ (held @ step)
         size = float(np.linalg.norm(step))
         return np.asarray(step / size) if size > 1e-6 else None
 
@@ -229,8 +236,8 @@ def _blocks(
     return tuple(blocks)
 
 
-def _refuse_open(equations: Equations, settled: Settled) -> None:
-    if np.abs(settled.gap).max(initial=0.0) > TOLERANCES.loop_closure and settled.scaled > _OPEN:
+def _refuse_open(equations: Equations, settled: Settled, widest: float) -> None:
+    if np.abs(settled.gap).max(initial=0.0) > TOLERANCES.loop_closure and settled.scaled > widest:
         raise Unreachable(*_open(equations, settled))
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.closing_frames import closing_pairs
-from thesis_pin.model.supplement import Closure, Supplement
+from thesis_pin.model.supplement import Closure, Coupling, Supplement
 
 
 def joined(description: Description, beside: Supplement) -> Description:
@@ -47,10 +48,13 @@ def joined(description: Description, beside: Supplement) -> Description:
     supplement = replace(
         own,
         closures=(*kept, *beside.closures),
-        couplings=tuple({one.name: one for one in (*own.couplings, *beside.couplings)}.values()),
+        couplings=(*_others(own.couplings, beside.couplings), *beside.couplings),
         motors=beside.motors,
         joint_types={**own.joint_types, **beside.joint_types},
-        springs=tuple({one.joint: one for one in (*own.springs, *beside.springs)}.values()),
+        springs=(
+            *(one for one in own.springs if one.joint not in {new.joint for new in beside.springs}),
+            *beside.springs,
+        ),
         armature={**own.armature, **beside.armature},
         damping={**own.damping, **beside.damping},
         friction={**own.friction, **beside.friction},
@@ -64,6 +68,12 @@ def joined(description: Description, beside: Supplement) -> Description:
         warnings=tuple(warnings),
         passed_over=tuple(passed_over),
     )
+
+
+def _others(own: Sequence[Coupling], new: Sequence[Coupling]) -> Iterator[Coupling]:
+    """Couplings that aren't given anew."""
+    names = {one.name for one in new}
+    return (one for one in own if one.name not in names)
 
 
 def _movers(description: Description) -> dict[str, str]:

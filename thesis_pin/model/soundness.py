@@ -194,3 +194,13 @@ def _check_joint(joint: Joint, here: str) -> None:
         raise ModelError(
             "its axis is zero", where=here, allowed=f"a vector of length at least {LIMITS.axis:g}"
         )
+    if joint.kind == "planar":
+        across = np.abs(joint.axis[:2]).max()
+        if joint.axis[2] <= 0.0 or across > TOLERANCES.model * joint.axis[2]:
+            raise ModelError(
+                f"it is planar about {joint.axis.tolist()}, and Pinocchio moves planar joints "
+                "across z whatever their axis",
+                where=here,
+                allowed='<axis xyz="0 0 1"/>',
+                remedy="Turn its <origin> so that z is the normal of the plane",
+            )

@@ -160,12 +160,6 @@ def encode(scene: Scene) -> bytes:
 
 
 def _item(item: Item) -> dict[str, object]:
-    sampled = {name: np.asarray(values) for name, (values, _) in item.arrays().items()}
     kind = type(item).__name__.lower()
-    return {
-        "kind": kind,
-        "name": item.name,
-        "group": item.group,
-        **item.constants(),
-        "samples": sampled,
-    }
+    own, sampled = item.constants(), item.arrays()
+    return {"kind": kind, "name": item.name, "group": item.group, **own, "samples": sampled}

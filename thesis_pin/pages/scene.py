@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -17,8 +18,7 @@ from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
 
 GREY = "#9AA0A6"
 
-Sampled = dict[str, tuple[np.ndarray, tuple[int, ...]]]
-"""Name → array and its shape, in which -1 stands for the scene's samples."""
+Shapes = Mapping[str, tuple[int, ...]]
 
 
 @dataclass(frozen=True)
@@ -50,13 +50,18 @@ class Item:
     name: str
     group: str
 
-    def arrays(self) -> Sampled:
-        """What changes over time."""
-        raise NotImplementedError
+    sampled: ClassVar[Shapes] = {}
+    """Attributes that change over time, and their shapes; -1 stands for the scene's samples."""
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """What changes over time: the attributes in :attr:`sampled` that aren't None."""
+        given = {name: getattr(self, name) for name in self.sampled}
+        return {name: np.asarray(array) for name, array in given.items() if array is not None}
 
     def constants(self) -> dict[str, object]:
-        """What doesn't change, JSON-ready or arrays."""
-        raise NotImplementedError
+        """What doesn't change: JSON-ready or arrays."""
+        own = (name for name in vars(self) if name not in ("name", "group", *self.sampled))
+        return {name: getattr(self, name) for name in own}
 
 
 @dataclass(frozen=True)
@@ -73,22 +78,13 @@ class Shape(Item):
         opacity: 0 to 1.
     """
 
+    sampled: ClassVar[Shapes] = {"placement": (-1, 7)}
+
     geometry: Mapping[str, object]
     placement: np.ndarray
     local: np.ndarray
     colour: str = GREY
     opacity: float = 1.0
-
-    def arrays(self) -> Sampled:
-        return {"placement": (self.placement, (-1, 7))}
-
-    def constants(self) -> dict[str, object]:
-        return {
-            "geometry": self.geometry,
-            "local": self.local,
-            "colour": self.colour,
-            "opacity": self.opacity,
-        }
 
 
 @dataclass(frozen=True)
@@ -102,16 +98,12 @@ class Ball(Item):
         level: Index into ``colours`` over time, shape ``(n,)``; None for the first.
     """
 
+    sampled: ClassVar[Shapes] = {"position": (-1, 3), "level": (-1,)}
+
     position: np.ndarray
     radius: float
     colours: tuple[str, ...]
     level: np.ndarray | None = None
-
-    def arrays(self) -> Sampled:
-        return {"position": (self.position, (-1, 3)), **_level(self.level)}
-
-    def constants(self) -> dict[str, object]:
-        return {"radius": self.radius, "colours": list(self.colours)}
 
 
 @dataclass(frozen=True)
@@ -127,23 +119,14 @@ class Arrow(Item):
         head: False draws a bar without a tip.
     """
 
+    sampled: ClassVar[Shapes] = {"origin": (-1, 3), "vector": (-1, 3)}
+
     origin: np.ndarray
     vector: np.ndarray
     scale: float
     radius: float
     colour: str
     head: bool = True
-
-    def arrays(self) -> Sampled:
-        return {"origin": (self.origin, (-1, 3)), "vector": (self.vector, (-1, 3))}
-
-    def constants(self) -> dict[str, object]:
-        return {
-            "scale": self.scale,
-            "radius": self.radius,
-            "colour": self.colour,
-            "head": self.head,
-        }
 
 
 @dataclass(frozen=True)
@@ -156,15 +139,11 @@ class Trace(Item):
         colour: ``#rrggbb``.
     """
 
+    sampled: ClassVar[Shapes] = {"points": (-1, 3)}
+
     points: np.ndarray
     radius: float
     colour: str
-
-    def arrays(self) -> Sampled:
-        return {"points": (self.points, (-1, 3))}
-
-    def constants(self) -> dict[str, object]:
-        return {"radius": self.radius, "colour": self.colour}
 
 
 @dataclass(frozen=True)
@@ -178,20 +157,12 @@ class Polygon(Item):
         width: Width of its border [m].
     """
 
+    sampled: ClassVar[Shapes] = {"which": (-1,)}
+
     outlines: tuple[np.ndarray, ...]
     which: np.ndarray
     colour: str
     width: float
-
-    def arrays(self) -> Sampled:
-        return {"which": (self.which, (-1,))}
-
-    def constants(self) -> dict[str, object]:
-        return {
-            "outlines": [np.asarray(outline, dtype=float) for outline in self.outlines],
-            "colour": self.colour,
-            "width": self.width,
-        }
 
 
 @dataclass(frozen=True)
@@ -206,21 +177,13 @@ class Arc(Item):
         level: Index into ``colours`` over time, shape ``(n,)``; None for the first.
     """
 
+    sampled: ClassVar[Shapes] = {"placement": (-1, 7), "angle": (-1,), "level": (-1,)}
+
     placement: np.ndarray
     angle: np.ndarray
     radius: float
     colours: tuple[str, ...]
     level: np.ndarray | None = None
-
-    def arrays(self) -> Sampled:
-        return {
-            "placement": (self.placement, (-1, 7)),
-            "angle": (self.angle, (-1,)),
-            **_level(self.level),
-        }
-
-    def constants(self) -> dict[str, object]:
-        return {"radius": self.radius, "colours": list(self.colours)}
 
 
 @dataclass(frozen=True)
@@ -288,8 +251,8 @@ class Scene:
             if item.name in seen:
                 raise BadInput(f"two items are called {item.name!r}", where="scene")
             seen.add(item.name)
-            for name, (values, shape) in item.arrays().items():
-                wanted = tuple(len(time) if size == -1 else size for size in shape)
+            for name, values in item.arrays().items():
+                wanted = tuple(len(time) if size == -1 else size for size in item.sampled[name])
                 if np.shape(values) != wanted:
                     raise WrongShape(f"{name} of item {item.name!r}", np.shape(values), str(wanted))
                 if np.isinf(values).any():
@@ -326,7 +289,3 @@ def frames(duration: float) -> int:
 def levels(values: np.ndarray, bounds: Sequence[float]) -> np.ndarray:
     """Index of the band each value lies in: 0 below the first bound, and so on up."""
     return np.asarray(np.digitize(values, bounds).astype(float))
-
-
-def _level(level: np.ndarray | None) -> Sampled:
-    return {} if level is None else {"level": (level, (-1,))}

@@ -141,3 +141,10 @@ def test_the_summary_finds_the_worst_of_the_columns(report):
         assert shares["speed_share_time"][k] == time[np.argmax(speed)]
     worst = max(shares["torque_share"].max(), shares["speed_share"].max())
     assert summary["within_limits"] == shares["within"] == bool(worst <= 1)
+
+
+def test_work_goes_on_from_block_to_block_of_samples(pollard):
+    """As SciPy sums it at once."""
+    many = pollard_pin.trajectory_report(pollard, pollard_pin.appendix_b(), samples=9001)
+    work = cumulative_trapezoid(many.power, many.joints.time, axis=0, initial=0)
+    np.testing.assert_allclose(many.work_done, work, rtol=1e-12, atol=1e-14)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.kinematics.inverse import leg_inverse_kinematics
+from scout_pin.kinematics.inverse import BRANCHES, leg_inverse_kinematics
 from scout_pin.specification import SIDES, Specification
 from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.rotations import transform
@@ -94,7 +94,29 @@ def test_a_family_that_one_narrow_joint_bounds_has_a_valid_branch(leg, kind, joi
         lower, upper = np.full(6, -4.0), np.full(6, 4.0)
         lower[joint], upper[joint] = angles[joint] - 1e-4, angles[joint] + 1e-4
         narrow = replace(leg, lower=lower, upper=upper)
-        assert leg_inverse_kinematics(narrow, pose).valid.any()
+        valid = leg_inverse_kinematics(narrow, pose).valid
+        assert valid.any()
+        if kind == "axis free":  # e and −e are one axis with the two signs S_E
+            signs = np.array(BRANCHES)[:, 0]
+            assert valid[signs > 0].sum() == valid[signs < 0].sum()
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_a_level_foot_axis_below_the_hip_leaves_no_angle_free(scout, side):
+    """The last axis is level there, but v isn't: every branch is one pose, by Pinocchio."""
+    leg, number = scout.legs[side], SIDES.index(side)
+    pose = level_pose(leg, 0.03, 0.7, 1.4, 0.2)
+    pose[2, 3] -= 0.09
+    data = scout.model.createData()
+    for reference in (None, np.full(6, 0.3)):
+        found = leg_inverse_kinematics(leg, pose, reference)
+        assert found.reachable.sum() >= 4
+        for theta in found.angles[found.reachable]:
+            q = pin.neutral(scout.model)
+            q[7 + 6 * number : 13 + 6 * number] = theta
+            pin.framesForwardKinematics(scout.model, data, q)
+            placed = data.oMf[scout.sole_frames[side]].homogeneous
+            np.testing.assert_allclose(placed, pose, atol=1e-12)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -79,11 +79,10 @@ def test_rates_and_torques_with_the_floors_wrenches_move_pinocchios_robot(report
 
 def test_the_zmp_is_where_the_floors_wrenches_have_no_level_moment(report):
     columns = report.columns()
-    moment, force = np.zeros((2, len(columns["time_s"]), 3))
+    moment = np.zeros((len(columns["time_s"]), 3))
     for side, foot in zip(SIDES, (report.motion.left_foot, report.motion.right_foot), strict=True):
         wrench = np.stack([columns[f"{side}_{part}"] for part in FORCES], axis=1)
         zmp = np.stack([columns["zmp_x_m"], columns["zmp_y_m"], np.zeros(len(wrench))], axis=1)
-        force += wrench[:, :3]
         moment += wrench[:, 3:] + np.cross(foot.position - zmp, wrench[:, :3])
     np.testing.assert_allclose(moment[:, :2], 0.0, atol=1e-10)
 

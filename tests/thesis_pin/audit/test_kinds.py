@@ -133,8 +133,9 @@ def test_all_verdicts_fit_eighty_columns(monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "80")
     verdicts = ("holds", "misprint", "wrong", "illegible", "not checkable", "unexplained")
     rows = tuple(Row(f"robot:{v}:a", "", (), "a", ("b",), {}, v) for v in verdicts for _ in "12")
-    headings, chapters = audit_report.chapter_table(AuditReport("Thesis", rows, (), "", {}))
-    print_table([_NARROW.get(heading, heading) for heading in headings], chapters[-1:])
+    chapters = audit_report.chapter_table(AuditReport("Thesis", rows, (), "", {}))
+    narrow = [_NARROW.get(heading, heading) for heading in chapters.columns]
+    print_table(narrow, chapters.rows[-1:])
     shown = capsys.readouterr().out
     assert "…" not in shown
     for word in ("chapter", "misprint", "checkable", "explained"):

@@ -59,6 +59,17 @@ def test_a_part_of_a_name_stands_for_every_joint_that_has_it(tmp_path):
     assert found.actuators == ("motor_left", "motor_right")
 
 
+def test_motors_have_their_joints_limits_unless_they_say_their_own(tmp_path):
+    extra = "thesis_pin: {format: 1, motors: [{joint: motor_left, effort: [-1, 2], speed: 3}]}\n"
+    left, right = with_closures(tmp_path, FIVE_BAR + extra).motors
+    assert (left.effort, left.speed) == ((-1.0, 2.0), 3.0)
+    assert (right.effort, right.speed) == ((-5.0, 5.0), 10.0)
+    text = (DATA / "five_bar.urdf").read_text().replace('effort="5"', 'effort="0"')
+    (tmp_path / "none.urdf").write_text(text.replace('velocity="10"', 'velocity="1e308"'))
+    for motor in load(tmp_path / "none.urdf", DATA / "five_bar.yaml").motors:
+        assert (motor.effort, motor.speed) == ((-np.inf, np.inf), np.inf)
+
+
 def test_an_exact_name_beats_a_part_of_one(tmp_path):
     """motor is a joint, and a part of motor_spare too."""
     tree = (DATA / "four_bar.urdf").read_text().replace('"pin_a"', '"motor_spare"')

@@ -63,6 +63,11 @@ SILENT = {
         ModelError,
         "'k follows j'",
     ),
+    "a planar joint across x": (
+        robot(link("a"), link("b"), joint("j", "a", "b", kind="planar", axis="1 0 0")),
+        ModelError,
+        "joint 'j': it is planar about",
+    ),
     "negative mass": (
         robot(link("a"), link("b").replace('value="1"', 'value="-1"'), joint("j", "a", "b")),
         NonPhysicalInertia,

@@ -21,7 +21,7 @@ from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias, TypeVar
 
-from pydantic import Field, field_validator
+from pydantic import AfterValidator, Field, field_validator
 
 from thesis_pin.errors import BadInput
 from thesis_pin.model.closure_types import WORDS, rows_of
@@ -54,11 +54,20 @@ ByJoint = Annotated[dict[str, _Entry], Field(max_length=LIMITS.entries)]
 NotNegative = Annotated[float, Field(ge=0)]
 
 
+def _not_zero(value: float) -> float:
+    if abs(value) < LIMITS.smallest:
+        raise ValueError(f"must not be zero (its magnitude at least {LIMITS.smallest:g})")
+    return value
+
+
+Factor = Annotated[float, AfterValidator(_not_zero)]
+
+
 class CouplingEntry(Strict):
     """Σ factor·q = constant."""
 
     name: str
-    coefficients: Annotated[ByJoint[float], Field(min_length=1)]
+    coefficients: Annotated[ByJoint[Factor], Field(min_length=1)]
     constant: float = 0.0
 
 
@@ -179,9 +188,11 @@ class ClosureFile(Strict):
             (("joint_name",), self.joint_name),
             (("thesis_pin", "motors"), [motor.joint for motor in extra.motors]),
             (("thesis_pin", "springs"), [spring.joint for spring in extra.springs]),
+            (("thesis_pin", "couplings"), [coupling.name for coupling in extra.couplings]),
         ):
+            what = "coupling" if "couplings" in place else "joint"
             for name in sorted(name for name, count in Counter(listed).items() if count > 1):
-                yield place, "names a joint twice", name
+                yield place, f"names a {what} twice", name
         for number, (first, second) in enumerate(self.closed_loop):
             if first == second:
                 yield ("closed_loop", number), "closes a frame onto itself", first

@@ -127,7 +127,7 @@ def _mimics(tree: Description) -> tuple[list[Coupling], list[str]]:
                     where=here,
                     allowed="joints of one degree of freedom",
                 )
-        moves = tree.joints[other].kind != "fixed" and factor != 0.0
+        moves = tree.joints[other].kind != "fixed" and abs(factor) >= LIMITS.smallest
         factors = {name: 1.0, other: -factor} if moves else {name: 1.0}
         found.append(Coupling(f"{name} follows {other}", factors, offset))
     return found, odd

@@ -14,6 +14,7 @@ from thesis_pin.model.description import Description, Joint
 from thesis_pin.model.formats.cutting import CLOSING, Cutter, along
 from thesis_pin.model.formats.urdf_elements import children, named, numbers, once, placement_of
 from thesis_pin.model.formats.xml import Element
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.supplement import Closure, Coupling
 
 _TYPES = {
@@ -85,6 +86,10 @@ def read_couplings(root: Element, tree: Description) -> list[Coupling]:
         if "ratio" not in parts:
             raise ModelError("it has no <ratio>", where=here)
         (ratio,) = numbers(parts["ratio"], "value", 1, here)
+        if abs(ratio) < LIMITS.smallest:
+            raise ModelError(
+                f"its ratio is {ratio}", where=here, allowed=f"at least {LIMITS.smallest:g}"
+            )
         chains = [
             _chain(_link(parts.get(end), end, tree, here), above)
             for end in ("predecessor", "successor")
@@ -100,7 +105,7 @@ def read_couplings(root: Element, tree: Description) -> list[Coupling]:
                         f"it ties joint {joint.name!r}, a {joint.kind} one", where=here
                     )
                 factors[joint.name] = factor
-        if not any(factors.values()):
+        if not factors:
             raise ModelError("no joint moves between its links", where=here)
         found.append(Coupling(name, factors))
     return found

@@ -151,6 +151,7 @@ def test_a_loop_that_says_nothing_sound_is_refused_with_its_place(old, new, erro
         ('<predecessor link="b"/><successor link="base"/>', "no <ratio>"),
         ('<predecessor link="b"/><ratio value="2"/>', "no <successor>"),
         ('<predecessor link="b"/><successor link="b"/><ratio value="2"/>', "no joint moves"),
+        ('<predecessor link="b"/><successor link="base"/><ratio value="0"/>', "its ratio is 0"),
     ],
 )
 def test_a_coupling_that_ties_nothing_is_refused(coupling, says):

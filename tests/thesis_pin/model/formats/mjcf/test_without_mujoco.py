@@ -162,7 +162,7 @@ def test_masses_that_are_not_the_files_are_refused(tmp_path, without, monkeypatc
 
 
 def test_a_number_that_is_none_is_refused(tmp_path, without):
-    with pytest.raises(ModelError, match="a number in it can't be read .*x1"):
+    with pytest.raises(ModelError, match=r"a number in it can't be read .*x1"):
         without(_file(tmp_path, CHAIN.replace('damping="0.6"', 'damping="x1"')))
 
 

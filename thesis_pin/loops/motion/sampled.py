@@ -1,0 +1,128 @@
+"""Rates and accelerations of sampled coordinates, and what the samples can't carry.
+
+Everything that is made from samples goes through :func:`with_derivatives`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from decimal import Decimal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thesis_pin.numeric.interpolation import interpolate
+
+Array = NDArray[np.float64]
+
+COARSE = 0.1
+"""Share of the largest acceleration that the samples' steps may make up without a warning."""
+
+UNLIKE = 0.5
+"""Share by which a column of rates may differ from the derivative of its values."""
+
+_LINES = 2_000
+"""Lines that are looked at for the number of digits."""
+
+
+def with_derivatives(
+    time: Array, value: Array, rate: Array | None, acceleration: Array | None
+) -> tuple[Array, Array]:
+    """Rates and accelerations of samples: those given, else of a cubic spline through them.
+
+    The spline passes through every sample (not-a-knot), as for gaits; it smooths nothing.
+
+    Args:
+        time: Sample times [s], shape ``(n,)``.
+        value: Samples, shape ``(n,)``.
+        rate: Their rates, where known.
+        acceleration: Their accelerations, where known.
+
+    Returns:
+        Rates and accelerations, each ``(n,)``.
+    """
+    still = np.zeros(len(time))
+    if rate is None:
+        if not np.ptp(value) > 0:
+            return still, still
+        curve = interpolate(time, value, "free")
+        return curve(time, 1), curve(time, 2)
+    if acceleration is None:
+        turn = interpolate(time, rate, "free")(time, 1) if np.ptp(rate) > 0 else still
+        return rate, turn
+    return rate, acceleration
+
+
+def quantum(cells: Sequence[str], values: Array) -> float:
+    """Smallest step that a column's samples resolve, in the column's unit.
+
+    Either its last written digit, or the step of a counter: the least difference of its
+    values, if all differences are multiples of it and neighbours often share a value.
+
+    Args:
+        cells: The samples as written.
+        values: The same as numbers, shape ``(n,)``.
+    """
+    looked = cells[:: max(1, len(cells) // _LINES)]
+    places = [int(exponent) for cell in looked if (exponent := _exponent(cell)) is not None]
+    digit = 10.0 ** min(places) if places else 0.0
+    steps = np.diff(np.unique(values))
+    moves = np.diff(values)
+    if not steps.size or not (moves == 0).any():
+        return digit
+    least = float(steps.min())
+    multiples = steps / least
+    if multiples.max() < 1e6 and (np.abs(multiples - np.round(multiples)) < 1e-2).all():
+        return max(digit, least)
+    return digit
+
+
+def _exponent(cell: str) -> int | None:
+    exponent = Decimal(cell).as_tuple().exponent
+    return exponent if isinstance(exponent, int) else None
+
+
+def resolution_warning(
+    joint: str, time: Array, step: float, acceleration: Array, turns: bool
+) -> list[str]:
+    """A warning where the samples' steps drown the acceleration that is made from them.
+
+    A step of size q is an error of q/√12; a second difference of such errors over a time
+    h is 6 q/√12/h² where it is largest.
+
+    Args:
+        joint: Name of the joint, for the message.
+        time: Sample times [s], shape ``(n,)``.
+        step: What the samples resolve [rad] or [m].
+        acceleration: Made from them, shape ``(n,)``.
+        turns: Whether it is a turn.
+    """
+    size = float(np.abs(acceleration).max())
+    noise = 6 * step / math.sqrt(12) / float(np.median(np.diff(time))) ** 2
+    if not size or noise <= COARSE * size:
+        return []
+    unit = "rad" if turns else "m"
+    return [
+        f"{joint} is sampled in steps of {step:.2g} {unit}, which alone make an acceleration of "
+        f"{noise:.2g} {unit}/s²; the samples' largest is {size:.2g} {unit}/s². Give "
+        f"{joint}_rate and {joint}_acceleration, or smoother samples."
+    ]
+
+
+def unlike(joint: str, time: Array, value: Array, given: Sequence[Array | None]) -> list[str]:
+    """Warnings where a column of rates isn't the derivative of the one before it."""
+    warnings, below = [], value
+    for word, column in zip(("rate", "acceleration"), given, strict=True):
+        if column is None or len(time) < 4:
+            break
+        slope = interpolate(time, below, "free")(time, 1) if np.ptp(below) > 0 else 0 * time
+        size = float(np.sqrt(np.mean(column**2) + np.mean(slope**2)))
+        if size and float(np.sqrt(np.mean((column - slope) ** 2))) > UNLIKE * size:
+            ratio = float(column @ slope / (slope @ slope)) if slope.any() else math.inf
+            warnings.append(
+                f"{joint}_{word} isn't the derivative of its samples: it is {ratio:.3g} times "
+                "that on average. Is its unit right?"
+            )
+        below = column
+    return warnings

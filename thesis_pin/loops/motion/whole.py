@@ -1,0 +1,184 @@
+"""Motion of all joints of a closed robot from that of some, starting at a pose."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import ArrayLike, NDArray
+
+from thesis_pin.errors import SingularPose, TrajectoryError
+from thesis_pin.loops.closing import close, follow, motor_positions
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.idle import joint_names
+from thesis_pin.loops.joints import singles
+from thesis_pin.loops.motion.files import JointMotion
+from thesis_pin.loops.motion.sampled import with_derivatives
+from thesis_pin.model.supplement import Motor
+from thesis_pin.numeric.arrays import vector
+from thesis_pin.numeric.checks import instance
+from thesis_pin.numeric.trajectory import JointTrajectory
+
+Array = NDArray[np.float64]
+
+STRIDE = 0.1
+"""Longest step of a joint [rad], [m] on the way from the pose to the first sample."""
+
+JUMP = 0.2
+"""Share of a passive joint's largest rate by which it may jump between two samples."""
+
+
+@dataclass(frozen=True, eq=False)
+class WholeMotion:
+    """What all joints do.
+
+    Attributes:
+        joints: Positions, rates and accelerations in Pinocchio's coordinates.
+        driving: Joints whose motion determines the others'.
+        still: Those of them that no column moves: they stay at the pose.
+    """
+
+    joints: JointTrajectory
+    driving: tuple[str, ...]
+    still: tuple[str, ...]
+
+
+def whole_motion(
+    robot: ClosedRobot, motion: JointMotion, pose: ArrayLike, *, precision: float | None = None
+) -> WholeMotion:
+    """What every joint does while some move as they are told.
+
+    Where only motors are told, the other motors stay at the pose; where joints are told
+    that aren't motors, they alone determine the motion.
+
+    Args:
+        robot: The robot.
+        motion: How some of its joints move.
+        pose: Closed configuration from which the joints go to the first sample, which
+            picks the assembly, shape ``(nq,)``.
+        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
+
+    Raises:
+        Unreachable: A sample can't be closed.
+        SingularPose: The given joints don't determine the others, at a sample or between two.
+        TrajectoryError: The base is told to move, and the robot is tied to the world.
+    """
+    instance("robot", robot, ClosedRobot, "thesis_pin.load()")
+    instance("motion", motion, JointMotion, "read_motion()")
+    start = vector("pose", pose, robot.model.nq)
+    motors = robot.actuators or tuple(singles(robot.model))
+    alone = not set(motion.joints) <= set(motors)
+    still = () if alone else tuple(name for name in motors if name not in motion.joints)
+    driving = (*motion.joints, *still)
+    view = driven_by(robot, driving)
+    resting = motor_positions(view, start)[len(motion.joints) :]
+    count = len(motion.time)
+    position = np.column_stack([motion.position, np.tile(resting, (count, 1))])
+    rate, acceleration = (
+        np.column_stack([values, np.zeros((count, len(still)))])
+        for values in (motion.rate, motion.acceleration)
+    )
+    base = None if motion.base is None else base_motion(robot, motion.time, motion.base)
+    guess = _approach(view, start, position[0], precision)
+    found = follow(
+        view, motion.time, position, rate, acceleration, guess, base=base, precision=precision
+    )
+    _refuse_jump(view, found)
+    return WholeMotion(found, driving, still)
+
+
+def driven_by(robot: ClosedRobot, joints: Sequence[str]) -> ClosedRobot:
+    """The same robot with other joints for motors."""
+    supplement = replace(robot.supplement, motors=tuple(Motor(name, joint=name) for name in joints))
+    root = pin.JointModelFreeFlyer() if len(robot.base) else None
+    return ClosedRobot(replace(robot.description, supplement=supplement), root_joint=root)
+
+
+def _approach(robot: ClosedRobot, pose: Array, first: Array, precision: float | None) -> Array:
+    """A closed configuration at the first sample, reached in small steps from the pose."""
+    start = motor_positions(robot, pose)
+    way = first - start
+    steps = int(np.ceil(np.abs(way).max(initial=0.0) / STRIDE))
+    q = pose
+    for share in np.arange(1, steps + 1) / max(steps, 1):
+        q = close(robot, q, start + share * way, precision=precision)
+    return q
+
+
+def _refuse_jump(robot: ClosedRobot, found: JointTrajectory) -> None:
+    """Refuse a motion in which passive joints turn back where the driving ones don't.
+
+    Where the driving joints lose control two assemblies meet; samples step over that pose,
+    and the joints go on in either. Their rates then jump by more than accelerations explain.
+    """
+    step = np.diff(found.time)[:, None]
+    jump = np.abs(np.diff(found.v, axis=0) - step * (found.a[1:] + found.a[:-1]) / 2)
+    size = np.abs(found.v).max(axis=0, initial=0.0)
+    share = jump / np.where(size > 0, size, 1.0)
+    driving = share[:, robot.actuated].max(axis=1, initial=0.0)
+    passive = share[:, robot.passive].max(axis=1, initial=0.0)
+    bad = (passive > JUMP) & (driving < JUMP / 2)
+    if bad.any():
+        k = int(np.argmax(bad))
+        name = joint_names(robot.model)[robot.passive[share[k, robot.passive].argmax()]]
+        raise SingularPose(
+            f"the rate of {name!r} jumps by {passive[k]:.0%} of its largest: there "
+            f"{', '.join(robot.actuators)} don't determine the other joints",
+            where=f"between t = {found.time[k]:.6g} and {found.time[k + 1]:.6g} s",
+            remedy="Give the motors' motion, sample more finely, or keep away from that pose",
+        )
+
+
+def base_motion(robot: ClosedRobot, time: Array, base: Array) -> tuple[Array, Array, Array]:
+    """Poses, rates and accelerations of a free root through sampled placements.
+
+    Positions and quaternions follow the curves of :func:`with_derivatives`.
+
+    Args:
+        robot: The robot.
+        time: Sample times [s], shape ``(n,)``.
+        base: Positions and quaternions x, y, z, w, shape ``(n, 7)``.
+
+    Returns:
+        Poses ``(n, 7)``, rates and accelerations ``(n, 6)`` in the root's own axes, as
+        Pinocchio counts them.
+
+    Raises:
+        TrajectoryError: A loop ties the robot to the world, or there are too few samples.
+    """
+    from scipy.spatial.transform import Rotation
+
+    for loop in robot.loops:
+        if any(robot.model.frames[k].parentJoint == 0 for k in loop.ids):
+            raise TrajectoryError(
+                f"the base moves, and loop {loop.name!r} ties the robot to the world",
+                remedy="Leave the base's columns out",
+            )
+    if len(time) < 4:
+        raise TrajectoryError(f"{len(time)} samples of the base", allowed="at least 4")
+    turns = Rotation.from_quat(base[:, 3:])
+    quaternion = turns.as_quat()
+    same = np.einsum("ij,ij->i", quaternion[1:], quaternion[:-1]) >= 0
+    quaternion[1:] *= np.cumprod(np.where(same, 1.0, -1.0))[:, None]  # q and −q are one turn
+    places = np.column_stack([base[:, :3], quaternion])
+    courses = [with_derivatives(time, column, None, None) for column in places.T]
+    rates, pushes = (np.column_stack(columns) for columns in zip(*courses, strict=True))
+    omega, alpha = (2 * _seen_from(quaternion, x[:, 3:]) for x in (rates, pushes))
+    velocity, acceleration = rates[:, :3], pushes[:, :3]
+    linear = turns.apply(velocity, inverse=True)
+    # Pinocchio's acceleration is the derivative of the velocity's components in moving axes.
+    pushed = turns.apply(acceleration, inverse=True) - np.cross(omega, linear)
+    return (
+        places,
+        np.column_stack([linear, omega]),
+        np.column_stack([pushed, alpha]),
+    )
+
+
+def _seen_from(quaternion: Array, change: Array) -> Array:
+    """Vector part of q̄ q̇ for quaternions x, y, z, w, shape ``(n, 3)``."""
+    along, real = change[:, :3], quaternion[:, 3:]
+    turned = np.cross(quaternion[:, :3], along)
+    return np.asarray(real * along - quaternion[:, :3] * change[:, 3:] - turned)

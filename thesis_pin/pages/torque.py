@@ -1,0 +1,57 @@
+"""A torque report of any robot as a page one can mail: view, plots, tables."""
+
+from __future__ import annotations
+
+from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
+from thesis_pin.pages.scene import thinned
+from thesis_pin.pages.torque_scene import scene
+from thesis_pin.report.tables import Table
+from thesis_pin.report.torque.curves import plots
+from thesis_pin.report.torque.document import TorqueReport
+from thesis_pin.report.torque.tables import loops_table, motors_table
+
+MOST_SAMPLES = 1201
+"""Of a plot."""
+
+
+def torque_page(report: TorqueReport) -> bytes:
+    """A torque report as one self-contained HTML file.
+
+    Args:
+        report: The report; plots show at most :data:`MOST_SAMPLES` of its samples.
+    """
+    time = report.joints.time
+    return html(
+        Page(
+            title=f"{report.robot.model.name}: {report.motion.name}",
+            subtitle=f"{time[-1] - time[0]:.4g} s, {len(time)} samples, {len(report.names)} motors",
+            good=report.within_limits,
+            verdict=[*report.verdict(), *report.warnings()],
+            tiles=_tiles(report),
+            plots=plots(report, thinned(time, MOST_SAMPLES)),
+            tables=_tables(report),
+            scene=scene(report),
+        )
+    )
+
+
+def _tiles(report: TorqueReport) -> list[Tile]:
+    a = report.actuators
+    tiles = []
+    for unit, chosen in (("N·m", report.turning), ("N", ~report.turning)):
+        if chosen.any():
+            word = "torque" if unit == "N·m" else "force"
+            tiles.append(Tile(f"peak {word}", f"{a.peak_torque[chosen].max():.4g} {unit}"))
+    tiles += [
+        Tile("peak power of a motor", f"{a.peak_power.max(initial=0.0):.4g} W"),
+        Tile("work given by the motors", f"{a.positive_work.sum():.4g} J"),
+    ]
+    if report.robot.loops:
+        tiles.append(Tile("peak loop force", f"{report.loop_force_size.max():.4g} N"))
+    carried = report.unexplained.max() <= 1e-6
+    return [*tiles, Tile("unexplained load", f"{report.unexplained.max():.1e}", bool(carried))]
+
+
+def _tables(report: TorqueReport) -> list[Table]:
+    loops = [loops_table(report)] if report.robot.loops else []
+    return [motors_table(report), *loops, parameters_table(report.parameters), software()]

@@ -1,0 +1,1 @@
+"""The torque report of any robot: numbers, verdict, documents, curves, figures."""

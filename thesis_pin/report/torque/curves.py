@@ -1,0 +1,128 @@
+"""What a torque report's figures and page draw, as data."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thesis_pin.loops.joints import singles
+from thesis_pin.report.curves import PALETTE, VERMILLION, Curve, Dash, Plot
+from thesis_pin.report.torque.document import TorqueReport
+
+Array = NDArray[np.float64]
+Samples = NDArray[np.intp]
+
+PER_PLOT = 12
+"""Curves that one plot can show apart: six colours, two dashes."""
+
+_DASHES: tuple[Dash, ...] = ("solid", "dash")
+
+
+def motors(report: TorqueReport, keep: Samples) -> list[list[Plot]]:
+    """Torque, speed and power (columns) of the motors, those with a unit and dozen a row.
+
+    Args:
+        report: The report.
+        keep: Indices of the samples that are drawn.
+    """
+    rows = []
+    for turns in (True, False):
+        chosen = np.flatnonzero(report.turning == turns)
+        kind, unit = ("Torque", "N·m") if turns else ("Force", "N")
+        speed = "rad/s" if turns else "m/s"
+        for some in [chosen[k : k + PER_PLOT] for k in range(0, len(chosen), PER_PLOT)]:
+            names = [report.names[k] for k in some]
+            rows.append(
+                [
+                    _plot(report, keep, title, text, label, names, values[:, some])
+                    for title, text, label, values in (
+                        (
+                            kind,
+                            "Of the motors.",
+                            f"{kind.lower()} [{unit}]",
+                            report.dynamics.torque,
+                        ),
+                        ("Speed", "Of the motors' joints.", f"speed [{speed}]", report.speed),
+                        ("Power", "Negative: the motor brakes.", "power [W]", report.power),
+                    )
+                ]
+            )
+    return rows
+
+
+def loops(report: TorqueReport, keep: Samples) -> list[Plot]:
+    """Size of the force in each loop."""
+    names = [loop.name for loop in report.robot.loops]
+    size = report.loop_force_size
+    return [
+        _plot(
+            report,
+            keep,
+            "Loop forces",
+            "Size of the force that closes each loop.",
+            "force [N]",
+            names[k : k + PER_PLOT],
+            size[:, k : k + PER_PLOT],
+        )
+        for k in range(0, len(names), PER_PLOT)
+    ]
+
+
+def joints(report: TorqueReport, keep: Samples) -> list[Plot]:
+    """Positions of all joints of one freedom: turns, then slides."""
+    plots = []
+    for turns in (True, False):
+        chosen = [one for one in singles(report.robot.model).values() if one.turns == turns]
+        for some in [chosen[k : k + PER_PLOT] for k in range(0, len(chosen), PER_PLOT)]:
+            columns = [one.position(report.joints.q) for one in some]
+            if turns:
+                columns = [np.degrees(np.unwrap(column)) for column in columns]
+            plots.append(
+                _plot(
+                    report,
+                    keep,
+                    "Joint angles" if turns else "Slides",
+                    "Motors and passive joints.",
+                    "angle [°]" if turns else "position [mm]",
+                    [one.name for one in some],
+                    np.column_stack(columns) * (1.0 if turns else 1e3),
+                )
+            )
+    return plots
+
+
+def unexplained(report: TorqueReport, keep: Samples) -> Plot:
+    """Load that neither motors nor loops carry."""
+    return Plot(
+        "Unexplained load",
+        "Share of the largest load that neither motors nor loops carry; rounding is 1e-12.",
+        "share [-]",
+        [Curve("unexplained", report.unexplained[keep], VERMILLION)],
+        report.joints.time[keep],
+    )
+
+
+def plots(report: TorqueReport, keep: Samples) -> list[Plot]:
+    """Every plot of a report's page."""
+    return [
+        *(plot for row in motors(report, keep) for plot in row),
+        *loops(report, keep),
+        *joints(report, keep),
+        unexplained(report, keep),
+    ]
+
+
+def _plot(
+    report: TorqueReport,
+    keep: Samples,
+    title: str,
+    text: str,
+    label: str,
+    names: list[str],
+    values: Array,
+) -> Plot:
+    curves = [
+        Curve(name, values[keep, k], PALETTE[k % 6], _DASHES[k // 6 % 2])
+        for k, name in enumerate(names)
+    ]
+    return Plot(title, text, label, curves, report.joints.time[keep])

@@ -1,0 +1,190 @@
+"""The torque report: what a motion takes of any robot's motors and loops."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.closing import close
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.dynamics import inverse_dynamics
+from thesis_pin.loops.joints import singles
+from thesis_pin.loops.motion.files import JointMotion
+from thesis_pin.loops.motion.whole import whole_motion
+from thesis_pin.numeric.arrays import vector
+from thesis_pin.numeric.checks import instance
+from thesis_pin.report.torque import verdict
+from thesis_pin.report.torque.numbers import TorqueNumbers
+from thesis_pin.version import __version__
+
+SCHEMA, VERSION = "thesis-pin/torque", 1
+
+INTERPOLATED = (
+    "Rates and accelerations of {names} come from a cubic spline through the samples. Nothing "
+    "is smoothed, and what the samples' finite resolution does to the torques isn't judged yet."
+)
+
+
+class TorqueReport(TorqueNumbers):
+    """Everything known of a motion of a robot: its numbers, its verdict, its documents."""
+
+    @property
+    def within_limits(self) -> bool:
+        """Whether motors and loops carry the load, and nothing leaves its limits."""
+        return verdict.within_limits(self)
+
+    def verdict(self) -> list[str]:
+        """The answer in plain sentences, the most important first."""
+        return verdict.sentences(self)
+
+    def warnings(self) -> list[str]:
+        """What may make the numbers wrong: of the motion, then of the description."""
+        said = list(self.motion.warnings)
+        if self.motion.interpolated:
+            said.append(INTERPOLATED.format(names=", ".join(self.motion.interpolated)))
+        if self.whole.still:
+            said.append(f"No column moves {', '.join(self.whole.still)}: they stay at the pose.")
+        return said + list(self.robot.description.warnings)
+
+    @property
+    def parameters(self) -> dict[str, object]:
+        """What was asked for."""
+        return {
+            "robot": self.robot.model.name,
+            "motion": self.motion.name,
+            "samples": len(self.joints.time),
+            "given": list(self.motion.joints),
+            "thesis_pin": __version__,
+        }
+
+    def document(self) -> dict[str, object]:
+        """The report as JSON-ready data; docs/any_robot.md describes the schema."""
+        robot, dynamics = self.robot, self.dynamics
+        return {
+            "schema": SCHEMA,
+            "version": VERSION,
+            "robot": robot.model.name,
+            "motors": list(self.names),
+            "units": list(self.units),
+            "joints": list(robot.model.names)[1:],
+            "loops": [
+                {"name": loop.name, "type": loop.kind, "frames": list(loop.frames)}
+                for loop in robot.loops
+            ],
+            "time": self.joints.time,
+            "q": self.joints.q,
+            "v": self.joints.v,
+            "a": self.joints.a,
+            "torque": dynamics.torque,
+            "power": self.power,
+            "work": self.work_done[-1],
+            "loop_force": dynamics.force,
+            "loop_moment": dynamics.moment,
+            "couplings": [one.name for one in robot.couplings],
+            "coupling_force": dynamics.coupling,
+            "base_wrench": dynamics.base,
+            "unexplained": self.unexplained,
+            "uncertainty": dynamics.uncertainty,
+            "condition": [
+                value if np.isfinite(value) else None for value in dynamics.condition.tolist()
+            ],
+            "parameters": self.parameters,
+            "summary": self.summary(),
+        }
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """The samples as columns of a table: name with unit → values."""
+        columns: dict[str, np.ndarray] = {"time_s": self.joints.time}
+        for order, values in (("rate", self.joints.v), ("acceleration", self.joints.a)):
+            for name, joint in singles(self.robot.model).items():
+                if order == "rate":
+                    position = joint.position(self.joints.q)
+                    unwound = np.unwrap(position) if joint.continuous else position
+                    columns[f"{name}_{joint.unit}"] = unwound
+                per = "s" if order == "rate" else "s2"
+                columns[f"{name}_{order}_{joint.unit}_{per}"] = values[:, joint.v]
+        for word, table in (("torque", self.dynamics.torque), ("power", self.power)):
+            for k, name in enumerate(self.names):
+                unit = "W" if word == "power" else self.units[k].replace("·", "")
+                columns[f"{word}_{name}_{unit}"] = table[:, k]
+        for k, _ in enumerate(self.robot.loops):
+            for j, axis in enumerate("xyz"):
+                columns[f"loop_force_{k + 1}_{axis}_N"] = self.dynamics.force[:, k, j]
+            if self.dynamics.moment[:, k].any():
+                for j, axis in enumerate("xyz"):
+                    columns[f"loop_moment_{k + 1}_{axis}_Nm"] = self.dynamics.moment[:, k, j]
+        for k, name in enumerate(("fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm")):
+            if self.dynamics.base.size:
+                columns[f"base_{name}"] = self.dynamics.base[:, k]
+        columns["unexplained"] = self.unexplained
+        return columns
+
+    def summary(self) -> dict[str, object]:
+        """The verdict, peaks and work; without the samples."""
+        a, force = self.actuators, self.loop_force_size
+        return {
+            "within_limits": self.within_limits,
+            "verdict": self.verdict(),
+            "warnings": self.warnings(),
+            "peak_torque": a.peak_torque,
+            "rms_torque": a.rms_torque,
+            "peak_speed": a.peak_speed,
+            "peak_power": a.peak_power,
+            "positive_work": a.positive_work,
+            "negative_work": a.negative_work,
+            "net_work": a.net_work,
+            "effort_limits": [
+                [value if np.isfinite(value) else None for value in pair]
+                for pair in self.effort_limits.T.tolist()
+            ],
+            "effort_use": self.effort_use,
+            "speed_use": self.speed_use,
+            "outside_range": self.outside,
+            "peak_loop_force": force.max(axis=0, initial=0.0),
+            "largest_unexplained": float(self.unexplained.max()),
+            "largest_uncertainty": float(self.dynamics.uncertainty.max()),
+            "noise": self.dynamics.noise,
+            "idle": [
+                {
+                    "joints": list(group.joints),
+                    "freedoms": group.freedoms,
+                    "inertia": group.inertia,
+                    "load": float(load),
+                }
+                for group, load in zip(
+                    self.dynamics.idle, self.dynamics.idle_load.max(axis=0), strict=True
+                )
+            ],
+            "freedom": int(self.dynamics.freedom.max()),
+        }
+
+
+def torque_report(
+    robot: ClosedRobot,
+    motion: JointMotion,
+    *,
+    pose: ArrayLike | None = None,
+    precision: float | None = None,
+) -> TorqueReport:
+    """Work out what a motion takes of a robot's motors and loops.
+
+    Args:
+        robot: From :func:`thesis_pin.load`.
+        motion: From :func:`thesis_pin.read_motion`.
+        pose: Configuration near the start that picks the assembly, shape ``(nq,)``; None
+            for the least open of the description's.
+        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
+
+    Raises:
+        Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
+        NoSolution: Neither motors nor loops carry some load.
+    """
+    instance("robot", robot, ClosedRobot, "thesis_pin.load()")
+    instance("motion", motion, JointMotion, "thesis_pin.read_motion()")
+    start = assembly(robot, precision=precision).q if pose is None else pose
+    closed = close(robot, vector("pose", start, robot.model.nq), precision=precision)
+    whole = whole_motion(robot, motion, closed, precision=precision)
+    joints = whole.joints
+    dynamics = inverse_dynamics(robot, joints.q, joints.v, joints.a, precision=precision)
+    return TorqueReport(robot, motion, whole, dynamics)

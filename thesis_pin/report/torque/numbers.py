@@ -1,0 +1,141 @@
+"""What the motors and loops of any robot have to do over a motion, as numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.dynamics import LoopDynamics
+from thesis_pin.loops.joints import singles
+from thesis_pin.loops.motion.files import JointMotion
+from thesis_pin.loops.motion.whole import WholeMotion
+from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.report.summary import ActuatorSummary, summarise
+from thesis_pin.tolerances import TOLERANCES
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class TorqueNumbers:
+    """A motion of a robot and what it takes.
+
+    Attributes:
+        robot: The robot.
+        motion: The motion that was asked for.
+        whole: What all joints do in it.
+        dynamics: Torques of the motors and forces of the loops.
+    """
+
+    robot: ClosedRobot
+    motion: JointMotion
+    whole: WholeMotion
+    dynamics: LoopDynamics
+
+    @property
+    def joints(self) -> JointTrajectory:
+        """Positions, rates and accelerations of all joints, Pinocchio's coordinates."""
+        return self.whole.joints
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The motors' joints, in the file's order."""
+        return self.robot.actuators
+
+    @property
+    def turning(self) -> NDArray[np.bool_]:
+        """Whether each motor's joint turns rather than slides, shape ``(motors,)``."""
+        known = singles(self.robot.model)
+        return np.array([known[name].turns for name in self.names], dtype=bool)
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Unit of each motor's torque or force."""
+        return tuple("N·m" if turns else "N" for turns in self.turning)
+
+    @property
+    def speed(self) -> Array:
+        """Rates of the motors' joints [rad/s] or [m/s], shape ``(n, motors)``."""
+        return np.asarray(self.joints.v[:, self.robot.actuated])
+
+    @cached_property
+    def power(self) -> Array:
+        """Power that each motor gives to the robot [W], shape ``(n, motors)``."""
+        return np.asarray(self.dynamics.torque * self.speed)
+
+    @cached_property
+    def work_done(self) -> Array:
+        """Its integral since the start, by the trapezoidal rule [J], the same shape."""
+        width = np.diff(self.joints.time)[:, None]
+        steps = width * (self.power[1:] + self.power[:-1]) / 2
+        return np.concatenate([np.zeros((1, steps.shape[1])), np.cumsum(steps, axis=0)])
+
+    @cached_property
+    def actuators(self) -> ActuatorSummary:
+        """Peaks, means and work of each motor."""
+        return summarise(self.names, self.joints.time, self.dynamics.torque, self.speed)
+
+    @property
+    def loop_force_size(self) -> Array:
+        """Size of each loop's force [N], shape ``(n, loops)``."""
+        return np.asarray(np.linalg.norm(self.dynamics.force, axis=-1))
+
+    @property
+    def effort_limits(self) -> Array:
+        """Least and greatest torque of each motor [N·m] or [N], ``(2, motors)``; ±∞ without.
+
+        A limit of zero in a URDF is one that nobody filled in.
+        """
+        model, places = self.robot.model, self.robot.actuated
+        low, high = model.lowerEffortLimit[places], model.upperEffortLimit[places]
+        given = [motor.effort for motor in self.robot.motors]
+        least = np.array([motor[0] for motor in given], dtype=float).reshape(-1)
+        most = np.array([motor[1] for motor in given], dtype=float).reshape(-1)
+        unknown = (high <= 0) & (low >= 0)
+        low, high = np.where(unknown, -np.inf, low), np.where(unknown, np.inf, high)
+        return np.array([np.maximum(low, least), np.minimum(high, most)])
+
+    @property
+    def speed_limits(self) -> Array:
+        """Greatest speed of each motor's joint [rad/s] or [m/s], ``(motors,)``; ∞ without."""
+        given = np.array([motor.speed for motor in self.robot.motors], dtype=float).reshape(-1)
+        limits = self.robot.model.upperVelocityLimit[self.robot.actuated]
+        return np.asarray(np.minimum(np.where(limits > 0, limits, np.inf), given))
+
+    @cached_property
+    def effort_use(self) -> Array:
+        """Largest share of each motor's torque limit, shape ``(motors,)``; 0 without a limit."""
+        least, most = self.effort_limits
+        torque = self.dynamics.torque
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.where(torque >= 0, torque / most, torque / least)
+        return np.asarray(np.nan_to_num(share, nan=0.0, posinf=np.inf).max(axis=0, initial=0.0))
+
+    @property
+    def speed_use(self) -> Array:
+        """Largest share of each motor's speed limit, shape ``(motors,)``; 0 without a limit."""
+        return np.asarray((np.abs(self.speed) / self.speed_limits).max(axis=0, initial=0.0))
+
+    @cached_property
+    def outside(self) -> dict[str, float]:
+        """Joints that leave their range, and by how much [rad] or [m]."""
+        model, q = self.robot.model, self.joints.q
+        found = {}
+        for name, joint in singles(model).items():
+            if joint.continuous:
+                continue
+            low, high = model.lowerPositionLimit[joint.q], model.upperPositionLimit[joint.q]
+            position = joint.position(q)
+            excess = float(np.maximum(position - high, low - position).max())
+            if excess > TOLERANCES.joint_limit:
+                found[name] = excess
+        return found
+
+    @property
+    def unexplained(self) -> Array:
+        """Load that nothing carries, relative to the largest, ``(n,)``; not on harmless idling."""
+        return np.asarray(self.dynamics.unexplained)
