@@ -1,11 +1,11 @@
 """Robots of example-robot-data, which this package didn't make."""
 
-from pathlib import Path
-
 import numpy as np
 import pinocchio as pin
 
-SHARE = Path(pin.__file__).parents[4] / "share"
+from thesis_pin.model.examples import robots_folder
+
+SHARE = robots_folder().parents[1]
 NAMES = ("panda_description/urdf/panda.urdf", "solo_description/robots/solo12.urdf")
 
 

@@ -17,7 +17,6 @@ from urllib.parse import unquote
 from thesis_pin.errors import ModelError
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.xml import canonical, parse_xml
-from thesis_pin.numeric.checks import shown
 
 _PACKAGES = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH")
 
@@ -83,7 +82,7 @@ def _found(name: str, folders: Sequence[str], environment: Mapping[str, str], wh
             return magic
         tried.append(f"{folder} and every folder above it")
     raise ModelError(
-        f"the mesh {shown(name)} isn't found; looked for in {', '.join(dict.fromkeys(tried))}",
+        f"the mesh {name!r} isn't found; looked for in {', '.join(dict.fromkeys(tried))}",
         where=where,
         remedy="Put it there, or name the folder that holds its package in ROS_PACKAGE_PATH",
     )

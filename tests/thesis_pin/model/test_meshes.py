@@ -1,5 +1,7 @@
 """Meshes are found where ROS users, exporters and others put them."""
 
+from pathlib import Path
+
 import pinocchio as pin
 import pytest
 
@@ -108,3 +110,8 @@ def test_a_mesh_that_is_no_mesh_is_our_error(package):
     (folder / "meshes" / "arm.obj").write_bytes(b"\x00\x01")
     with pytest.raises(ModelError, match="can't read its geometry"):
         load(written("../meshes/arm.obj")).visual_model  # noqa: B018
+
+
+def test_meshes_of_other_formats_are_looked_for_from_their_file_too():
+    found = load("example:cassie").visual_model.geometryObjects
+    assert {Path(shape.meshPath).name for shape in found} >= {"pelvis.stl", "knee-spring.stl"}

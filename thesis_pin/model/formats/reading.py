@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from xml.parsers import expat
 
@@ -38,6 +39,13 @@ def read(path: str | Path, *, motors: Sequence[str] = ()) -> Description:
         ModelError: It is of no known format, or something in it makes no sense.
     """
     path = located(path)
+    found = _read(path, motors)
+    if found.mesh_folders:
+        return found
+    return replace(found, mesh_folders=(str(Path(path).resolve().parent),))
+
+
+def _read(path: str | Path, motors: Sequence[str]) -> Description:
     kind = _BY_SUFFIX.get(Path(str(path)).suffix.lower(), "URDF")
     content = read_bytes(kind, path, LIMITS.urdf_bytes)
     tag = root_tag(content)
