@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput, ThesisPinError, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.newton import Settled, settle
 from thesis_pin.loops.rates import passive_rates
-from thesis_pin.loops.survey import Survey, describe_gap, split_gap
 from thesis_pin.loops.surveying import surveyed
+from thesis_pin.loops.system.newton import Settled, settle
+from thesis_pin.loops.system.survey import Survey, describe_gap, split_gap
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import instance, whole
 from thesis_pin.numeric.trajectory import JointTrajectory

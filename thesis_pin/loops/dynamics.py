@@ -8,7 +8,7 @@ A = ∂r/∂q, the motion obeys
 
 The columns of A that belong to passive joints give λ, its other columns then the
 torques. How many equations are independent is known from a walk through the assembly
-(:mod:`thesis_pin.loops.survey`), so that a file's rounding can't pose as a real equation.
+(:mod:`thesis_pin.loops.system.survey`), so that a file's rounding can't pose as a real equation.
 """
 
 from __future__ import annotations
@@ -22,12 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from thesis_pin.errors import BadInput, NoSolution, SingularPose
 from thesis_pin.loops.closing import loop_gaps
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.equations import Poses
-from thesis_pin.loops.forward import ForwardDynamics as ForwardDynamics
-from thesis_pin.loops.forward import forward_dynamics as forward_dynamics
-from thesis_pin.loops.forward import simulate as simulate
-from thesis_pin.loops.idle import HARMLESS_LOAD, IdleGroup
-from thesis_pin.loops.judging import (
+from thesis_pin.loops.forces.judging import (
     REFUSED,
     Contradiction,
     is_uncertain,
@@ -35,17 +30,22 @@ from thesis_pin.loops.judging import (
     refuse_singular,
     weakest_motion,
 )
-from thesis_pin.loops.loads import (
+from thesis_pin.loops.forces.loads import (
     Wrenches,
     checked_wrenches,
     external_forces,
     open_tree_forces,
 )
-from thesis_pin.loops.newton import CUT
-from thesis_pin.loops.solve import Solved, solve
-from thesis_pin.loops.survey import Survey
+from thesis_pin.loops.forces.wrenches import base_wrenches, loop_wrenches
+from thesis_pin.loops.forward import ForwardDynamics as ForwardDynamics
+from thesis_pin.loops.forward import forward_dynamics as forward_dynamics
+from thesis_pin.loops.forward import simulate as simulate
 from thesis_pin.loops.surveying import surveyed
-from thesis_pin.loops.wrenches import base_wrenches, loop_wrenches
+from thesis_pin.loops.system.equations import Poses
+from thesis_pin.loops.system.idle import HARMLESS_LOAD, IdleGroup
+from thesis_pin.loops.system.newton import CUT
+from thesis_pin.loops.system.solve import Solved, solve
+from thesis_pin.loops.system.survey import Survey
 from thesis_pin.numeric.arrays import finite_array, together
 from thesis_pin.numeric.checks import instance
 

@@ -15,11 +15,11 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.errors import ModelError, Unreachable
-from thesis_pin.loops.equations import Equations
-from thesis_pin.loops.idle import IdleGroup, connected, idle_groups
-from thesis_pin.loops.newton import CUT, Settled, settle
-from thesis_pin.loops.rows import Loop
-from thesis_pin.loops.scale import Scale
+from thesis_pin.loops.system.equations import Equations
+from thesis_pin.loops.system.idle import IdleGroup, connected, idle_groups
+from thesis_pin.loops.system.newton import CUT, Settled, settle
+from thesis_pin.loops.system.rows import Loop
+from thesis_pin.loops.system.scale import Scale
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
