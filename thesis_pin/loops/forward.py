@@ -28,8 +28,9 @@ from thesis_pin.loops.forces.loads import (
     passive_forces,
 )
 from thesis_pin.loops.surveying import surveyed
+from thesis_pin.loops.system.gaps import describe_gap
 from thesis_pin.loops.system.newton import settle
-from thesis_pin.loops.system.survey import Survey, describe_gap
+from thesis_pin.loops.system.survey import Survey
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import function, instance, real
 from thesis_pin.numeric.complements import complement

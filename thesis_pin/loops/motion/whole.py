@@ -10,8 +10,9 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import SingularPose, TrajectoryError
-from thesis_pin.loops.closing import close, follow, motor_positions
+from thesis_pin.loops.closing import close, motor_positions
 from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.following import follow
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.files import JointMotion
 from thesis_pin.loops.motion.sampled import with_derivatives
