@@ -107,14 +107,7 @@ class _Writer:
         """A body with its hinges, inertia and children; ``turn`` is about x [rad]."""
         pad = " " * indent
         tensor = self.specification.centroidal(name, self.reading)
-        entries = (
-            tensor[0, 0],
-            tensor[1, 1],
-            tensor[2, 2],
-            tensor[0, 1],
-            tensor[0, 2],
-            tensor[1, 2],
-        )
+        entries = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
         quaternion = (cosine(turn / 2), sine(turn / 2), 0.0, 0.0)
         hinges = "".join(
             f'{pad}  <joint name="{JOINT_NAMES[k]}" type="hinge" axis="{_AXES[axis]}" '

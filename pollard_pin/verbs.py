@@ -11,13 +11,12 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, USEFUL_BRANCHES, Bra
 from pollard_pin.model import Pollard, load
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.specification import Specification
-from thesis_pin.command.output import print_table, print_text
+from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
+from thesis_pin.command.results import Answer, give, write_results
 from thesis_pin.command.running import ExitCode, free
-from thesis_pin.command.text import say
-from thesis_pin.command.verbs import Answer, give
 from thesis_pin.errors import BadInput, Unreachable
-from thesis_pin.files import write_file, write_folder
+from thesis_pin.report.tables import Table
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:
@@ -125,21 +124,14 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
 
             files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
             files |= workspace_files(space)
-    if arguments.out:
-        write_folder(arguments.out, files)
-        say(f"wrote {arguments.out}")
-    if arguments.json:
-        write_file(arguments.json, content)
+    write_results(arguments, files, content)
     if free(arguments):
         rows = [
             (name.replace("_", " "), "–" if value is None else f"{value:.6g}")
             for name, value in space.summary().items()
         ]
-        print_table(("workspace", ""), rows)
-        print_text(
-            "Where the determinant changes sign the motors lose the tool; a path must stay on "
-            "one side."
-        )
+        note = "Where the determinant changes sign the motors lose the tool; a path must stay on "
+        print_parts([Table("", ("workspace", ""), rows), f"{note}one side."])
     return ExitCode.DONE
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from scout_pin.model import Scout
-from thesis_pin.command.verbs import Answer
+from thesis_pin.command.results import Answer
 
 
 def report(

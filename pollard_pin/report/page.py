@@ -7,14 +7,7 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.report.tables import motors_table
 from pollard_pin.report.view import path_scene
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
-from thesis_pin.pages.page import (
-    Page,
-    Tile,
-    assumptions_table,
-    html,
-    parameters_table,
-    software,
-)
+from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
 
@@ -71,7 +64,5 @@ def _tables(report: TrajectoryReport) -> list[Table]:
     return [
         motors_table(report),
         joints,
-        assumptions_table(report.assumptions()),
-        parameters_table(report.parameters),
-        software(),
+        *closing_tables(report.assumptions(), report.parameters),
     ]

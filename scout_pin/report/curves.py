@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,15 +106,13 @@ def plan(report: GaitReport, keep: Samples) -> Plot:
 
 def stability_margin(report: GaitReport, keep: Samples) -> Plot:
     """How far the zero-moment point is inside the support polygon."""
-    return _over_time(
-        report,
-        keep,
+    return _over_time(report, keep)(
         "Stability margin",
         "Distance of the zero-moment point inside the support polygon; negative: the robot "
         "tips. Shaded: one foot stands (blue left, orange right).",
         "margin [mm]",
         [Curve("margin", report.margin[keep] * 1e3, BLUE)],
-        [Limit("tips below", 0.0)],
+        limits=[Limit("tips below", 0.0)],
     )
 
 
@@ -122,23 +120,19 @@ def _floor(report: GaitReport, keep: Samples) -> list[Plot]:
     dynamics = report.dynamics.part(keep)
     forces, used = dynamics.wrench[:, :, 2], dynamics.friction_used
     return [
-        _over_time(
-            report,
-            keep,
+        _over_time(report, keep)(
             "Load on each foot",
             "Vertical force of the floor. In double support it is shared as the least torques "
             "want it.",
             "force [N]",
             [Curve(f"{n} foot", forces[:, k], c, d) for k, (n, c, d) in enumerate(_FEET)],
         ),
-        _over_time(
-            report,
-            keep,
+        _over_time(report, keep)(
             "Friction in use",
             "Tangential force as a share of what friction allows.",
             "share [%]",
             [Curve(f"{n} foot", used[:, k] * 100, c, d) for k, (n, c, d) in enumerate(_FEET)],
-            [Limit("slips above", 100.0)],
+            limits=[Limit("slips above", 100.0)],
         ),
     ]
 
@@ -146,14 +140,12 @@ def _floor(report: GaitReport, keep: Samples) -> list[Plot]:
 def torques(report: GaitReport, keep: Samples, side: str = "") -> Plot:
     """Joint torques against the servos' stall torque, of one leg or of both."""
     stall = report.robot.stall_torque[_columns(side)]
-    return _over_time(
-        report,
-        keep,
+    return _over_time(report, keep)(
         f"Joint torques{_of(side)}",
         f"Against the servos' stall torque.{_reading(side)}",
         "torque [N·m]",
         _joints(report.dynamics.torque[keep], side),
-        both_signs("stall torque", stall),
+        limits=both_signs("stall torque", stall),
     )
 
 
@@ -162,23 +154,19 @@ def _servos(report: GaitReport, keep: Samples) -> list[Plot]:
     no_load = report.robot.no_load_speed
     use = np.abs(torque) / report.robot.stall_torque + np.abs(speed) / no_load
     return [
-        _over_time(
-            report,
-            keep,
+        _over_time(report, keep)(
             "Joint speeds",
             f"Against the servos' no-load speed.{_reading('')}",
             "speed [rad/s]",
             _joints(speed),
-            both_signs("no-load speed", no_load),
+            limits=both_signs("no-load speed", no_load),
         ),
-        _over_time(
-            report,
-            keep,
+        _over_time(report, keep)(
             "Use of the torque-speed line",
             f"|τ|/stall + |θ̇|/no-load of each servo.{_reading('')}",
             "use [%]",
             _joints(use * 100),
-            [Limit("limit", 100.0)],
+            limits=[Limit("limit", 100.0)],
         ),
     ]
 
@@ -197,17 +185,13 @@ def _energy(report: GaitReport, keep: Samples) -> list[Plot]:
         return [Curve("both", values[keep].sum(axis=1), BLACK), *legs]
 
     return [
-        _over_time(
-            report,
-            keep,
+        _over_time(report, keep)(
             "Mechanical power",
             "What the servos give to the robot; negative: they brake it.",
             "power [W]",
             curves(power),
         ),
-        _over_time(
-            report,
-            keep,
+        _over_time(report, keep)(
             "Work done so far",
             "Integral of the power since the start.",
             "work [mJ]",
@@ -218,9 +202,7 @@ def _energy(report: GaitReport, keep: Samples) -> list[Plot]:
 
 def joint_angles(report: GaitReport, keep: Samples, side: str = "") -> Plot:
     """Joint angles over time, of one leg or of both: figure 5.2 of the thesis."""
-    return _over_time(
-        report,
-        keep,
+    return _over_time(report, keep)(
         f"Joint angles{_of(side)}",
         f"From the servos' neutral pose.{_reading(side)}",
         "angle [°]",
@@ -231,9 +213,7 @@ def joint_angles(report: GaitReport, keep: Samples, side: str = "") -> Plot:
 def _conditioning(report: GaitReport, keep: Samples) -> Plot:
     legs, angles = report.robot.legs, report.joints.q[keep].reshape(-1, 2, 6)
     good = [leg_conditioning(legs[side], angles[:, k]) for k, side in enumerate(SIDES)]
-    return _over_time(
-        report,
-        keep,
+    return _over_time(report, keep)(
         "Conditioning of the legs",
         "Smallest over largest singular value of each leg's Jacobian (lengths divided by "
         "the stretched leg's); 0 is singular.",
@@ -242,27 +222,15 @@ def _conditioning(report: GaitReport, keep: Samples) -> Plot:
     )
 
 
-def _over_time(
-    report: GaitReport,
-    keep: Samples,
-    title: str,
-    text: str,
-    label: str,
-    curves: Sequence[Curve],
-    limits: Sequence[Limit] = (),
-) -> Plot:
-    """A plot over time, tinted where one foot stands."""
+def _over_time(report: GaitReport, keep: Samples) -> partial[Plot]:
+    """A plot over time, tinted where one foot stands; the rest is left to say."""
+    unit = report.time_unit
     bands = [
-        Band(
-            f"{phase.support} foot stands",
-            phase.start * report.time_unit,
-            phase.end * report.time_unit,
-            SIDE_COLOURS[phase.support],
-        )
+        Band(f"{side} foot stands", phase.start * unit, phase.end * unit, SIDE_COLOURS[side])
         for phase in report.gait.phases
-        if phase.support in SIDE_COLOURS and phase.end > phase.start
+        if (side := phase.support) in SIDE_COLOURS and phase.end > phase.start
     ]
-    return Plot(title, text, label, curves, report.joints.time[keep], limits=limits, bands=bands)
+    return partial(Plot, time=report.joints.time[keep], bands=bands)
 
 
 def _joints(values: NDArray[np.float64], side: str = "") -> list[Curve]:

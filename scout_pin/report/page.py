@@ -8,14 +8,7 @@ from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
 from scout_pin.report.tables import joints_table
 from scout_pin.report.view import gait_scene
-from thesis_pin.pages.page import (
-    Page,
-    Tile,
-    assumptions_table,
-    html,
-    parameters_table,
-    software,
-)
+from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
 from thesis_pin.tolerances import TOLERANCES
@@ -75,9 +68,7 @@ def _tables(report: GaitReport) -> list[Table]:
     return [
         joints_table(report),
         *_impacts(report),
-        assumptions_table(report.assumptions()),
-        parameters_table(report.parameters),
-        software(),
+        *closing_tables(report.assumptions(), report.parameters),
     ]
 
 

@@ -1,65 +1,85 @@
-"""Words that the verbs of ``thesis-pin`` share: which robot, and in which pose."""
+"""What the verbs of ``thesis-pin`` do; imported when a verb runs."""
 
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
-from thesis_pin.command.options import number
-from thesis_pin.command.registry import Words
+import pinocchio as pin
 
-if TYPE_CHECKING:  # help has to be quick
-    from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.command.results import Answer, deliver, give
+from thesis_pin.command.running import ExitCode
+from thesis_pin.command.text import say
+from thesis_pin.files import write_folder
+from thesis_pin.loops import soundness
+from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.loading import load
+from thesis_pin.loops.motion.files import read_motion
+from thesis_pin.model.pair import pair
+from thesis_pin.report import formats as read
+from thesis_pin.report.tables import Part, Table
+from thesis_pin.report.torque.document import TorqueReport, torque_report
 
 
-def which_robot(words: Words) -> None:
-    """The description's files and what they leave open."""
-    words.add_argument(
-        "file", metavar="FILE", help="the robot's description: see thesis-pin formats"
+def check(arguments: argparse.Namespace) -> ExitCode:
+    """Say whether a description is sound, where it closes, and what holds it."""
+
+    def answer() -> Answer:
+        robot = _loaded(arguments)
+        found = soundness.check(robot, pose=arguments.pose, precision=arguments.precision)
+        if arguments.out:
+            files = {name: text.encode() for name, text in pair(robot.description).items()}
+            write_folder(arguments.out, files)
+            say(f"wrote {', '.join(files)} to {arguments.out}")
+        yes = found.sound and (found.held or not arguments.strict)
+        return Answer(found.document, lambda: _tell(found), yes=yes)
+
+    return give(arguments, answer, "checking")
+
+
+def torque(arguments: argparse.Namespace) -> ExitCode:
+    """Report on a motion of any robot."""
+
+    def make(_: object) -> TorqueReport:
+        robot = _loaded(arguments)
+        motion = read_motion(robot, arguments.motion)
+        x = arguments.precision
+        pose = assembly(robot, arguments.pose, precision=x).q
+        return torque_report(robot, motion, pose=pose, precision=x)
+
+    return deliver(
+        arguments,
+        "working out the torques",
+        make,
+        figures="thesis_pin.report.torque.figures:figures",
+        page="thesis_pin.pages.torque:torque_page",
+        table="thesis_pin.report.torque.tables:summary",
     )
-    words.add_argument(
-        "closures",
-        nargs="?",
-        metavar="CLOSURES",
-        help="YAML with closed_loop, type and name_mot, for what the description can't say",
-    )
 
 
-def which_motion(words: Words) -> None:
-    """The file of the joints' motion."""
-    words.add_argument(
-        "motion",
-        metavar="MOTION",
-        help="CSV with t [s] and a column per motor or joint: NAME, NAME_rate, "
-        "NAME_acceleration (SI, or NAME_deg and the like)",
-    )
+def formats(arguments: argparse.Namespace) -> ExitCode:
+    """Say what is read of each format, and what is passed over."""
+    return give(arguments, lambda: Answer(read.document, read.summary))
 
 
-def which_pose(words: Words) -> None:
-    """From where the loops are closed, and what the root does."""
-    words.add_argument(
-        "--pose",
-        metavar="NAME|FILE",
-        help="a pose of the description, or a .toml file: where the loops are closed from "
-        "(default: the neutral one)",
-    )
-    words.add_argument(
-        "--free-flyer", action="store_true", help="let the root fly freely (default: as described)"
-    )
-    words.add_argument(
-        "--precision",
-        type=number("--precision"),
-        metavar="RAD",
-        help="loop equations that differ by less count as one; 0 takes every one as real "
-        "(default: told from the file's own noise)",
-    )
-
-
-def loaded(arguments: argparse.Namespace) -> ClosedRobot:
+def _loaded(arguments: argparse.Namespace) -> ClosedRobot:
     """The robot that the arguments name."""
-    import pinocchio as pin
-
-    from thesis_pin.loops.loading import load
-
     root = pin.JointModelFreeFlyer() if arguments.free_flyer else None
     return load(arguments.file, arguments.closures, root_joint=root)
+
+
+def _tell(found: soundness.Soundness) -> list[Part]:
+    robot = found.robot
+    rows = [
+        (loop.name, loop.kind, *loop.frames, f"{gap.distance:.1e}", f"{gap.angle:.1e}")
+        for loop, gap in zip(robot.loops, found.assembly.gaps, strict=False)
+    ]
+    columns = ("loop", "type", "frame", "frame", "gap m", "gap rad")
+    return [
+        *([Table("", columns, rows)] if rows else []),
+        f"{robot.model.name}: {robot.model.njoints - 1} joints, "
+        f"{len(robot.actuators)} motors ({', '.join(robot.actuators)}).",
+        *found.sentences(),
+        *(f"Warning: {one}" for one in found.warnings),
+        *(f"Not used: {one}" for one in robot.description.passed_over),
+    ]

@@ -5,9 +5,51 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command.any_robot import which_motion, which_pose, which_robot
-from thesis_pin.command.options import add_json, add_report
+from thesis_pin.command.options import add_json, add_report, number
 from thesis_pin.command.registry import Command, Parser, Verb, Words
+
+
+def _which_robot(words: Words) -> None:
+    """The description's files and what they leave open."""
+    words.add_argument(
+        "file", metavar="FILE", help="the robot's description: see thesis-pin formats"
+    )
+    words.add_argument(
+        "closures",
+        nargs="?",
+        metavar="CLOSURES",
+        help="YAML with closed_loop, type and name_mot, for what the description can't say",
+    )
+
+
+def _which_motion(words: Words) -> None:
+    """The file of the joints' motion."""
+    words.add_argument(
+        "motion",
+        metavar="MOTION",
+        help="CSV with t [s] and a column per motor or joint: NAME, NAME_rate, "
+        "NAME_acceleration (SI, or NAME_deg and the like)",
+    )
+
+
+def _which_pose(words: Words) -> None:
+    """From where the loops are closed, and what the root does."""
+    words.add_argument(
+        "--pose",
+        metavar="NAME|FILE",
+        help="a pose of the description, or a .toml file: where the loops are closed from "
+        "(default: the neutral one)",
+    )
+    words.add_argument(
+        "--free-flyer", action="store_true", help="let the root fly freely (default: as described)"
+    )
+    words.add_argument(
+        "--precision",
+        type=number("--precision"),
+        metavar="RAD",
+        help="loop equations that differ by less count as one; 0 takes every one as real "
+        "(default: told from the file's own noise)",
+    )
 
 
 def _strictly(words: Words) -> None:
@@ -36,8 +78,14 @@ COMMAND = Command(
             "where it closes.",
             "check urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml",
             "thesis_pin.loops.soundness:check",
-            "thesis_pin.command.check:run",
-            (which_robot, which_pose, _strictly, _written, partial(add_json, what="the findings")),
+            "thesis_pin.command.any_robot:check",
+            (
+                _which_robot,
+                _which_pose,
+                _strictly,
+                _written,
+                partial(add_json, what="the findings"),
+            ),
         ),
         Verb(
             "torque",
@@ -46,11 +94,11 @@ COMMAND = Command(
             "torque urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
             "examples/pollard_motors.csv",
             "thesis_pin.report.torque.document:torque_report",
-            "thesis_pin.command.torque:run",
+            "thesis_pin.command.any_robot:torque",
             (
-                which_robot,
-                which_motion,
-                which_pose,
+                _which_robot,
+                _which_motion,
+                _which_pose,
                 partial(add_report, breaks="a motor or joint leaves its limits"),
             ),
         ),
@@ -60,7 +108,7 @@ COMMAND = Command(
             "Formats of robots: what of each is used, and what is passed over and named.",
             "formats",
             "thesis_pin.report.formats:formats",
-            "thesis_pin.command.formats:run",
+            "thesis_pin.command.any_robot:formats",
             (partial(add_json, what="the formats"),),
         ),
     ),

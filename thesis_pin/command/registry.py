@@ -149,7 +149,7 @@ class Robot:
         page: The report as a page.
         scene: The report as a scene.
         solves: Inverse kinematics that the arguments ask for, an
-            :class:`~thesis_pin.command.verbs.Answer`.
+            :class:`~thesis_pin.command.results.Answer`.
         inverse_kinematics: The public method behind it.
         figures, table: The report as files, and in tables and paragraphs.
         load, specification: Read a specification, with its model and without.

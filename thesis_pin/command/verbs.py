@@ -3,38 +3,19 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from thesis_pin.command.options import refuse_beside
-from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.registry import Robot, found
+from thesis_pin.command.registry import Robot
+from thesis_pin.command.results import Answer, Report, called, deliver, give
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.files import is_standard_output, write_file, write_folder
-from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:  # help has to be quick
-    import numpy as np
-    from numpy.typing import NDArray
-
     from thesis_pin.pages.scene import Scene
-
-
-class Report(Protocol):
-    """A report that can be written as JSON and as a table of samples."""
-
-    @property
-    def within_limits(self) -> bool:
-        """Whether the robot can do it."""
-
-    def document(self) -> Mapping[str, object]:
-        """The whole report, JSON-ready."""
-
-    def columns(self) -> Mapping[str, NDArray[np.float64] | Sequence[str]]:
-        """Its samples: column name → values."""
 
 
 class MakeReport(Protocol):
@@ -57,43 +38,6 @@ class MakeReport(Protocol):
         """
 
 
-@dataclass(frozen=True)
-class Answer:
-    """What a verb found out.
-
-    Attributes:
-        document: Makes it JSON-ready.
-        tell: Puts it for people.
-        yes: Whether what was asked for is possible.
-    """
-
-    document: Callable[[], Mapping[str, object]]
-    tell: Callable[[], Iterable[Part]]
-    yes: bool = True
-
-
-def give(
-    arguments: argparse.Namespace, make: Callable[[], Answer], what: str = "working it out"
-) -> ExitCode:
-    """Write an answer where ``--json`` says; print it unless that is standard output.
-
-    Args:
-        arguments: With ``json``.
-        make: Finds the answer.
-        what: What is going on meanwhile, for a progress bar.
-    """
-    with Bar(what):
-        from thesis_pin.report.writers import json_bytes
-
-        answer = make()
-        content = json_bytes(answer.document()) if arguments.json else b""
-    if arguments.json:
-        write_file(arguments.json, content)
-    if free(arguments):
-        print_parts(answer.tell())
-    return ExitCode.DONE if answer.yes else ExitCode.NO
-
-
 def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion that the robot's own options ask for; see :func:`deliver`."""
     return deliver(
@@ -104,62 +48,6 @@ def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
         page=robot.name_of(robot.page),
         table=robot.name_of(robot.table),
     )
-
-
-def deliver(
-    arguments: argparse.Namespace,
-    what: str,
-    make: Callable[[Bar], Report],
-    *,
-    figures: str,
-    page: str,
-    table: str,
-) -> ExitCode:
-    """Put a report where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
-
-    Every content exists before the first file is written; but if a figure or the
-    page fails, the data are written all the same.
-
-    Args:
-        arguments: With ``out``, ``json``, ``html`` and ``strict``.
-        what: What is going on meanwhile, for a progress bar.
-        make: Works the report out.
-        figures: ``module:function`` of the report's files, by name.
-        page: The same of its page.
-        table: The same of its tables and paragraphs.
-    """
-    from thesis_pin.report.writers import csv_bytes, json_bytes
-
-    files: dict[str, bytes] = {}
-    content = written = b""
-    with Bar(what) as bar:
-        answer = make(bar)
-        if arguments.json or arguments.out:
-            content = json_bytes(answer.document())
-        if arguments.out:
-            files = {"report.json": content, "samples.csv": csv_bytes(answer.columns())}
-        try:
-            drawn = _called(figures)(answer) if arguments.out else {}
-            written = _called(page)(answer) if arguments.html else b""
-        except Exception:
-            _deliver(arguments, files, content)
-            raise
-    _deliver(arguments, files | drawn, content)
-    if arguments.html:
-        write_file(arguments.html, written)
-    if free(arguments):
-        print_parts(_called(table)(answer))
-    refused = arguments.strict and not answer.within_limits
-    return ExitCode.NO if refused else ExitCode.DONE
-
-
-def _deliver(arguments: argparse.Namespace, files: Mapping[str, bytes], content: bytes) -> None:
-    """Write a report's folder and its document."""
-    if arguments.out:
-        write_folder(arguments.out, files)
-        say(f"wrote {arguments.out}")
-    if arguments.json:
-        write_file(arguments.json, content)
 
 
 def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
@@ -259,11 +147,7 @@ def audit(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def _hook(robot: Robot, name: str) -> Any:
     """One of the robot's functions, imported when it is needed."""
-    return _called(robot.name_of(name))
-
-
-def _called(name: str) -> Any:
-    return found(name)
+    return called(robot.name_of(name))
 
 
 def _load(robot: Robot, arguments: argparse.Namespace) -> Any:

@@ -80,6 +80,13 @@ def _plot_parts(plots: Sequence[Plot]) -> dict[str, str]:
     }
 
 
+def closing_tables(
+    assumptions: Iterable[Mapping[str, object]], parameters: Mapping[str, object]
+) -> tuple[Table, Table, Table]:
+    """What every report's page ends with: assumptions, parameters, software."""
+    return assumptions_table(assumptions), parameters_table(parameters), software()
+
+
 def software() -> Table:
     """Versions of what worked the report out."""
     rows = [("Python", platform.python_version())]

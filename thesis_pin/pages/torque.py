@@ -9,6 +9,7 @@ from thesis_pin.report.tables import Table
 from thesis_pin.report.torque.curves import plots
 from thesis_pin.report.torque.document import TorqueReport
 from thesis_pin.report.torque.tables import loops_table, motors_table
+from thesis_pin.report.torque.verdict import carried
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -48,8 +49,7 @@ def _tiles(report: TorqueReport) -> list[Tile]:
     ]
     if report.robot.loops:
         tiles.append(Tile("peak loop force", f"{report.loop_force_size.max():.4g} N"))
-    carried = report.unexplained.max() <= 1e-6
-    return [*tiles, Tile("unexplained load", f"{report.unexplained.max():.1e}", bool(carried))]
+    return [*tiles, Tile("unexplained load", f"{report.unexplained.max():.1e}", carried(report))]
 
 
 def _tables(report: TorqueReport) -> list[Table]:

@@ -131,6 +131,9 @@ def test_the_summary_finds_the_worst_of_the_columns(report):
     assert summary["condition"]["largest"] == condition.max()
     assert summary["condition"]["time"] == time[np.argmax(condition)]
     assert summary["margin"] == {"least": margin.min(), "time": time[np.argmin(margin)]}
+    determinant = report.document()["determinant"]
+    assert summary["determinant"]["smallest"] == np.abs(determinant).min()
+    assert (np.sign(determinant) == summary["determinant"]["sign"]).all()
     shares = summary["motor_limits"]
     for k, name in enumerate(ACTUATOR_NAMES):
         torque = np.abs(columns[f"torque_{name}_Nm"]) / limits.effort
