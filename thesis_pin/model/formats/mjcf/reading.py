@@ -14,9 +14,10 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thesis_pin.errors import BadInput, ModelError
+from thesis_pin.errors import ModelError
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.mjcf.compiled import describe
+from thesis_pin.model.formats.mjcf.without_mujoco import read_with_pinocchio
 from thesis_pin.model.formats.xml import Element, parse_xml
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.source import read_bytes
@@ -39,7 +40,8 @@ def read_mjcf(path: str | Path, content: bytes | None = None) -> Description:
         content: Its bytes, if they are read already.
 
     Raises:
-        BadInput: It can't be read, or MuJoCo isn't installed.
+        BadInput: It can't be read, or holds what is read through MuJoCo alone, which isn't
+            installed.
         ModelError: It isn't MJCF, MuJoCo can't compile it, it has flexible bodies, or
             the mesh that a body's inertia is made of is missing.
     """
@@ -50,6 +52,8 @@ def read_mjcf(path: str | Path, content: bytes | None = None) -> Description:
         raise ModelError(
             f"the root element is <{root.tag}>", where=f"{where}:{root.line}", allowed="<mujoco>"
         )
+    if not has_mujoco():
+        return read_with_pinocchio(path, root)
     folder = Path(path).resolve().parent
     included = _included(root, folder, where)
     spec = _spec(text, included, folder, where)
@@ -72,12 +76,6 @@ def has_mujoco() -> bool:
 
 
 def _spec(text: str, included: dict[str, bytes], folder: Path, where: str) -> mujoco.MjSpec:
-    if not has_mujoco():
-        raise BadInput(
-            "MJCF is read through MuJoCo's compiler, which isn't installed (or is older than 3.4)",
-            where=where,
-            remedy="pip install 'thesis-pin[mujoco]'",
-        )
     import mujoco
 
     try:

@@ -390,3 +390,13 @@ def test_more_joints_than_pinocchio_has_memory_for_are_refused(tmp_path):
     joints = [_joint(f"j{k}", "revolute", f"l{k}", f"l{k + 1}") for k in range(201)]
     with pytest.raises(ModelError, match="201 joints move; allowed: at most 200"):
         read_sdf(_file(tmp_path, *links, *joints))
+
+
+def test_a_model_may_be_placed_by_one_of_its_frames(tmp_path):
+    place = f"<pose>{_text(C)}</pose>"
+    held = 'name="m" placement_frame="b" canonical_link="b"'
+    links, joint = [_link("a", A), _link("b", B)], _joint("j", "revolute", "a", "b")
+    path = _file(tmp_path, *links, joint, before=place, model=held)
+    want = {"b": np.eye(4), "a": np.linalg.inv(_place(*B)) @ _place(*A)}
+    _, robot = _stands(path, _place(*C), want)
+    assert robot.model.frames[2].name == "b"  # the canonical link is the root
