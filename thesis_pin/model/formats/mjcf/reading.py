@@ -193,6 +193,8 @@ def _strip_geometry(spec: mujoco.MjSpec, said: list[str], where: str) -> set[str
     """Take out geometry that no inertia is made of; the meshes that some is made of."""
     import mujoco
 
+    kinds = ("SPHERE", "CAPSULE", "CYLINDER", "BOX")
+    simple = [getattr(mujoco.mjtGeom, f"mjGEOM_{kind}") for kind in kinds]
     always = spec.compiler.inertiafromgeom == mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
     files = {mesh.name: _mesh_file(spec, mesh) for mesh in spec.meshes}
     missing = {name for name, file in files.items() if file is not None and not file.is_file()}
@@ -201,7 +203,8 @@ def _strip_geometry(spec: mujoco.MjSpec, said: list[str], where: str) -> set[str
         shapes = list(body.geoms)
         if body.name == "world" or (body.explicitinertial and not always):
             for shape in shapes:
-                spec.delete(shape)
+                if body.name == "world" or shape.meshname or shape.type not in simple:
+                    spec.delete(shape)
             continue
         lost = sorted({shape.meshname for shape in shapes if shape.meshname in missing})
         if lost:

@@ -344,3 +344,24 @@ def test_more_joints_than_pinocchio_has_memory_for_are_refused(tmp_path):
     body = "".join(f'<body name="b{k}">{SMALL}<joint/></body>' for k in range(201))
     with pytest.raises(ModelError, match="201 joints move; allowed: at most 200"):
         read_mjcf(_file(tmp_path, body))
+
+
+def test_simple_shapes_are_drawn_where_they_stand(tmp_path):
+    shapes = """<geom type="box" size="1 2 3" pos="0.1 0 0"/> <geom size="0.2" contype="0"
+      conaffinity="0"/> <geom type="capsule" size="0.1" fromto="0 0 0 0 0 1"/>
+      <geom type="ellipsoid" size="1 1 2"/>"""
+    path = _file(tmp_path, HINGES.replace(SMALL, SMALL + shapes, 1), before=MESH)
+    robot = ClosedRobot(read_mjcf(path))
+    seen = {kind: [] for kind in ("visual", "collision")}
+    for kind, found in seen.items():
+        for item in getattr(robot, f"{kind}_model").geometryObjects:
+            size = item.geometry
+            found.append(getattr(size, "halfSide", getattr(size, "radius", None)))
+    assert len(seen["visual"]) == 5
+    assert len(seen["collision"]) == 4
+    np.testing.assert_allclose(seen["visual"][0], [1, 2, 3])
+    tube = robot.visual_model.geometryObjects[2]
+    above = robot.model.frames[robot.model.getFrameId("two", pin.BODY)].placement
+    middle = above.actInv(tube.placement.translation)
+    np.testing.assert_allclose(middle, [0, 0, 0.5], atol=1e-14)
+    assert tube.geometry.halfLength == pytest.approx(0.5)
