@@ -254,7 +254,7 @@ def test_missing_meshes_are_left_out_where_bodies_have_inertials(tmp_path):
         mujoco.MjModel.from_xml_path(str(path))
     found = read_mjcf(path)
     assert found.warnings == (
-        f"{path}: missing meshes are left out, which is harmless as the bodies have inertials: m",
+        f"{path}: missing meshes are left out, which is harmless as no inertia is made of them: m",
     )
     assert found.links["two"].inertial.mass == 0.5
 
@@ -263,7 +263,7 @@ def test_missing_meshes_are_left_out_where_bodies_have_inertials(tmp_path):
     ("compiler", "small"), [("", ""), ('inertiafromgeom="true"', SMALL)], ids=["none", "always"]
 )
 def test_an_inertia_made_of_a_missing_mesh_is_refused(compiler, small, tmp_path):
-    body = f'<body name="base"> {small} {SHAPE}</body>'
+    body = f'<body name="base"><joint/> {small} {SHAPE}</body>'
     with pytest.raises(ModelError, match=r"robot\.xml:1: the inertia of body 'base' is made of"):
         read_mjcf(_file(tmp_path, body, compiler=compiler, before=MESH))
 
@@ -365,3 +365,22 @@ def test_simple_shapes_are_drawn_where_they_stand(tmp_path):
     middle = above.actInv(tube.placement.translation)
     np.testing.assert_allclose(middle, [0, 0, 0.5], atol=1e-14)
     assert tube.geometry.halfLength == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        f'<body name="base"> {SHAPE} <body name="arm">{SMALL}<joint name="a"/></body></body>',
+        '<body name="arm"><joint name="a"/><geom type="mesh" mesh="m" mass="0"/>'
+        '<geom size="1"/></body>',
+        '<body name="arm"><joint name="a"/><geom type="mesh" mesh="m" density="0"/>'
+        '<geom size="1"/></body>',
+        '<body name="arm"><joint name="a"/><geom type="mesh" mesh="m" group="4"/>'
+        '<geom size="1"/></body>',
+    ],
+    ids=["still", "no mass", "no density", "another group"],
+)
+def test_missing_meshes_that_weigh_nothing_are_left_out(body, tmp_path):
+    found = read_mjcf(_file(tmp_path, body, compiler='inertiagrouprange="0 3"', before=MESH))
+    assert "a" in found.joints
+    assert "missing meshes are left out" in found.warnings[0]
