@@ -24,8 +24,7 @@ GUESSES = 20
 
 _SPREAD = 1.5  # rad or m, half the width of the guesses about the neutral configuration
 _SHIFTS, _NEAR = 2, 0.1  # tries beside each pose, and how far from it [rad], [m]
-_FITS, _STEPS = 6, 200  # of a search for the least gap
-_FAR = 1e6  # a range that is none [rad], [m]
+_FITS, _STEPS = 4, 300  # of a search for the least gap
 
 
 @dataclass(frozen=True)
@@ -93,9 +92,12 @@ def assembly(
     """
     best: Assembly | None = None
     starts = list(_starts(robot, pose))
+    nearest: list[tuple[float, str, Array]] = []
     for start, q in starts:
         closing = close_each(robot, q, precision=precision)
         if not closing.closed:
+            size = float(np.abs(robot.scale.rows * residual(robot, closing.q)).max())
+            nearest.append((size, start, in_range(robot, closing.q)))
             continue
         closed = closing.q
         found = Assembly(closed, True, start, gaps(robot, closed), outside(robot, closed))
@@ -103,7 +105,8 @@ def assembly(
             return found
         if best is None or max(found.outside.values()) < max(best.outside.values()):
             best = found
-    return best or _least_open(robot, starts)
+    nearest.sort(key=lambda one: one[0])
+    return best or _least_open(robot, [(start, q) for _, start, q in nearest])
 
 
 def gaps(robot: ClosedRobot, q: Array) -> tuple[Gap, ...]:
@@ -125,12 +128,7 @@ def outside(robot: ClosedRobot, q: Array) -> dict[str, float]:
     """Joints outside their range at a configuration ``(nq,)``, and by how much [rad], [m]."""
     found = {}
     for name, joint in singles(robot.model).items():
-        if joint.continuous:
-            continue
-        position = float(joint.position(q))
-        low = float(robot.model.lowerPositionLimit[joint.q])
-        high = float(robot.model.upperPositionLimit[joint.q])
-        excess = max(position - high, low - position)
+        excess = float(joint.excess(q))
         if excess > TOLERANCES.joint_limit:
             found[name] = excess
     return found
@@ -160,13 +158,19 @@ def _shifted(robot: ClosedRobot, q: Array, spread: float, generator: np.random.G
 
 
 def _least_open(robot: ClosedRobot, starts: list[tuple[str, Array]]) -> Assembly:
-    """Where the loops are open least: the least of bounded minima from several starts."""
+    """Where the loops are open least: the least of bounded minima from several starts.
+
+    Metres and radians are weighed as the robot's scale does, so that a loop isn't called
+    wide open because it is a large one.
+    """
     best, least, where = starts[0][1], np.inf, starts[0][0]
+    weights = robot.scale.rows
     for start, q in starts[:_FITS]:
 
         def opening(step: Array, q: Array = q) -> tuple[float, Array]:
             moved = pin.integrate(robot.model, q, step)
-            gap, matrix = residual(robot, moved), residual_derivative(robot, moved)
+            gap = weights * residual(robot, moved)
+            matrix = weights[:, None] * residual_derivative(robot, moved)
             turned = pin.dIntegrate(robot.model, q, step, pin.ArgumentPosition.ARG1)
             return float(gap @ gap) / 2, np.asarray(turned.T @ (matrix.T @ gap))
 
@@ -175,7 +179,7 @@ def _least_open(robot: ClosedRobot, starts: list[tuple[str, Array]]) -> Assembly
             np.zeros(robot.model.nv),
             jac=True,
             method="L-BFGS-B",
-            bounds=np.column_stack(_bounds(robot, q)),
+            bounds=_bounds(robot, q),
             options={"maxiter": _STEPS, "ftol": 1e-14, "gtol": 1e-12},
         )
         if found.fun < least:
@@ -184,11 +188,10 @@ def _least_open(robot: ClosedRobot, starts: list[tuple[str, Array]]) -> Assembly
     return Assembly(best, False, where, gaps(robot, best), outside(robot, best))
 
 
-def _bounds(robot: ClosedRobot, q: Array) -> tuple[Array, Array]:
-    """How far each velocity's coordinate may go from a configuration, each ``(nv,)``."""
-    low, high = np.full(robot.model.nv, -np.inf), np.full(robot.model.nv, np.inf)
+def _bounds(robot: ClosedRobot, q: Array) -> list[tuple[float, float]]:
+    """How far each velocity's coordinate may go from a configuration."""
+    bounds = [(-np.inf, np.inf)] * robot.model.nv
     for joint in singles(robot.model).values():
         if not joint.continuous:
-            low[joint.v] = robot.model.lowerPositionLimit[joint.q] - q[joint.q]
-            high[joint.v] = robot.model.upperPositionLimit[joint.q] - q[joint.q]
-    return np.where(low < -_FAR, -np.inf, low), np.where(high > _FAR, np.inf, high)
+            bounds[joint.v] = joint.low - float(q[joint.q]), joint.high - float(q[joint.q])
+    return bounds

@@ -152,9 +152,13 @@ def _closed(
         if not near:
             return settled, f"{error.what}, at the least, after {settled.iterations} Newton steps"
         raise
-    if settled.scaled > 1e-12:
-        finer = settle(equations, scale, data, settled.q, movable, 10 * survey.noise, iterations)
-        if finer.converged or finer.scaled < settled.scaled:
+    rank = survey.rank if len(movable) == robot.model.nv else survey.passive_rank
+    for start in (settled.q, q):
+        if settled.scaled <= 1e-12 or (start is q and is_closed(robot, survey, settled.gap)):
+            break
+        cut = 10 * survey.noise
+        finer = settle(equations, scale, data, start, movable, cut, iterations, rank)
+        if finer.scaled < settled.scaled or (start is not q and finer.converged):
             settled = finer
     if is_closed(robot, survey, settled.gap):
         return settled, ""

@@ -21,6 +21,8 @@ class Single:
         q: Its place in a configuration.
         v: Its place in a velocity.
         continuous: Whether its coordinates are a cosine and a sine.
+        low, high: Its range [rad] or [m]; infinite without one. A range of no width is one
+            that nobody filled in: a URDF's limits are 0 where it doesn't say them.
     """
 
     name: str
@@ -28,6 +30,8 @@ class Single:
     q: int
     v: int
     continuous: bool
+    low: float = -np.inf
+    high: float = np.inf
 
     @property
     def unit(self) -> str:
@@ -44,6 +48,11 @@ class Single:
             return np.asarray(np.arctan2(values[..., self.q + 1], values[..., self.q]))
         return np.asarray(values[..., self.q])
 
+    def excess(self, q: ArrayLike) -> Array:
+        """By how much it is outside its range in configurations ``(..., nq)``; 0 inside."""
+        position = self.position(q)
+        return np.asarray(np.maximum(np.maximum(position - self.high, self.low - position), 0.0))
+
 
 def singles(model: pin.Model) -> dict[str, Single]:
     """Every joint of one freedom: name → joint, in the model's order."""
@@ -51,7 +60,12 @@ def singles(model: pin.Model) -> dict[str, Single]:
     for name, joint in zip(list(model.names)[1:], list(model.joints)[1:], strict=True):
         if joint.nv == 1:
             turns = not joint.shortname().startswith("JointModelP")
-            found[name] = Single(name, turns, joint.idx_q, joint.idx_v, joint.nq == 2)
+            low, high = -np.inf, np.inf
+            if joint.nq == 1:
+                low = float(model.lowerPositionLimit[joint.idx_q])
+                high = float(model.upperPositionLimit[joint.idx_q])
+                low, high = (-np.inf, np.inf) if low == high else (low, high)
+            found[name] = Single(name, turns, joint.idx_q, joint.idx_v, joint.nq == 2, low, high)
     return found
 
 

@@ -59,6 +59,7 @@ def settle(
     movable: Places,
     cut: float = CUT,
     iterations: int = 60,
+    rank: int | None = None,
 ) -> Settled:
     """Steps of some joints from q until they vanish.
 
@@ -70,6 +71,8 @@ def settle(
         movable: Places of the velocities that may move.
         cut: Scaled singular values up to which directions are left out.
         iterations: Most steps.
+        rank: How many directions are taken at most, where that is known: between closed
+            configurations dependent equations may look real.
     """
     model, columns = equations.model, scale.columns[movable]
     best, taken, last = Settled(q, np.zeros(equations.size), np.inf, np.inf, 0), 0, np.inf
@@ -88,6 +91,8 @@ def settle(
         matrix = scale.rows[:, None] * equations.jacobian(poses)[0][:, movable] * columns
         left, values, right = np.linalg.svd(matrix, full_matrices=False)
         strong = values > cut
+        if rank is not None:
+            strong[rank:] = False
         part = (left.T @ (scale.rows * gap))[strong] / values[strong]
         scaled_step = -(part @ right[strong])
         length = float(np.linalg.norm(scaled_step))

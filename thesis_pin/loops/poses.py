@@ -51,11 +51,10 @@ def neutral(robot: ClosedRobot) -> Array:
 
 def in_range(robot: ClosedRobot, q: Array) -> Array:
     """A configuration with every joint moved into its range, shape ``(nq,)``."""
-    q, model = q.copy(), robot.model
-    for joint in singles(model).values():
+    q = q.copy()
+    for joint in singles(robot.model).values():
         if not joint.continuous:
-            low, high = model.lowerPositionLimit[joint.q], model.upperPositionLimit[joint.q]
-            q[joint.q] = np.clip(q[joint.q], low, high)
+            q[joint.q] = np.clip(q[joint.q], joint.low, joint.high)
     return q
 
 

@@ -178,13 +178,13 @@ class _Walk:
         for number in range(_STEPS):
             if number % 4 == 0:
                 q = self.first.q
-            direction = self._direction(self._matrix(q), generator)
+            direction, rank = self._direction(self._matrix(q), generator)
             if direction is None:
                 break
             for share in (1.0, -1.0, 0.5, -0.5, 0.1, -0.1):
                 step = share * _LENGTH * direction
                 moved = self._closed(
-                    pin.integrate(equations.model, q, scale.columns * step), iterations=30
+                    pin.integrate(equations.model, q, scale.columns * step), 30, rank
                 )
                 within = ((low - slack <= moved.q) & (moved.q <= high + slack)).all()
                 if moved.converged and moved.scaled <= self.widest and (within or not inside):
@@ -197,16 +197,21 @@ class _Walk:
                     break
         self.matrices: Array = np.array(matrices)
 
-    def _closed(self, q: Array, iterations: int = 60) -> Settled:
-        return settle(self.equations, self.scale, self.data, q, self.every, self.cut, iterations)
+    def _closed(self, q: Array, iterations: int = 60, rank: int | None = None) -> Settled:
+        found = settle(
+            self.equations, self.scale, self.data, q, self.every, self.cut, iterations, rank
+        )
+        if rank is not None and found.scaled > self.widest:  # the step began at a singular pose
+            return self._closed(q, iterations)
+        return found
 
     def _matrix(self, q: Array) -> Array:
         poses = self.equations.poses(self.data, q[None])
         matrix = self.equations.jacobian(poses)[0]
         return np.asarray(self.scale.rows[:, None] * matrix * self.scale.columns)
 
-    def _direction(self, matrix: Array, generator: np.random.Generator) -> Array | None:
-        """A random unit step along the motions that the loops leave; None if there are none."""
+    def _direction(self, matrix: Array, generator: np.random.Generator) -> tuple[Array | None, int]:
+        """A random unit step along the motions that the loops leave, if any, and the rank."""
         touched = np.abs(matrix).max(axis=0, initial=0.0) > 0
         _, values, right = np.linalg.svd(matrix, full_matrices=False)
         held = right[values > self.cut]
@@ -214,7 +219,7 @@ class _Walk:
         step = np.where(touched, generator.normal(size=matrix.shape[1]), 0.0)
         step -= held.T @ (held @ step)
         size = float(np.linalg.norm(step))
-        return np.asarray(step / size) if size > 1e-6 else None
+        return (np.asarray(step / size) if size > 1e-6 else None), len(held)
 
 
 def _blocks(

@@ -82,8 +82,9 @@ def _movers(description: Description) -> dict[str, str]:
         joint.child: joint.parent for joint in description.joints.values() if joint.kind == "fixed"
     }
     found = {}
-    for name in description.links:
-        top = name
+    ends = {name: name for name in description.links}
+    ends = {name: joint.child for name, joint in description.joints.items()} | ends
+    for name, top in ends.items():
         while top in fixed:
             top = fixed[top]
         found[name] = top

@@ -110,3 +110,15 @@ def test_a_tree_is_closed_where_it_stands():
     tree = ClosedRobot(replace(robot.description, supplement=Supplement()))
     found = assembly(tree)
     assert (found.closed, found.gaps, found.start) == (True, (), "the neutral pose")
+
+
+def test_a_limit_without_lower_and_upper_is_no_range():
+    robot = four_bar(0.3)
+    text = robot.urdf.replace('lower="-3.2" upper="3.2" ', "")
+    assert "lower" not in text
+    found = assembly(
+        ClosedRobot(replace(ClosedRobot(text).description, supplement=robot.supplement))
+    )
+    assert found.closed
+    assert found.outside == {}
+    assert np.abs(found.q).max() > 0.1

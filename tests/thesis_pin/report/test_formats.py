@@ -12,7 +12,8 @@ JOINT = '<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axi
 JOINT += '<limit lower="-1" upper="1" effort="1" velocity="1"/>{}</joint>'
 URDF = '<robot name="r">' + LINK.format("a") + LINK.format("b") + "{}</robot>"
 SDF = """<sdf version="1.7"><model name="r"><link name="a"/><link name="b"/>
-<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>
+<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis>
+</joint>
 {}</model></sdf>"""
 MJCF = """<mujoco><worldbody><body name="a"><joint name="j"/><site name="s"/><geom size="1"/></body>
 <site name="w"/></worldbody>{}</mujoco>"""

@@ -123,14 +123,9 @@ class TorqueNumbers:
     @cached_property
     def outside(self) -> dict[str, float]:
         """Joints that leave their range, and by how much [rad] or [m]."""
-        model, q = self.robot.model, self.joints.q
         found = {}
-        for name, joint in singles(model).items():
-            if joint.continuous:
-                continue
-            low, high = model.lowerPositionLimit[joint.q], model.upperPositionLimit[joint.q]
-            position = joint.position(q)
-            excess = float(np.maximum(position - high, low - position).max())
+        for name, joint in singles(self.robot.model).items():
+            excess = float(joint.excess(self.joints.q).max())
             if excess > TOLERANCES.joint_limit:
                 found[name] = excess
         return found

@@ -53,6 +53,8 @@ def test_frames_that_agree_in_an_axis_are_a_hinge_about_it(one, other, word):
         ("closing_knee_xyz_1 closing_knee_xyz_2", "3d"),
         ("closing_knee_xx_1 closing_knee_xx_2", "hinge_z"),
         ("closedloop7_A closedloop7_B", "hinge_z"),
+        ("closedloop3D_1A closedloop3D_1B", "3d"),
+        ("closedloop6D_1A closedloop6D_1B", "6d"),
         ("closedloop3D_1A closedloop3D_2B", None),
         ("closing_knee_1 closing_hip_2", None),
         ("closing_knee_1 closing_knee_3", None),
@@ -61,6 +63,24 @@ def test_frames_that_agree_in_an_axis_are_a_hinge_about_it(one, other, word):
 def test_names_say_which_frames_and_directions_are_closed(names, word):
     found = read_urdf(robot("0 0 0", "0 0 1", names=names))
     assert [word_of(one.rows) for one in found.supplement.closures] == [word] * (word is not None)
+
+
+def test_in_an_open_drawing_only_the_z_axes_speak():
+    """Others agree by chance, and a warning says how far apart the frames are."""
+    for rpy, word in (("0 0 1", "hinge_z"), ("0.4 0 0", "3d")):
+        text = robot("0 0 0", rpy).replace('xyz="0 0 0"', 'xyz="0.5 0 0"')
+        found = read_urdf(text)
+        (closure,) = found.supplement.closures
+        assert word_of(closure.rows) == word
+        assert f"as {word} (500 mm apart with all joints at zero)" in found.warnings[0]
+
+
+def test_joints_may_carry_the_names():
+    text = robot("0 0 0", "0 0 1", names="tip_a tip_b").replace('"f1"', '"closedloop1_A"')
+    found = read_urdf(text.replace('"f2"', '"closedloop1_B"'))
+    (closure,) = found.supplement.closures
+    assert closure.frames == ("closedloop1_A", "closedloop1_B")
+    assert word_of(closure.rows) == "hinge_z"
 
 
 def test_the_second_frame_is_the_one_so_called_wherever_it_stands():
