@@ -125,20 +125,14 @@ class TrajectoryReport(TrajectoryNumbers):
 
     def summary(self) -> dict[str, object]:
         """The verdict, peaks, work, balance, margins; without the samples."""
-        a, time = self.actuators, self.joints.time
+        time = self.joints.time
         force, moment = self.peak_reactions
         reading, other = self.other_reading
         worst, least = int(np.argmax(self.holding.condition)), int(np.argmin(self.solutions.margin))
         summary: dict[str, object] = {
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
-            "peak_torque": a.peak_torque,
-            "rms_torque": a.rms_torque,
-            "peak_speed": a.peak_speed,
-            "peak_power": a.peak_power,
-            "positive_work": a.positive_work,
-            "negative_work": a.negative_work,
-            "net_work": a.net_work,
+            **self.actuators.document(),
             "energy": {
                 "net_work": float(self.work_done[-1].sum()),
                 "change": self.energy_change,

@@ -21,7 +21,7 @@ def motors_table(report: TrajectoryReport) -> Table:
     """What every motor has to do; the last column has the other reading's torques."""
     a, (reading, other) = report.actuators, report.other_reading
     columns = {
-        "motor": list(a.names),
+        "motor": a.names,
         "": ACTUATOR_SYMBOLS[: len(a.names)],
         "peak N·m": [f"{value:.4f}" for value in a.peak_torque],
         "RMS N·m": [f"{value:.4f}" for value in a.rms_torque],
@@ -32,12 +32,8 @@ def motors_table(report: TrajectoryReport) -> Table:
         "net J": [f"{value:z.5f}" for value in a.net_work],
         f"peak N·m, {reading}": [f"{value:.4f}" for value in other[: len(a.names)]],
     }
-    return Table(
-        "Motors",
-        list(columns),
-        list(zip(*columns.values(), strict=True)),
-        note="The last column has the other reading of the printed inertias.",
-    )
+    note = "The last column has the other reading of the printed inertias."
+    return Table.of("Motors", columns, note)
 
 
 def summary(report: TrajectoryReport) -> Iterator[Part]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,16 +18,16 @@ if TYPE_CHECKING:  # inverse kinematics alone needs no report
     from scout_pin.report.document import GaitReport
 
 
-_WORK = ("work + mJ", "work − mJ")
-"""What a terminal has no room for."""
+_NARROW = (0, 1, 2, 3, 4, 5, 8)
+"""Columns that a terminal has room for."""
 
 
-def joints_table(report: GaitReport, *, work: bool = True) -> Table:
-    """What every joint has to do; ``work`` adds its work."""
+def joints_table(report: GaitReport) -> Table:
+    """What every joint has to do."""
     a = report.actuators
     columns = {
-        "joint": list(a.names),
-        "": list(JOINT_SYMBOLS),
+        "joint": a.names,
+        "": JOINT_SYMBOLS,
         "peak N·m": [f"{value:.3f}" for value in a.peak_torque],
         "RMS N·m": [f"{value:.3f}" for value in a.rms_torque],
         "peak rad/s": [f"{value:.2f}" for value in a.peak_speed],
@@ -37,22 +36,17 @@ def joints_table(report: GaitReport, *, work: bool = True) -> Table:
         "work − mJ": [f"{value * 1e3:z.1f}" for value in a.negative_work],
         "servo": [f"{value:.0%}" for value in report.servo_use],
     }
-    kept = [name for name in columns if work or name not in _WORK]
-    return Table(
-        "Joints",
-        kept,
-        list(zip(*(columns[name] for name in kept), strict=True)),
-        note="'servo' is the worst |τ|/stall + |θ̇|/no-load, at most 100 %.",
-    )
+    note = "'servo' is the worst |τ|/stall + |θ̇|/no-load, at most 100 %."
+    return Table.of("Joints", columns, note)
 
 
 def summary(report: GaitReport) -> Iterator[Part]:
     """A gait report in a table and paragraphs."""
     s, f, time = report.robot, report.fastest, report.joints.time
-    yield replace(
-        joints_table(report, work=False),
-        title=f"{s.specification.name}, gait {report.gait.name!r}: {time[-1] - time[0]:g} s, "
+    yield joints_table(report).only(
+        f"{s.specification.name}, gait {report.gait.name!r}: {time[-1] - time[0]:g} s, "
         f"time unit {report.time_unit:g} s, {len(time)} samples",
+        _NARROW,
     )
     torque, line = (f"{x:.4f} s" if x is not None else "none" for x in (f.torque, f.line))
     used = report.peak_friction_used

@@ -26,6 +26,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     """Run the verb; returns the exit code."""
     from thesis_pin.audit import text as faces
     from thesis_pin.audit.document import document
+    from thesis_pin.audit.markdown import markdown
     from thesis_pin.audit.page import page
     from thesis_pin.command.output import print_entries, print_parts, print_table, print_text
     from thesis_pin.command.progress import track
@@ -41,7 +42,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     if arguments.html:
         write_file(arguments.html, page(report).encode())
     if arguments.markdown:
-        write_file(arguments.markdown, faces.markdown(report, thesis.document_command).encode())
+        write_file(arguments.markdown, markdown(report, thesis.document_command).encode())
     if arguments.json:
         write_file(arguments.json, json_bytes(document(report)))
     if not free(arguments):

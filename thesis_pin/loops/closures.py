@@ -16,12 +16,12 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.loops.equations import Equations
 from thesis_pin.loops.joint_types import replace_joints
 from thesis_pin.loops.joints import is_free, singles
-from thesis_pin.loops.rows import Loop as Loop
-from thesis_pin.loops.scale import Scale, scale_of
-from thesis_pin.loops.survey import Survey
+from thesis_pin.loops.system.equations import Equations
+from thesis_pin.loops.system.rows import Loop as Loop
+from thesis_pin.loops.system.scale import Scale, scale_of
+from thesis_pin.loops.system.survey import Survey
 from thesis_pin.model.closure_types import word_of
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile

@@ -21,10 +21,16 @@ from numpy.typing import ArrayLike, NDArray
 from thesis_pin.errors import BadInput, SingularPose, ThesisPinError, Unreachable
 from thesis_pin.loops.closing import is_closed
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.loads import Wrenches, checked_wrenches, external_forces, passive_forces
-from thesis_pin.loops.newton import settle
-from thesis_pin.loops.survey import Survey, describe_gap
+from thesis_pin.loops.forces.loads import (
+    Wrenches,
+    checked_wrenches,
+    external_forces,
+    passive_forces,
+)
 from thesis_pin.loops.surveying import surveyed
+from thesis_pin.loops.system.gaps import describe_gap
+from thesis_pin.loops.system.newton import settle
+from thesis_pin.loops.system.survey import Survey
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import function, instance, real
 from thesis_pin.numeric.complements import complement

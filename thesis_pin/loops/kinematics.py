@@ -17,16 +17,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput
 from thesis_pin.loops.closing import Closing as Closing
-from thesis_pin.loops.closing import Following as Following
 from thesis_pin.loops.closing import close as close
 from thesis_pin.loops.closing import close_each as close_each
-from thesis_pin.loops.closing import follow as follow
-from thesis_pin.loops.closing import follow_each as follow_each
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.equations import Poses
-from thesis_pin.loops.idle import IdleGroup
-from thesis_pin.loops.rows import WELD
+from thesis_pin.loops.following import Following as Following
+from thesis_pin.loops.following import follow as follow
+from thesis_pin.loops.following import follow_each as follow_each
 from thesis_pin.loops.surveying import surveyed
+from thesis_pin.loops.system.equations import Poses
+from thesis_pin.loops.system.idle import IdleGroup
+from thesis_pin.loops.system.rows import WELD
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.complements import complement

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.errors import SingularPose
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.survey import Survey
+from thesis_pin.loops.system.survey import Survey
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]

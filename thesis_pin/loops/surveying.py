@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.survey import Survey, survey
+from thesis_pin.loops.system.survey import Survey, survey
 from thesis_pin.numeric.checks import real
 
 

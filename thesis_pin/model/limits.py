@@ -37,7 +37,7 @@ class Limits:
         links: Links of a robot.
         joints: Its joints that move; Pinocchio's data grow with their cube, and take
             0.5 GB at 200.
-        entries: Entries of each list of a closure file.
+        entries: Entries of each list of a closure file; loops and tied joints of a URDF.
         magnitude: Largest absolute value of a number, in whatever unit.
         smallest: Least value of what has to be positive.
         time_step: Least step between samples and between nodes [s], [-].

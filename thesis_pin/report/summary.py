@@ -30,6 +30,11 @@ class ActuatorSummary:
     positive_work: np.ndarray
     negative_work: np.ndarray
 
+    def document(self) -> dict[str, np.ndarray]:
+        """JSON-ready, without the names."""
+        own = {name: values for name, values in vars(self).items() if name != "names"}
+        return {**own, "net_work": self.net_work}
+
     @property
     def net_work(self) -> np.ndarray:
         """Work given minus work taken back [J]."""

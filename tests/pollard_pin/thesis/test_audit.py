@@ -24,7 +24,7 @@ from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.symbols.loops import opening
 from pollard_pin.thesis.symbols.rates import joint_rates
 from thesis_pin.audit import page as audit_page
-from thesis_pin.audit import text as audit_report
+from thesis_pin.audit.markdown import markdown
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.audit.verdicts import residual
 from thesis_pin.equations.catalogue import Catalogue
@@ -329,9 +329,9 @@ def test_no_number_of_the_document_stands_where_rounding_could_turn_a_digit(repo
 
 @pytest.mark.bytes
 def test_the_document_is_current(report):
-    assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(
-        report, THESIS.document_command
-    ), f"stale: run {THESIS.document_command}"
+    assert DOCUMENT.read_text(encoding="utf-8") == markdown(report, THESIS.document_command), (
+        f"stale: run {THESIS.document_command}"
+    )
 
 
 def test_what_holds_and_what_fails_are_far_apart(report):

@@ -11,7 +11,7 @@ from scout_pin.thesis import catalogue
 from scout_pin.thesis.audit import CAUSES, NUMBERS, THESIS, audit, states
 from scout_pin.thesis.references import References
 from thesis_pin.audit import page as audit_page
-from thesis_pin.audit import text as audit_report
+from thesis_pin.audit.markdown import markdown
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.audit.verdicts import residual
 
@@ -195,9 +195,9 @@ def test_no_number_of_the_document_stands_where_rounding_could_turn_a_digit(repo
 
 @pytest.mark.bytes
 def test_the_document_is_current(report):
-    assert DOCUMENT.read_text(encoding="utf-8") == audit_report.markdown(
-        report, THESIS.document_command
-    ), f"stale: run {THESIS.document_command}"
+    assert DOCUMENT.read_text(encoding="utf-8") == markdown(report, THESIS.document_command), (
+        f"stale: run {THESIS.document_command}"
+    )
 
 
 def test_the_page_renders_every_formula_and_stays_small(report):

@@ -8,6 +8,7 @@ from thesis_pin.audit import document as audit_json
 from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
 from thesis_pin.audit.kinds import KINDS, kinds, of_equation
+from thesis_pin.audit.markdown import markdown
 from thesis_pin.audit.places import places
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.command.audit import _NARROW
@@ -111,7 +112,7 @@ def test_verdicts_are_counted_by_chapter_and_mended_lines_by_kind(report):
 
 
 def test_documents_and_json_show_both_tables(report):
-    text = audit_report.markdown(report, "make it")
+    text = markdown(report, "make it")
     assert "| D | 2 | - | 1 | 1 |" in text
     assert "| all | 4 | 1 | 2 | 1 |" in text
     assert f"| dot | 2 | - | {KINDS['dot']} |" in text

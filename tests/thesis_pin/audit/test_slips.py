@@ -9,6 +9,7 @@ import scout_pin.thesis.audit
 from thesis_pin.audit import document as audit_json
 from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
+from thesis_pin.audit.markdown import markdown
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.slips import Cause, read_causes
 from thesis_pin.command.audit import _TITLE
@@ -52,7 +53,7 @@ def test_an_explanation_has_two_to_four_sentences_and_a_place(audit, _):
 
 
 def test_the_document_explains_each_cause_once_with_its_lines():
-    text = audit_report.markdown(REPORT, "make it")
+    text = markdown(REPORT, "make it")
     assert text.count(SLIP.explanation) == 1
     assert "Enters in: (1.2)." in text
     assert "Lines (2): 1:c_1, 1:c_2." in text

@@ -8,6 +8,7 @@ import pytest
 from thesis_pin.audit import document as audit_json
 from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import text as audit_report
+from thesis_pin.audit.markdown import markdown
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.verdicts import ClaimResult, judge, verdict
 from thesis_pin.equations.catalogue import Catalogue, Equation
@@ -167,7 +168,7 @@ def test_the_document_is_plain_json_and_the_page_stands_alone(report):
     page = audit_page.page(report)
     assert "<math" in page
     assert "http" not in page.replace("http-equiv", "")
-    assert "Outside the audit" in audit_report.markdown(report, "make it")
+    assert "Outside the audit" in markdown(report, "make it")
 
 
 def test_effects_equal_but_for_rounding_weigh_the_same():

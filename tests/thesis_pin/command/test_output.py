@@ -7,8 +7,9 @@ import sys
 
 import pytest
 
-from thesis_pin.command.output import print_entries, print_table, print_text
+from thesis_pin.command.output import print_entries, print_parts, print_table, print_text
 from thesis_pin.errors import CannotWrite
+from thesis_pin.report.tables import Table
 
 COLUMNS = ("joint", "peak τ\n[N·m]", "speed\n[rad/s]", "work [J]", "")
 ROWS = [("θ21", "-1234.567", "12.5", "0.0001", "ok"), ("knee of the left leg", "1", "2", "3", "")]
@@ -86,3 +87,11 @@ def test_a_reader_that_has_left_is_told_apart(monkeypatch):
     monkeypatch.setattr(sys, "stdout", failing(BrokenPipeError()))
     with pytest.raises(BrokenPipeError):
         print_text("text")
+
+
+def test_tables_and_paragraphs_are_printed_in_their_order(capsys):
+    print_parts(["before", Table("torques", ("joint", "N·m"), [("knee", "0.50")]), "", "after"])
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    found = [lines.index(text) for text in ("before", "torques", "after")]
+    assert found == sorted(found)
+    assert any(line.split() == ["knee", "0.50"] for line in lines)

@@ -10,12 +10,13 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import SingularPose, TrajectoryError
-from thesis_pin.loops.closing import close, follow, motor_positions
+from thesis_pin.loops.closing import close, motor_positions
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.idle import joint_names
+from thesis_pin.loops.following import follow
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.files import JointMotion
 from thesis_pin.loops.motion.sampled import with_derivatives
+from thesis_pin.loops.system.idle import joint_names
 from thesis_pin.model.supplement import Motor
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance

@@ -83,7 +83,8 @@ def _closed(root: Element, tree: Description, motors: Sequence[str]) -> Descript
     links, joints = tree.links, tree.joints
     made = Cutter(dict(links), dict(joints), {*links, *joints}, where)
     if needs_cutting(joints.values()):
-        keep = [name for name in joints if any(part in name for part in motors)]
+        keep = {name for name in joints if any(part in name for part in motors)}
+        keep |= {name for one in couplings for name in one.coefficients} | independent(root)
         cut = cut_loops(links, joints, keep=keep, where=where)
         made = Cutter(dict(cut.links), dict(cut.joints), {*cut.links, *cut.joints}, where)
         made.closures, notes = list(cut.closures), (*notes, *cut.notes)
@@ -94,6 +95,11 @@ def _closed(root: Element, tree: Description, motors: Sequence[str]) -> Descript
     changed = made.links.keys() != links.keys() or any(
         joints.get(name) is not joint for name, joint in made.joints.items()
     )
+    for what, listed in (("loops", made.closures), ("tied joints", couplings)):
+        if len(listed) > LIMITS.entries:
+            raise ModelError(
+                f"there are {len(listed):,} {what}", where=where, allowed=f"{LIMITS.entries:,}"
+            )
     supplement = Supplement(tuple(made.closures), tuple(couplings))
     driven = _motors(root, made.joints, supplement)
     return replace(

@@ -122,18 +122,12 @@ class TorqueReport(TorqueNumbers):
 
     def summary(self) -> dict[str, object]:
         """The verdict, peaks and work; without the samples."""
-        a, force = self.actuators, self.loop_force_size
+        force = self.loop_force_size
         return {
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
             "warnings": self.warnings(),
-            "peak_torque": a.peak_torque,
-            "rms_torque": a.rms_torque,
-            "peak_speed": a.peak_speed,
-            "peak_power": a.peak_power,
-            "positive_work": a.positive_work,
-            "negative_work": a.negative_work,
-            "net_work": a.net_work,
+            **self.actuators.document(),
             "effort_limits": [
                 [value if np.isfinite(value) else None for value in pair]
                 for pair in self.effort_limits.T.tolist()

@@ -15,7 +15,7 @@ def motors_table(report: TorqueReport) -> Table:
     a = report.actuators
     per = ["rad/s" if turns else "m/s" for turns in report.turning]
     columns = {
-        "motor": list(a.names),
+        "motor": a.names,
         "peak": [f"{x:.4g} {u}" for x, u in zip(a.peak_torque, report.units, strict=True)],
         "RMS": [f"{x:.4g}" for x in a.rms_torque],
         "of limit": [f"{x:.0%}" if x else "–" for x in report.effort_use],
@@ -25,7 +25,7 @@ def motors_table(report: TorqueReport) -> Table:
         "work − J": [f"{x:z.4g}" for x in a.negative_work],
         "net J": [f"{x:z.4g}" for x in a.net_work],
     }
-    return Table("Motors", list(columns), list(zip(*columns.values(), strict=True)))
+    return Table.of("Motors", columns)
 
 
 def loops_table(report: TorqueReport) -> Table:
@@ -44,13 +44,9 @@ def loops_table(report: TorqueReport) -> Table:
 
 def summary(report: TorqueReport) -> Iterator[Part]:
     """A torque report in tables and paragraphs."""
-    time, motors = report.joints.time, motors_table(report)
-    shown = (0, 1, 3, 4, 5, 8)  # what 80 columns hold
-    yield Table(
-        f"{report.robot.model.name}, {report.motion.name}, {time[-1] - time[0]:g} s",
-        [motors.columns[k] for k in shown],
-        [[row[k] for k in shown] for row in motors.rows],
-    )
+    time = report.joints.time
+    title = f"{report.robot.model.name}, {report.motion.name}, {time[-1] - time[0]:g} s"
+    yield motors_table(report).only(title, (0, 1, 3, 4, 5, 8))  # what 80 columns hold
     if report.robot.loops:
         yield loops_table(report)
     yield f"Unexplained load: {report.unexplained.max():.1e} of the largest."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thesis_pin.loops.judging import DOUBTFUL
+from thesis_pin.loops.forces.judging import DOUBTFUL
 from thesis_pin.report.torque.numbers import TorqueNumbers
 
 UNEXPLAINED = 1e-6

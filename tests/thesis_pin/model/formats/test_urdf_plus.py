@@ -160,6 +160,39 @@ def test_a_coupling_that_ties_nothing_is_refused(coupling, says):
         read_urdf(f'{text}<coupling name="c">{coupling}</coupling></robot>')
 
 
+@pytest.mark.parametrize("kept", ["motor", "mark", "mimic"])
+def test_a_loop_is_cut_at_a_joint_that_nothing_drives_or_ties(kept):
+    """The last of equal joints is cut, unless it is needed."""
+    last = '<joint name="d" type="continuous"><parent link="b"/><child link="c"/>{}</joint>'
+    text = (
+        '<robot name="r"><link name="base"/>'
+        + joint("j", "base", "b")
+        + joint("k", "base", "c")
+        + last.format('<mimic joint="j"/>' if kept == "mimic" else "")
+        + "</robot>"
+    )
+    if kept == "mark":
+        text = text.replace('name="d"', 'name="d" independent="true"')
+    found = read_urdf(text, motors=["d"] if kept == "motor" else [])
+    assert "d" in found.joints
+    assert [one.name for one in found.supplement.closures] == (["k"])
+    plain = read_urdf(text.replace('<mimic joint="j"/>', "").replace('independent="true"', ""))
+    assert [one.name for one in plain.supplement.closures] == ["d"]
+
+
+def test_more_loops_than_a_closure_file_may_have_are_refused():
+    loops = "".join(
+        LOOP.format(kind="spherical", axis="").replace('"tip"', f'"tip{k}"') for k in range(1001)
+    )
+    with pytest.raises(ModelError, match=r"r\.urdf: there are 1,001 loops; allowed: 1,000"):
+        read_urdf(
+            four_bar("fixed")
+            .replace("<loop", loops + "<loop", 1)
+            .replace(LOOP.format(kind="fixed", axis='<axis xyz="0 0.6 0.8"/>'), ""),
+            where="r.urdf",
+        )
+
+
 def test_what_is_passed_over_is_named():
     text = four_bar().replace(
         "</robot>",

@@ -18,6 +18,7 @@ from thesis_pin.model.formats.cutting import Cutter, fresh
 from thesis_pin.model.formats.mjcf.equalities import Equalities
 from thesis_pin.model.formats.mjcf.forces import Forces
 from thesis_pin.model.formats.mjcf.names import about, name_at, names_of, turned
+from thesis_pin.model.formats.mjcf.shapes import shapes_of
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT, UNLIMITED, pose, write_urdf
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.supplement import Supplement
@@ -80,7 +81,7 @@ def describe(
         name,
         links,
         joints,
-        write_urdf(name, links.values(), joints.values()),
+        write_urdf(name, links.values(), joints.values(), shapes_of(model, reading.bodies)),
         where=where,
         supplement=supplement,
         warnings=tuple(warnings),

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from thesis_pin.errors import ModelError
 from thesis_pin.model.description import Description
 from thesis_pin.model.formats.mjcf.compiled import describe
+from thesis_pin.model.formats.mjcf.geometry import line_of, strip_geometry
 from thesis_pin.model.formats.mjcf.without_mujoco import read_with_pinocchio
 from thesis_pin.model.formats.xml import Element, parse_xml
 from thesis_pin.model.limits import LIMITS
@@ -174,7 +175,7 @@ def _strip(spec: mujoco.MjSpec, where: str) -> tuple[list[str], list[str]]:
             spec.delete(item)
     for item in list(spec.tendons):
         spec.delete(item)
-    needed = _strip_geometry(spec, said, where)
+    needed = strip_geometry(spec, said, where)
     for mesh in list(spec.meshes):
         if mesh.name not in needed:
             spec.delete(mesh)
@@ -187,47 +188,3 @@ def _strip(spec: mujoco.MjSpec, where: str) -> tuple[list[str], list[str]]:
     for item in (*spec.materials, *spec.textures):
         spec.delete(item)
     return said, passed
-
-
-def _strip_geometry(spec: mujoco.MjSpec, said: list[str], where: str) -> set[str]:
-    """Take out geometry that no inertia is made of; the meshes that some is made of."""
-    import mujoco
-
-    always = spec.compiler.inertiafromgeom == mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_TRUE
-    files = {mesh.name: _mesh_file(spec, mesh) for mesh in spec.meshes}
-    missing = {name for name, file in files.items() if file is not None and not file.is_file()}
-    needed: set[str] = set()
-    for body in spec.bodies:
-        shapes = list(body.geoms)
-        if body.name == "world" or (body.explicitinertial and not always):
-            for shape in shapes:
-                spec.delete(shape)
-            continue
-        lost = sorted({shape.meshname for shape in shapes if shape.meshname in missing})
-        if lost:
-            raise ModelError(
-                f"the inertia of body {body.name!r} is made of mesh {lost[0]!r}, which is missing",
-                where=f"{where}:{line_of(body)}",
-                remedy=f"Put it at {files[lost[0]]}, or give the body an <inertial>",
-            )
-        needed |= {shape.meshname for shape in shapes if shape.meshname}
-    if missing:
-        names = ", ".join(sorted(missing)[:5]) + (" …" if len(missing) > 5 else "")
-        said.append(
-            f"{where}: missing meshes are left out, which is harmless as the bodies have "
-            f"inertials: {names}"
-        )
-    return needed
-
-
-def _mesh_file(spec: mujoco.MjSpec, mesh: mujoco.MjsMesh) -> Path | None:
-    if not mesh.file:
-        return None
-    name = Path(mesh.file).name if spec.strippath else mesh.file
-    return Path(spec.modelfiledir, spec.meshdir, name)
-
-
-def line_of(element: object) -> int:
-    """Line of an element of MuJoCo's specification in its file; 0 if it isn't known."""
-    found = re.search(r"line (\d+)", str(getattr(element, "info", "")))
-    return int(found.group(1)) if found else 0

@@ -254,7 +254,7 @@ def test_missing_meshes_are_left_out_where_bodies_have_inertials(tmp_path):
         mujoco.MjModel.from_xml_path(str(path))
     found = read_mjcf(path)
     assert found.warnings == (
-        f"{path}: missing meshes are left out, which is harmless as the bodies have inertials: m",
+        f"{path}: missing meshes are left out, which is harmless as no inertia is made of them: m",
     )
     assert found.links["two"].inertial.mass == 0.5
 
@@ -263,7 +263,7 @@ def test_missing_meshes_are_left_out_where_bodies_have_inertials(tmp_path):
     ("compiler", "small"), [("", ""), ('inertiafromgeom="true"', SMALL)], ids=["none", "always"]
 )
 def test_an_inertia_made_of_a_missing_mesh_is_refused(compiler, small, tmp_path):
-    body = f'<body name="base"> {small} {SHAPE}</body>'
+    body = f'<body name="base"><joint/> {small} {SHAPE}</body>'
     with pytest.raises(ModelError, match=r"robot\.xml:1: the inertia of body 'base' is made of"):
         read_mjcf(_file(tmp_path, body, compiler=compiler, before=MESH))
 
@@ -344,3 +344,43 @@ def test_more_joints_than_pinocchio_has_memory_for_are_refused(tmp_path):
     body = "".join(f'<body name="b{k}">{SMALL}<joint/></body>' for k in range(201))
     with pytest.raises(ModelError, match="201 joints move; allowed: at most 200"):
         read_mjcf(_file(tmp_path, body))
+
+
+def test_simple_shapes_are_drawn_where_they_stand(tmp_path):
+    shapes = """<geom type="box" size="1 2 3" pos="0.1 0 0"/> <geom size="0.2" contype="0"
+      conaffinity="0"/> <geom type="capsule" size="0.1" fromto="0 0 0 0 0 1"/>
+      <geom type="ellipsoid" size="1 1 2"/>"""
+    path = _file(tmp_path, HINGES.replace(SMALL, SMALL + shapes, 1), before=MESH)
+    robot = ClosedRobot(read_mjcf(path))
+    seen = {kind: [] for kind in ("visual", "collision")}
+    for kind, found in seen.items():
+        for item in getattr(robot, f"{kind}_model").geometryObjects:
+            size = item.geometry
+            found.append(getattr(size, "halfSide", getattr(size, "radius", None)))
+    assert len(seen["visual"]) == 5
+    assert len(seen["collision"]) == 4
+    np.testing.assert_allclose(seen["visual"][0], [1, 2, 3])
+    tube = robot.visual_model.geometryObjects[2]
+    above = robot.model.frames[robot.model.getFrameId("two", pin.BODY)].placement
+    middle = above.actInv(tube.placement.translation)
+    np.testing.assert_allclose(middle, [0, 0, 0.5], atol=1e-14)
+    assert tube.geometry.halfLength == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        f'<body name="base"> {SHAPE} <body name="arm">{SMALL}<joint name="a"/></body></body>',
+        '<body name="arm"><joint name="a"/><geom type="mesh" mesh="m" mass="0"/>'
+        '<geom size="1"/></body>',
+        '<body name="arm"><joint name="a"/><geom type="mesh" mesh="m" density="0"/>'
+        '<geom size="1"/></body>',
+        '<body name="arm"><joint name="a"/><geom type="mesh" mesh="m" group="4"/>'
+        '<geom size="1"/></body>',
+    ],
+    ids=["still", "no mass", "no density", "another group"],
+)
+def test_missing_meshes_that_weigh_nothing_are_left_out(body, tmp_path):
+    found = read_mjcf(_file(tmp_path, body, compiler='inertiagrouprange="0 3"', before=MESH))
+    assert "a" in found.joints
+    assert "missing meshes are left out" in found.warnings[0]

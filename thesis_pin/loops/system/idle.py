@@ -12,8 +12,8 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from thesis_pin.loops.equations import Equations
-from thesis_pin.loops.scale import Scale
+from thesis_pin.loops.system.equations import Equations
+from thesis_pin.loops.system.scale import Scale
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]

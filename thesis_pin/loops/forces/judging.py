@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput, SingularPose
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.equations import Poses
-from thesis_pin.loops.survey import Survey
+from thesis_pin.loops.system.equations import Poses
+from thesis_pin.loops.system.survey import Survey
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]

@@ -13,8 +13,8 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from thesis_pin.loops.equations import Equations
-from thesis_pin.loops.rows import Loop
+from thesis_pin.loops.system.equations import Equations
+from thesis_pin.loops.system.rows import Loop
 
 Array = NDArray[np.float64]
 

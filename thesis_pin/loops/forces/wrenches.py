@@ -7,7 +7,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.equations import Equations, Poses
+from thesis_pin.loops.system.equations import Equations, Poses
 
 Array = NDArray[np.float64]
 

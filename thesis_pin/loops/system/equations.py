@@ -14,7 +14,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from thesis_pin.loops.rows import Loop
+from thesis_pin.loops.system.rows import Loop
 from thesis_pin.model.supplement import Coupling
 from thesis_pin.numeric.arrays import skew
 

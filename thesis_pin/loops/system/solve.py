@@ -16,8 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.loops.scale import Scale
-from thesis_pin.loops.survey import Block, Survey
+from thesis_pin.loops.system.scale import Scale
+from thesis_pin.loops.system.survey import Block, Survey
 from thesis_pin.numeric.complements import complement
 
 Array = NDArray[np.float64]

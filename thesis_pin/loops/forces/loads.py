@@ -9,7 +9,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.equations import Poses
+from thesis_pin.loops.system.equations import Poses
 from thesis_pin.model.loading import frame_id
 from thesis_pin.numeric.arrays import finite_array, spread
 from thesis_pin.tolerances import TOLERANCES

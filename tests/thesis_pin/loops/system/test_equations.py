@@ -7,7 +7,7 @@ import pytest
 
 from thesis_pin.loops import dynamics
 from thesis_pin.loops import kinematics as loops
-from thesis_pin.loops.rows import Loop
+from thesis_pin.loops.system.rows import Loop
 
 KINDS = [
     "3d",
