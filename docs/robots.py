@@ -25,7 +25,8 @@ from numpy.typing import NDArray
 
 import thesis_pin
 from thesis_pin.loops.assembly import assembly
-from thesis_pin.loops.closing import follow, motor_positions
+from thesis_pin.loops.closing import motor_positions
+from thesis_pin.loops.following import follow
 from thesis_pin.loops.kinematics import mobility
 from thesis_pin.model.closure_types import rows_of
 
@@ -51,14 +52,14 @@ SOURCES = {
 """Source → address, version or commit, date."""
 
 EXAMPLES = {
-    "cassie_description/cassie_v2": "-op",
-    "cassie_description/cassie_wo_gearbox_spring": "-op",
-    "panda": "",
-    "solo12": "",
-    "talos_full_v2": "",
-    "ur5_robot": "",
+    "cassie_description/cassie_v2": ["-op", "knee-shin"],
+    "panda": [],
+    "solo12": [],
+    "talos_full_v2": [],
+    "ur5_robot": [],
 }
-"""Of example-robot-data: name → part of the motors' names, which an SDF doesn't say."""
+"""Of example-robot-data: name → parts of the motors' names, where its SDF says none; Cassie's shins are
+held as if by motors instead of by their springs."""
 
 
 def row(source: str, name: str, file: str, closures: str | None = None) -> dict[str, object]:
@@ -123,8 +124,9 @@ def by_null_space(robot: thesis_pin.ClosedRobot, q: Array, v: Array, a: Array) -
     here = relative(q)
     columns = []
     for step in STEP * np.eye(model.nv):
-        ahead, behind = relative(pin.integrate(model, q, step)), relative(
-            pin.integrate(model, q, -step)
+        ahead, behind = (
+            relative(pin.integrate(model, q, step)),
+            relative(pin.integrate(model, q, -step)),
         )
         parts = []
         for loop, now, after, before in zip(robot.loops, here, ahead, behind, strict=True):
@@ -135,7 +137,7 @@ def by_null_space(robot: thesis_pin.ClosedRobot, q: Array, v: Array, a: Array) -
             if mask is None or sum(mask[3:]) == 1 or not any(mask):
                 raise SystemExit(f"{loop.name}: {loop.kind} isn't written out here")
             parts.append(np.concatenate([shift, turn])[list(mask)])
-        columns.append(np.concatenate(parts))
+        columns.append(np.concatenate([np.empty(0), *parts]))
     matrix = np.column_stack(columns)
     ties = np.zeros((len(robot.couplings), model.nv))
     for k, coupling in enumerate(robot.couplings):
@@ -180,7 +182,7 @@ def examples() -> Iterator[dict[str, object]]:
     for name, motors in EXAMPLES.items():
         with tempfile.TemporaryDirectory() as folder:
             beside = Path(folder, "motors.yaml")
-            beside.write_text(f"closed_loop: []\ntype: []\nname_mot: ['{motors}']\n")
+            beside.write_text(f"closed_loop: []\ntype: []\nname_mot: {motors}\n")
             closures = str(beside) if motors else None
             yield row("example-robot-data", name.rpartition("/")[2], f"example:{name}", closures)
 
@@ -195,9 +197,7 @@ def of_folder(source: str, folder: Path) -> Iterator[dict[str, object]]:
         yield from _tried(source, file.name, str(file), None)
 
 
-def _tried(
-    source: str, name: str, file: str, closures: str | None
-) -> Iterator[dict[str, object]]:
+def _tried(source: str, name: str, file: str, closures: str | None) -> Iterator[dict[str, object]]:
     try:
         yield row(source, name, file, closures)
     except thesis_pin.ThesisPinError as error:
