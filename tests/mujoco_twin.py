@@ -117,7 +117,10 @@ def driven(model, qpos, qvel, torques):
     data.qpos, data.qvel = qpos, qvel
     mujoco.mj_forward(model, data)
     mass = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, mass)
+    try:
+        mujoco.mj_fullM(model, data, mass)
+    except TypeError:  # before version 4
+        mujoco.mj_fullM(model, mass, data.qM)
     rows = equality_jacobian(model, qpos)
     step, poses = 1e-5, []
     for sign in (1, -1):

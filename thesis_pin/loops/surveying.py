@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.errors import ModelError, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.culprits import culprits
 from thesis_pin.loops.system.survey import Survey, survey
 from thesis_pin.numeric.checks import real
 
@@ -36,7 +38,16 @@ def surveyed(
         for asked, known in robot.surveys:
             if asked == precision:
                 return known
-    found = survey(robot.system, robot.scale, q, robot.passive, precision)
+    try:
+        found = survey(robot.system, robot.scale, q, robot.passive, precision)
+    except (ModelError, Unreachable) as error:
+        digits = culprits(robot.description)
+        if not digits:
+            raise
+        what = f"{error.what}; nearly round in the file: {', '.join(digits)}"
+        raise type(error)(
+            what, where=error.where, allowed=error.allowed, remedy=error.remedy
+        ) from None
     robot.surveys.insert(0, (precision, found))
     del robot.surveys[8:]
     return found

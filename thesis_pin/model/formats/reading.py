@@ -12,6 +12,9 @@ from dataclasses import replace
 from pathlib import Path
 from xml.parsers import expat
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from thesis_pin.errors import ModelError
 from thesis_pin.model.description import Description
 from thesis_pin.model.examples import located
@@ -50,9 +53,9 @@ def _read(path: str | Path, motors: Sequence[str]) -> Description:
     content = read_bytes(kind, path, LIMITS.urdf_bytes)
     tag = root_tag(content)
     if tag == "mujoco":
-        return read_mjcf(path, content)
+        return _bounded(read_mjcf(path, content))
     if tag == "sdf":
-        return read_sdf(path, content, motors=motors)
+        return _bounded(read_sdf(path, content, motors=motors))
     if tag not in ("robot", ""):
         raise ModelError(
             f"the root element is <{tag}>",
@@ -60,6 +63,39 @@ def _read(path: str | Path, motors: Sequence[str]) -> Description:
             allowed="<robot> (URDF), <mujoco> (MJCF), <sdf> (SDF)",
         )
     return urdf.read(path, content, motors=motors)
+
+
+def _bounded(description: Description) -> Description:
+    """Refuse numbers that aren't finite or are larger than any robot's."""
+    for link in description.links.values():
+        if (body := link.inertial) is not None:
+            where = f"{description.where}:{link.line}: link {link.name!r}"
+            _check("inertial", where, body.mass, body.placement, body.tensor)
+    for joint in description.joints.values():
+        where = f"{description.where}:{joint.line}: joint {joint.name!r}"
+        losses = joint.damping, joint.friction
+        _check("numbers", where, joint.placement, joint.axis, (joint.limit or (0.0,))[:2], losses)
+    beside = description.supplement
+    springs = [(spring.stiffness, spring.rest) for spring in beside.springs]
+    ties = [(*tie.coefficients.values(), tie.constant) for tie in beside.couplings]
+    maps = [tuple(one.values()) for one in (beside.armature, beside.damping, beside.friction)]
+    poses = [value for pose in beside.poses.values() for value in pose.values()]
+    _check("springs", description.where, *springs)
+    _check("couplings", description.where, *ties)
+    _check("armature, damping or friction", description.where, *maps)
+    _check("poses or gravity", description.where, *poses, beside.gravity)
+    return description
+
+
+def _check(what: str, where: str, *values: ArrayLike) -> None:
+    for value in values:
+        size = np.abs(np.asarray(value, dtype=float)).max(initial=0.0)
+        if not size <= LIMITS.magnitude:
+            raise ModelError(
+                f"its {what} hold{'s' if what == 'inertial' else ''} {size:g}",
+                where=where,
+                allowed=f"finite numbers of magnitude at most {LIMITS.magnitude:g}",
+            )
 
 
 class _Found(Exception):

@@ -39,6 +39,21 @@ def test_a_file_that_is_not_there_is_called_by_what_it_seems(name, kind, tmp_pat
         read(tmp_path / name)
 
 
+@pytest.mark.parametrize(
+    ("text", "old", "new", "says"),
+    [
+        (MJCF, 'mass="2"', 'mass="1e300"', r"r\.xml:0: link 'body1': its inertial holds 1e\+300"),
+        (MJCF, 'name="j"', 'name="j" stiffness="1e300"', "its springs hold"),
+        (MJCF, 'name="j"', 'name="j" damping="1e300"', r"r\.xml:1: joint 'j': its numbers hold"),
+        (MJCF, "0 0 -1.6", "0 0 1e300", "its poses or gravity hold"),
+    ],
+)
+def test_numbers_that_no_robot_has_are_refused(text, old, new, says, tmp_path):
+    (tmp_path / "r.xml").write_text(text.replace(old, new))
+    with pytest.raises(ModelError, match=says):
+        read(tmp_path / "r.xml")
+
+
 def test_another_format_is_refused(tmp_path):
     (tmp_path / "r.xml").write_text("<html/>")
     with pytest.raises(ModelError, match=r"root element is <html>; allowed: <robot> \(URDF\), <mu"):

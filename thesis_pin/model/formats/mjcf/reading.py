@@ -11,6 +11,8 @@ from __future__ import annotations
 import math
 import re
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +24,7 @@ from thesis_pin.model.formats.mjcf.without_mujoco import read_with_pinocchio
 from thesis_pin.model.formats.xml import Element, parse_xml
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.source import read_bytes
+from thesis_pin.numeric.checks import shown
 
 if TYPE_CHECKING:
     import mujoco
@@ -30,6 +33,10 @@ KIND = "MJCF"
 
 _UNSEEN = ("sensors", "pairs", "excludes", "skins", "cameras", "lights", "texts", "numerics")
 _MOST_FILES = 100
+_NAMES = (
+    *("name", "class", "childclass", "file", "mesh", "material", "joint", "joint1", "joint2"),
+    *("body", "body1", "body2", "site", "site1", "site2", "tendon", "model"),
+)
 _ELEMENTS_THAT_COPY = ("replicate", "composite", "flexcomp")
 
 
@@ -57,9 +64,11 @@ def read_mjcf(path: str | Path, content: bytes | None = None) -> Description:
         return read_with_pinocchio(path, root)
     folder = Path(path).resolve().parent
     included = _included(root, folder, where)
-    spec = _spec(text, included, folder, where)
-    said, passed_over = _strip(spec, where)
-    model = _compile(spec, where, said)
+    said: list[str] = []
+    spec = _spec(text, included, folder, where, said)
+    passed_over = _strip(spec, where, said)
+    with _listening(where, said):
+        model = spec.compile()
     lines = (
         {body.name: line_of(body) for body in spec.bodies},
         {joint.name: line_of(joint) for joint in spec.joints},
@@ -76,28 +85,41 @@ def has_mujoco() -> bool:
     return hasattr(mujoco, "MjSpec") and hasattr(mujoco.MjSpec, "delete")
 
 
-def _spec(text: str, included: dict[str, bytes], folder: Path, where: str) -> mujoco.MjSpec:
+def _spec(
+    text: str, included: dict[str, bytes], folder: Path, where: str, said: list[str]
+) -> mujoco.MjSpec:
     import mujoco
 
-    try:
+    with _listening(where, said):
         spec = mujoco.MjSpec.from_string(text, include=included)
-    except (ValueError, RuntimeError, OSError) as error:
-        raise _refused(error, where) from None
     spec.modelfiledir = f"{folder}/"
     if len(spec.flexes):
         raise ModelError("it has flexible bodies", where=where, allowed="rigid bodies")
     return spec
 
 
-def _compile(spec: mujoco.MjSpec, where: str, said: list[str]) -> mujoco.MjModel:
+@contextmanager
+def _listening(where: str, said: list[str]) -> Iterator[None]:
+    """Take what MuJoCo says as warnings; it would write to standard error and a log file."""
+    import mujoco
+
+    def hear(message: object) -> None:
+        line = f"{where}: MuJoCo: {_one_line(message)}"
+        if line not in said:
+            said.append(line)
+
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(hear)
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            model = spec.compile()
-        said += [f"{where}: MuJoCo: {_one_line(one.message)}" for one in caught]
-        return model
+            yield
+        for one in caught:
+            hear(one.message)
     except (ValueError, RuntimeError, OSError) as error:
         raise _refused(error, where) from None
+    finally:
+        mujoco.set_mju_user_warning(before)
 
 
 def _refused(error: Exception, where: str) -> ModelError:
@@ -114,7 +136,7 @@ def _included(root: Element, folder: Path, where: str) -> dict[str, bytes]:
     waiting = [(root, where)]
     while waiting:
         element, source = waiting.pop()
-        _check_copies(element, source)
+        _check_elements(element, source)
         for include in element.iter("include"):
             assert isinstance(include, Element)
             name, here = include.get("file", ""), f"{source}:{include.line}"
@@ -129,8 +151,8 @@ def _included(root: Element, folder: Path, where: str) -> dict[str, bytes]:
     return found
 
 
-def _check_copies(root: Element, where: str) -> None:
-    """Refuse elements that a few characters make millions of."""
+def _check_elements(root: Element, where: str) -> None:
+    """Refuse NaN, which MuJoCo takes for "not given", and what makes millions of copies."""
     waiting = [(root, 1.0)]
     while waiting:
         element, times = waiting.pop()
@@ -146,14 +168,20 @@ def _check_copies(root: Element, where: str) -> None:
                     where=f"{where}:{element.line}",
                     allowed=f"at most {LIMITS.links:,}",
                 )
+        for key, value in element.attrib.items():
+            if key not in _NAMES and "nan" in value.lower().split():
+                raise ModelError(
+                    f"<{element.tag} {key}={shown(value)}> isn't finite",
+                    where=f"{where}:{element.line}",
+                    allowed="finite numbers",
+                )
         waiting += [(child, times) for child in element if isinstance(child, Element)]
 
 
-def _strip(spec: mujoco.MjSpec, where: str) -> tuple[list[str], list[str]]:
-    """Take out what doesn't move bodies; warnings, and what acts and is passed over."""
+def _strip(spec: mujoco.MjSpec, where: str, said: list[str]) -> list[str]:
+    """Take out what doesn't move bodies; what acts and is passed over is returned."""
     import mujoco
 
-    said: list[str] = []
     passed = [f"{where}: tendon {item.name!r}" for item in spec.tendons]
     passed += [f"{where}: plugin {item.name or item.plugin_name!r}" for item in spec.plugins]
     on_joints = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
@@ -187,4 +215,4 @@ def _strip(spec: mujoco.MjSpec, where: str) -> tuple[list[str], list[str]]:
         shape.material = ""
     for item in (*spec.materials, *spec.textures):
         spec.delete(item)
-    return said, passed
+    return passed

@@ -43,7 +43,7 @@ def read_with_pinocchio(path: str | Path, root: Element) -> Description:
         raise untold(found[0] + more)
     try:
         model, points, frames = pin.buildModelAndConstraintsFromMJCF(where)
-    except (RuntimeError, ValueError) as error:
+    except Exception as error:  # whatever its parser meets
         raise ModelError(f"Pinocchio can't read it ({error})", where=where, remedy=REMEDY) from None
     try:
         cross_check(model, root, where)

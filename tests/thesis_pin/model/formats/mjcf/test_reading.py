@@ -302,6 +302,10 @@ def test_included_files_are_read_beside_the_file(tmp_path):
             "</worldbody></mujoco>",
             r"robot\.xml:1: <replicate> makes 1.6e\+07 copies",
         ),
+        (
+            '<mujoco><worldbody><body pos="0 0 NaN"/></worldbody></mujoco>',
+            r"robot\.xml:1: <body pos='0 0 NaN'> isn't finite",
+        ),
         ('<mujoco><include file="robot.xml"/></mujoco>', "includes the file 'robot.xml' twice"),
         ('<mujoco><include file="no.xml"/></mujoco>', "can't read the MJCF: No such file"),
     ],
@@ -384,3 +388,12 @@ def test_missing_meshes_that_weigh_nothing_are_left_out(body, tmp_path):
     found = read_mjcf(_file(tmp_path, body, compiler='inertiagrouprange="0 3"', before=MESH))
     assert "a" in found.joints
     assert "missing meshes are left out" in found.warnings[0]
+
+
+def test_what_mujoco_would_print_and_log_is_a_warning(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    found = read_mjcf(_file(tmp_path, HINGES + '<site pos="0 0 1" user="1 +NaN"/>'))
+    assert len(found.warnings) == 1
+    assert "NaN" in found.warnings[0]
+    assert capfd.readouterr() == ("", "")
+    assert [path.name for path in tmp_path.iterdir()] == ["robot.xml"]
