@@ -98,7 +98,8 @@ def robots() -> Iterator[str]:
     yield "| --- " * 8 + "|"
     for one in stored:
         address, version, date = sources[one["source"]]
-        name = f"{one['robot']} ([{one['source']}]({address}) {version}, {date})"
+        when = f", {date}" if date else ""
+        name = f"{one['robot']} ([{one['source']}]({address}) {version}{when})"
         if said := one.get("open") or one.get("refused"):
             word = "open by " if "open" in one else "refused: "
             yield f"| {name} | {word}{said} |  |  |  |  |  |  |"

@@ -37,7 +37,7 @@ SAMPLES = 200
 STEP = 1e-5
 
 SOURCES = {
-    "example-robot-data": ("https://pypi.org/project/example-robot-data", "6.0.0", "2026"),
+    "example-robot-data": ("https://github.com/Gepetto/example-robot-data", "6.0.0", ""),
     "example-parallel-robots": (
         "https://github.com/Gepetto/example-parallel-robots",
         "52e64b3",
@@ -49,7 +49,7 @@ SOURCES = {
         "2023-04-13",
     ),
 }
-"""Source → address, version or commit, date."""
+"""Source → address, version or commit, date of a commit."""
 
 EXAMPLES = {
     "cassie_description/cassie_v2": ["-op", "knee-shin"],
@@ -156,7 +156,8 @@ def by_mujoco(robot: thesis_pin.ClosedRobot, q: Array, v: Array, a: Array) -> Ar
     import mujoco
 
     text = re.sub(r"<(visual|collision)\b.*?</\1>", "", robot.urdf, flags=re.DOTALL)
-    text = re.sub(r"(<robot[^>]*>)", r'\1<mujoco><compiler fusestatic="false"/></mujoco>', text, 1)
+    compiler = r'\1<mujoco><compiler fusestatic="false"/></mujoco>'
+    text = re.sub(r"(<robot[^>]*>)", compiler, text, count=1)
     model = mujoco.MjModel.from_xml_string(text)
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
     model.opt.gravity[:] = robot.model.gravity.linear
