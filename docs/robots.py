@@ -58,8 +58,10 @@ EXAMPLES = {
     "talos_full_v2": [],
     "ur5_robot": [],
 }
-"""Of example-robot-data: name → parts of the motors' names, where its SDF says none; Cassie's shins are
-held as if by motors instead of by their springs."""
+"""Of example-robot-data: name → parts of the motors' names, where its SDF says none.
+
+Cassie's shins are held as if by motors instead of by their springs.
+"""
 
 
 def row(source: str, name: str, file: str, closures: str | None = None) -> dict[str, object]:
