@@ -20,7 +20,7 @@ VERBS = {
     for command in COMMANDS.values()
     for verb in command.verbs
 }
-OUTPUTS = ("--out", "--html", "--json", "--markdown")
+OUTPUTS = ("--out", "--html", "--json", "--markdown", "--write")
 
 
 def flags(name):

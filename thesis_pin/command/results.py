@@ -104,8 +104,8 @@ def deliver(
         if arguments.out:
             files = {"report.json": content, "samples.csv": csv_bytes(answer.columns())}
         try:
-            drawn = called(figures)(answer) if arguments.out else {}
-            written = called(page)(answer) if arguments.html else b""
+            drawn = _called(figures)(answer) if arguments.out else {}
+            written = _called(page)(answer) if arguments.html else b""
         except Exception:
             write_results(arguments, files, content)
             raise
@@ -113,7 +113,7 @@ def deliver(
     if arguments.html:
         write_file(arguments.html, written)
     if free(arguments):
-        print_parts(called(table)(answer))
+        print_parts(_called(table)(answer))
     refused = arguments.strict and not answer.within_limits
     return ExitCode.NO if refused else ExitCode.DONE
 
@@ -129,5 +129,5 @@ def write_results(
         write_file(arguments.json, content)
 
 
-def called(name: str) -> Any:
+def _called(name: str) -> Any:
     return found(name)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.registry import Robot
-from thesis_pin.command.results import Answer, Report, called, deliver, give
+from thesis_pin.command.registry import Robot, found
+from thesis_pin.command.results import Answer, Report, deliver, give
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.files import is_standard_output, write_file, write_folder
@@ -147,7 +147,7 @@ def audit(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def _hook(robot: Robot, name: str) -> Any:
     """One of the robot's functions, imported when it is needed."""
-    return called(robot.name_of(name))
+    return found(robot.name_of(name))
 
 
 def _load(robot: Robot, arguments: argparse.Namespace) -> Any:
