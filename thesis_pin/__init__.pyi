@@ -40,6 +40,7 @@ from .errors import (
     SpecificationError as SpecificationError,
     ThesisPinError as ThesisPinError,
     TrajectoryError as TrajectoryError,
+    Undecidable as Undecidable,
     UnknownName as UnknownName,
     Unreachable as Unreachable,
     WrongShape as WrongShape,

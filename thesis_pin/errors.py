@@ -155,6 +155,53 @@ class ModelError(BadInput):
     """A model file can't be turned into a mechanism that makes sense."""
 
 
+class Undecidable(ModelError):
+    """Nobody can tell whether some equation of the loops is real; a precision decides.
+
+    Args:
+        what: What is wrong, as a full clause.
+        where: Where.
+        allowed: What would have been accepted.
+        remedy: How to mend it.
+        weakest: By how much the doubtful equation differs from the others [rad].
+        noise: By how much equations differ that are dependent [rad].
+        least: By how much an equation has to differ to be taken as real [rad].
+        loops: Names of the loops and couplings that it is made of.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        *,
+        where: str = "",
+        allowed: str = "",
+        remedy: str = "",
+        weakest: float,
+        noise: float,
+        least: float,
+        loops: Sequence[str],
+    ) -> None:
+        self.weakest, self.noise, self.least, self.loops = weakest, noise, least, tuple(loops)
+        super().__init__(what, where=where, allowed=allowed, remedy=remedy)
+
+    @property
+    def precision(self) -> float:
+        """A precision with which the doubtful equation counts as dependent [rad]."""
+        return float(f"{2 * self.weakest:.0e}")
+
+    def but(self, what: str) -> Undecidable:
+        """The same with other words."""
+        kept = {"where": self.where, "allowed": self.allowed, "remedy": self.remedy}
+        return Undecidable(
+            what,
+            **kept,
+            weakest=self.weakest,
+            noise=self.noise,
+            least=self.least,
+            loops=self.loops,
+        )
+
+
 class NonPhysicalInertia(ModelError):
     """No distribution of positive mass has this inertia.
 

@@ -38,6 +38,23 @@ def test_a_robot_that_cannot_close_is_answered_by_no_and_the_reason(capfd, tmp_p
     assert "No closed configuration was found" in document["explanation"]
 
 
+def test_a_freedom_that_nobody_can_tell_is_answered_by_no_and_hides_nothing(capfd, tmp_path):
+    text = (DATA / "four_bar.urdf").read_text()
+    leaning = tmp_path / "leaning.urdf"
+    leaning.write_text(text.replace('<axis xyz="0 1 0"/>', '<axis xyz="7e-4 1 0"/>', 1))
+    code, out, err = check(capfd, leaning, DATA / "four_bar.yaml")
+    said = " ".join(out.split())
+    assert (code, err) == (1, "")
+    assert "four_bar: 4 joints, 1 motors (motor)" in said
+    assert "gap m" in said
+    assert "nearly dependent" in said
+    assert "degrees of freedom: 0 with 0, 1 with 0.0008" in said
+    code, out, err = check(capfd, leaning, DATA / "four_bar.yaml", "--json", "-")
+    assert (code, err) == (1, "")
+    assert [one["freedom"] for one in json.loads(out)["undecided"]["choices"]] == [0, 1]
+    assert check(capfd, leaning, DATA / "four_bar.yaml", "--precision", "8e-4")[0] == 0
+
+
 @pytest.mark.parametrize(
     ("bar", "loops", "says"),
     [

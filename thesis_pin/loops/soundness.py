@@ -8,10 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.errors import Undecidable
 from thesis_pin.loops.assembly import Assembly, assembly
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.kinematics import Mobility, mobility
+from thesis_pin.loops.undecided import Undecided, undecided
 from thesis_pin.model.second_reading import second_reading
 from thesis_pin.tolerances import TOLERANCES
 
@@ -28,19 +30,22 @@ class Soundness:
     Attributes:
         robot: The robot.
         assembly: Where it was looked at: a closed configuration, or the least gap.
-        mobility: How it moves there; None if nothing closes it.
+        mobility: How it moves there; None if nothing closes it, or nobody can tell.
         differences: Where yourdfpy reads the URDF differently from us.
+        undecided: Why nobody can tell how it moves, if so; the assembly was then looked for
+            with the doubtful equation taken as dependent.
     """
 
     robot: ClosedRobot
     assembly: Assembly
     mobility: Mobility | None
     differences: tuple[str, ...] = ()
+    undecided: Undecided | None = None
 
     @property
     def sound(self) -> bool:
-        """Whether it closes, and means the same to whoever reads it."""
-        return self.closes and not self.differences
+        """Whether it closes, moves as can be told, and means the same to whoever reads it."""
+        return self.closes and self.undecided is None and not self.differences
 
     @property
     def closes(self) -> bool:
@@ -88,7 +93,7 @@ class Soundness:
             "poses": list(robot.supplement.poses),
             "sound": self.sound,
             "closes": self.closes,
-            "held": self.held,
+            "held": self.held if self.undecided is None else None,
             "differences": list(self.differences),
             "warnings": list(self.warnings),
             "passed_over": list(robot.description.passed_over),
@@ -128,6 +133,7 @@ class Soundness:
                 ],
                 "configuration": self.closed,
             },
+            "undecided": None if self.undecided is None else self.undecided.document(),
             "explanation": " ".join(self.sentences()),
         }
 
@@ -135,35 +141,44 @@ class Soundness:
         """What was found, in words."""
         found, widest = self.mobility, self.assembly.widest
         doubts = tuple(f"Another reader (yourdfpy) differs: {one}." for one in self.differences)
-        if found is None:
+        if self.undecided is not None:
+            doubts = (*self.undecided.sentences(), *doubts)
+        if not self.closes:
             return (
                 "No closed configuration was found. The least gap, from "
                 f"{self.assembly.start}: {widest}.",
                 *doubts,
             )
+        if found is None:
+            return *self._placed(), *doubts
         return (
             f"Degrees of freedom: {found.freedom} by rank "
             f"({found.independent} of {found.equations} loop equations are independent), "
             f"{found.counted} by counting"
             + (f", {found.base} of them the free root's." if found.base else "."),
-            *self._judged(found),
+            *self._placed(),
+            *_judged(found, self.robot.model.nv),
             *_held(len(self.robot.actuators), found),
             *doubts,
         )
 
-    def _judged(self, found: Mobility) -> Iterator[str]:
+    def _placed(self) -> Iterator[str]:
         if self.assembly.gaps:
             yield f"It was judged in the assembly nearest to {self.assembly.start}."
         most = max((max(gap.distance, gap.angle) for gap in self.assembly.gaps), default=0.0)
         if most > TOLERANCES.loop_closure:
             yield f"Its widest gap there is {self.assembly.widest}: the file's digits."
-        if not found.moves and found.independent < self.robot.model.nv:
-            yield "It moves only infinitesimally: a step along its freedom doesn't survive closing."
-        if found.by_tolerance:
-            yield (
-                "It moves only because equations that differ by "
-                f"{found.noise:.1e} rad count as equal; --precision 0 takes every one as real."
-            )
+
+
+def _judged(found: Mobility, velocities: int) -> Iterator[str]:
+    """What kind of motion it is, in words."""
+    if not found.moves and found.independent < velocities:
+        yield "It moves only infinitesimally: a step along its freedom doesn't survive closing."
+    if found.by_tolerance:
+        yield (
+            "It moves only because equations that differ by "
+            f"{found.noise:.1e} rad count as equal; --precision 0 takes every one as real."
+        )
 
 
 def _held(motors: int, found: Mobility) -> Iterator[str]:
@@ -206,10 +221,13 @@ def check(
 
     Raises:
         UnknownName: There is no such pose.
-        ModelError: yourdfpy can't read the URDF, or nobody can tell whether some equation
-            of the loops is real.
+        ModelError: yourdfpy can't read the URDF.
     """
     differences = tuple(second_reading(robot.description))
-    found = assembly(robot, pose, precision=precision)
-    moves = mobility(robot, found.q, precision=precision) if found.closed else None
+    try:
+        found = assembly(robot, pose, precision=precision)
+        moves = mobility(robot, found.q, precision=precision) if found.closed else None
+    except Undecidable as error:
+        found = assembly(robot, pose, precision=error.precision)
+        return Soundness(robot, found, None, differences, undecided(robot, found.q, error))
     return Soundness(robot, found, moves, differences)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.errors import ModelError, Unreachable
+from thesis_pin.errors import ModelError, Undecidable, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.culprits import culprits
 from thesis_pin.loops.system.survey import Survey, survey
@@ -30,7 +30,7 @@ def surveyed(
 
     Raises:
         Unreachable: The loops can't be closed near q.
-        ModelError: Nobody can tell whether some equation is real.
+        Undecidable: Nobody can tell whether some equation is real.
     """
     if precision is not None:
         precision = real("precision", precision, low=0.0, high=0.1, unit="rad")
@@ -45,6 +45,8 @@ def surveyed(
         if not digits:
             raise
         what = f"{error.what}; nearly round in the file: {', '.join(digits)}"
+        if isinstance(error, Undecidable):
+            raise error.but(what) from None
         raise type(error)(
             what, where=error.where, allowed=error.allowed, remedy=error.remedy
         ) from None

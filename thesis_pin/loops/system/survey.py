@@ -14,7 +14,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from thesis_pin.errors import ModelError, Unreachable
+from thesis_pin.errors import Undecidable, Unreachable
 from thesis_pin.loops.system.equations import Equations
 from thesis_pin.loops.system.gaps import describe_gap
 from thesis_pin.loops.system.idle import IdleGroup, connected, idle_groups
@@ -37,6 +37,7 @@ NEARLY = 1e-3
 _STEPS, _LENGTH = 12, 0.15  # poses of the survey, steps between them [rad]
 _SURVIVES = 0.3  # least share of a step that closing leaves, where a mechanism moves
 _SEEN, _CHANCE = 3.0, 6.0  # gaps this much above the equations' own noise; what they may hide
+_SHARE = 0.3  # of the largest share in a weak equation, from which a loop is named
 _OPEN = 3e-4  # largest scaled gap that could be a file's rounding
 
 
@@ -117,7 +118,7 @@ def survey(
 
     Raises:
         Unreachable: The loops can't be closed near q.
-        ModelError: Nobody can tell whether some equation is real.
+        Undecidable: Nobody can tell whether some equation is real.
     """
     cut = CUT if precision is None else max(precision, 0.1 * FLOOR)
     walk = _Walk(equations, scale, q, cut)
@@ -132,14 +133,21 @@ def survey(
     noise = max(shown, max(gaps, default=0.0))
     blur = noise if noise <= _SEEN * shown else _CHANCE * noise
     weakest = float(middle[rank - 1]) if rank else 1.0
-    if precision is None and weakest < max(NEARLY, MARGIN * noise):
-        raise ModelError(
+    least = max(NEARLY, MARGIN * noise)
+    if precision is None and weakest < least:
+        raise Undecidable(
             f"an equation of the loops is nearly dependent on the others: {weakest:.1e} rad "
             f"where dependent ones show {noise:.1e}",
             where="loops",
-            allowed=f"at least {max(NEARLY, MARGIN * noise):.1e}, or below {CUT:.0e}",
+            allowed=f"at least {least:.1e}, or below {CUT:.0e}",
             remedy="Write the file with more digits, or pass precision=0 if every equation "
             f"is real, precision={2 * weakest:.0e} if this one isn't",
+            weakest=weakest,
+            noise=noise,
+            least=least,
+            loops=_weak_loops(
+                equations, walk.matrices, slice(int((middle[:rank] >= least).sum()), rank)
+            ),
         )
     blocks = _blocks(equations, walk.matrices, passive, cut)
     held = walk.matrices[:, :, passive]
@@ -239,6 +247,20 @@ def _blocks(
         values = np.array([np.linalg.svd(part, compute_uv=False) for part in parts])
         blocks.append(Block(rows, columns, int((values.max(axis=0) > cut).sum())))
     return tuple(blocks)
+
+
+def _weak_loops(equations: Equations, matrices: Array, weak: slice) -> tuple[str, ...]:
+    """Names of the loops and couplings that the weak singular vectors are made of."""
+    left = np.array([np.linalg.svd(matrix, full_matrices=False)[0][:, weak] for matrix in matrices])
+    shares = (left**2).sum(axis=-1).mean(axis=0)
+    named = [
+        (float(shares[rows].sum()), loop.name)
+        for loop, rows in zip(equations.loops, equations.rows, strict=True)
+    ]
+    first = equations.size - len(equations.couplings)
+    named += zip(shares[first:].tolist(), [one.name for one in equations.couplings], strict=True)
+    most = max(share for share, _ in named)
+    return tuple(name for share, name in named if share >= _SHARE * most)
 
 
 def _refuse_open(equations: Equations, settled: Settled, widest: float) -> None:
