@@ -10,10 +10,10 @@ import pinocchio as pin
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from thesis_pin.loops.closing import close_each, loop_gaps
+from thesis_pin.loops.closing import close_one, loop_gaps
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.kinematics import residual, residual_derivative
+from thesis_pin.loops.kinematics import linearized, residual
 from thesis_pin.loops.poses import in_range, named_pose, neutral
 from thesis_pin.tolerances import TOLERANCES
 
@@ -24,7 +24,8 @@ GUESSES = 20
 
 _SPREAD = 1.5  # rad or m, half the width of the guesses about the neutral configuration
 _SHIFTS, _NEAR = 2, 0.1  # tries beside each pose, and how far from it [rad], [m]
-_FITS, _STEPS = 4, 300  # of a search for the least gap
+_NEWTON, _PATIENCE = 60, 25  # steps of an attempt, and those in which it may not get nearer
+_FITS, _STEPS, _LAST = 4, 60, 300  # of a search for the least gap; steps of the best one
 
 
 @dataclass(frozen=True)
@@ -93,13 +94,14 @@ def assembly(
     best: Assembly | None = None
     starts = list(_starts(robot, pose))
     nearest: list[tuple[float, str, Array]] = []
+    data, every = robot.model.createData(), np.arange(robot.model.nv, dtype=np.intp)
     for start, q in starts:
-        closing = close_each(robot, q, precision=precision)
-        if not closing.closed:
-            size = float(np.abs(robot.scale.rows * residual(robot, closing.q)).max())
-            nearest.append((size, start, in_range(robot, closing.q)))
+        settled, reason = close_one(robot, data, q, every, _NEWTON, precision, _PATIENCE)
+        if reason:
+            size = float(np.abs(robot.scale.rows * residual(robot, settled.q)).max())
+            nearest.append((size, start, in_range(robot, settled.q)))
             continue
-        closed = closing.q
+        closed = settled.q
         found = Assembly(closed, True, start, gaps(robot, closed), outside(robot, closed))
         if not found.outside:
             return found
@@ -163,29 +165,32 @@ def _least_open(robot: ClosedRobot, starts: list[tuple[str, Array]]) -> Assembly
     Metres and radians are weighed as the robot's scale does, so that a loop isn't called
     wide open because it is a large one.
     """
-    best, least, where = starts[0][1], np.inf, starts[0][0]
-    weights = robot.scale.rows
-    for start, q in starts[:_FITS]:
+    fits = [(*_fitted(robot, q, _STEPS), start) for start, q in starts[:_FITS]]
+    _, near, start = min(fits, key=lambda fit: fit[0])
+    _, best = _fitted(robot, near, _LAST)
+    return Assembly(best, False, start, gaps(robot, best), outside(robot, best))
 
-        def opening(step: Array, q: Array = q) -> tuple[float, Array]:
-            moved = pin.integrate(robot.model, q, step)
-            gap = weights * residual(robot, moved)
-            matrix = weights[:, None] * residual_derivative(robot, moved)
-            turned = pin.dIntegrate(robot.model, q, step, pin.ArgumentPosition.ARG1)
-            return float(gap @ gap) / 2, np.asarray(turned.T @ (matrix.T @ gap))
 
-        found = minimize(
-            opening,
-            np.zeros(robot.model.nv),
-            jac=True,
-            method="L-BFGS-B",
-            bounds=_bounds(robot, q),
-            options={"maxiter": _STEPS, "ftol": 1e-14, "gtol": 1e-12},
-        )
-        if found.fun < least:
-            least, where = found.fun, start
-            best = np.asarray(pin.integrate(robot.model, q, found.x))
-    return Assembly(best, False, where, gaps(robot, best), outside(robot, best))
+def _fitted(robot: ClosedRobot, q: Array, steps: int) -> tuple[float, Array]:
+    """A minimum near a configuration inside the ranges: half the squared gaps, and where."""
+    weights, data = robot.scale.rows, robot.model.createData()
+
+    def opening(step: Array) -> tuple[float, Array]:
+        moved = pin.integrate(robot.model, q, step)
+        gap, matrix = linearized(robot, data, moved)
+        gap, matrix = weights * gap, weights[:, None] * matrix
+        turned = pin.dIntegrate(robot.model, q, step, pin.ArgumentPosition.ARG1)
+        return float(gap @ gap) / 2, np.asarray(turned.T @ (matrix.T @ gap))
+
+    found = minimize(
+        opening,
+        np.zeros(robot.model.nv),
+        jac=True,
+        method="L-BFGS-B",
+        bounds=_bounds(robot, q),
+        options={"maxiter": steps, "ftol": 1e-14, "gtol": 1e-12},
+    )
+    return float(found.fun), in_range(robot, np.asarray(pin.integrate(robot.model, q, found.x)))
 
 
 def _bounds(robot: ClosedRobot, q: Array) -> list[tuple[float, float]]:

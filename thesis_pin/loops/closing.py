@@ -12,7 +12,7 @@ from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.surveying import surveyed
 from thesis_pin.loops.system.gaps import describe_gap, split_gap
-from thesis_pin.loops.system.newton import Settled, settle
+from thesis_pin.loops.system.newton import WIDE, Settled, settle
 from thesis_pin.loops.system.survey import Survey
 from thesis_pin.numeric.arrays import finite_array, together
 from thesis_pin.numeric.checks import instance, whole
@@ -124,11 +124,19 @@ def close_one(
     movable: Places,
     iterations: int,
     precision: float | None,
+    patience: int | None = None,
 ) -> tuple[Settled, str]:
-    """Where steps from q end, and why that isn't closed; empty if it is."""
+    """Where steps from q end, and why that isn't closed; empty if it is.
+
+    With patience (see :func:`settle`) a wide gap from which a survey would take the same
+    steps again is left open at once.
+    """
     equations, scale = robot.system, robot.scale
-    settled = settle(equations, scale, data, q, movable, iterations=iterations)
+    settled = settle(equations, scale, data, q, movable, iterations=iterations, patience=patience)
     near = np.abs(settled.gap).max(initial=0.0) <= TOLERANCES.loop_closure
+    surveyable = precision is not None or robot.surveys or settled.scaled <= WIDE
+    if patience is not None and not near and not surveyable:
+        return settled, _stays_open(robot, settled)
     try:
         survey = surveyed(robot, settled.q if near else q, precision)
     except Unreachable as error:
@@ -145,8 +153,12 @@ def close_one(
             settled = finer
     if is_closed(robot, survey, settled.gap):
         return settled, ""
-    reason = describe_gap(equations, settled.gap)
-    return settled, f"the loops stay open after {settled.iterations} Newton steps: {reason}"
+    return settled, _stays_open(robot, settled)
+
+
+def _stays_open(robot: ClosedRobot, settled: Settled) -> str:
+    reason = describe_gap(robot.system, settled.gap)
+    return f"the loops stay open after {settled.iterations} Newton steps: {reason}"
 
 
 def is_closed(robot: ClosedRobot, survey: Survey, gap: Array) -> bool:

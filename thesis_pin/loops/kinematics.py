@@ -43,10 +43,7 @@ def residual(robot: ClosedRobot, q: ArrayLike) -> Array:
     """
     q, stack = _stack(robot, q)
     poses = robot.system.poses(robot.model.createData(), q)
-    found = robot.system.gap(poses)
-    for rows, placements in _welds(robot, poses):
-        found[:, rows] = [pin.log6(place).vector for place in placements]
-    return found.reshape(*stack, -1)
+    return _opening(robot, poses).reshape(*stack, -1)
 
 
 def jacobian(robot: ClosedRobot, q: ArrayLike) -> Array:
@@ -68,12 +65,35 @@ def residual_derivative(robot: ClosedRobot, q: ArrayLike) -> Array:
     """
     q, stack = _stack(robot, q)
     poses = robot.system.poses(robot.model.createData(), q)
+    found = _opening_derivative(robot, poses)
+    return found.reshape(*stack, *found.shape[1:])
+
+
+def linearized(robot: ClosedRobot, data: pin.Data, q: Array) -> tuple[Array, Array]:
+    """:func:`residual` and :func:`residual_derivative` at one configuration ``(nq,)``.
+
+    For searches, which would spend their time on making Pinocchio's data anew.
+    """
+    poses = robot.system.poses(data, q[None])
+    return _opening(robot, poses)[0], _opening_derivative(robot, poses)[0]
+
+
+def _opening(robot: ClosedRobot, poses: Poses) -> Array:
+    """The residual at poses, shape ``(samples, equations)``."""
+    found = robot.system.gap(poses)
+    for rows, placements in _welds(robot, poses):
+        found[:, rows] = [pin.log6(place).vector for place in placements]
+    return found
+
+
+def _opening_derivative(robot: ClosedRobot, poses: Poses) -> Array:
+    """Its derivative, shape ``(samples, equations, nv)``."""
     found = robot.system.jacobian(poses)
     for rows, placements in _welds(robot, poses):
         for sample, place in enumerate(placements):
             turned = np.kron(np.eye(2), place.rotation.T)  # log6 is derived in the second's axes
             found[sample, rows] = pin.Jlog6(place) @ turned @ found[sample, rows]
-    return found.reshape(*stack, *found.shape[1:])
+    return found
 
 
 def _welds(robot: ClosedRobot, poses: Poses) -> Iterator[tuple[slice, list[pin.SE3]]]:

@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.assembly import GUESSES, assembly
 from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.kinematics import linearized, residual
 from thesis_pin.model.supplement import Closure, Motor, Supplement
 
 DATA = Path(__file__).parent / "data"
@@ -122,3 +123,25 @@ def test_a_limit_without_lower_and_upper_is_no_range():
     assert found.closed
     assert found.outside == {}
     assert np.abs(found.q).max() > 0.1
+
+
+def test_a_search_that_fails_gives_up_attempts_that_get_no_nearer(monkeypatch):
+    steps, svd = [], np.linalg.svd
+    monkeypatch.setattr(np.linalg, "svd", lambda *a, **k: steps.append(1) or svd(*a, **k))
+    found = assembly(four_bar(0.9))
+    assert not found.closed
+    attempts = GUESSES + 3
+    assert attempts < len(steps) < 40 * attempts  # 60 steps, taken twice, would be 120 each
+    again = assembly(four_bar(0.9))
+    np.testing.assert_array_equal(again.q, found.q)
+    assert again.start == found.start
+
+
+def test_one_linearization_is_residual_and_derivative():
+    robot = four_bar(0.9)
+    q = np.array([0.3, -0.8, 1.1])
+    gap, matrix = linearized(robot, robot.model.createData(), q)
+    np.testing.assert_allclose(gap, residual(robot, q), atol=1e-15)
+    step = 1e-6 * np.eye(3)
+    numeric = [(residual(robot, q + s) - residual(robot, q - s)) / 2e-6 for s in step]
+    np.testing.assert_allclose(matrix, np.transpose(numeric), atol=1e-9)

@@ -23,8 +23,12 @@ CUT = 1e-4
 """Scaled singular value [rad] below which equations count as dependent: 0.1 mrad, or
 0.1 mm per metre, below anything manufactured."""
 
+WIDE = 1e-3
+"""Scaled gap [rad] that no file's rounding leaves open."""
+
 _LONGEST = 0.5  # longest step [rad]
 _ROUNDING = 1e-15  # scaled gaps and steps [rad] that are none
+_GAIN = 0.9  # a gap shrinks if by a tenth
 _VANISHED = 1e-8  # a step that short ends the search once steps stop shrinking [rad]
 
 
@@ -61,6 +65,7 @@ def settle(
     cut: float = CUT,
     iterations: int = 60,
     rank: int | None = None,
+    patience: int | None = None,
 ) -> Settled:
     """Steps of some joints from q until they vanish.
 
@@ -74,9 +79,11 @@ def settle(
         iterations: Most steps.
         rank: How many directions are taken at most, where that is known: between closed
             configurations dependent equations may look real.
+        patience: Steps without a smaller gap after which a wide one is left open; None: all.
     """
     model, columns = equations.model, scale.columns[movable]
     best, taken, last = Settled(q, np.zeros(equations.size), np.inf, np.inf, 0), 0, np.inf
+    mark, marked = np.inf, 0
     while True:
         poses = equations.poses(data, q[None])
         gap = equations.gap(poses)[0]
@@ -85,6 +92,10 @@ def settle(
         # in which the rest of the way doesn't show.
         if size < best.scaled or last < _VANISHED:
             best = Settled(q, gap, size, last, taken)
+        if size < _GAIN * mark:
+            mark, marked = size, taken
+        elif patience is not None and taken - marked >= patience and best.scaled > WIDE:
+            return replace(best, step=last)
         if size == 0.0 or not movable.size:
             return replace(best, step=0.0)
         closed = last < _VANISHED and size <= _ROUNDING
