@@ -58,12 +58,14 @@ class LoopDynamics:
         idle_load: Load on each idle group, relative to the largest force, ``(..., groups)``.
         freedom: Degrees of freedom by rank, shape ``(...)``.
         condition: Condition number of Nᵀ B, shape ``(...)``.
-        uncertainty: How far the torques may be off because of the file's noise, relative to
-            the largest of them, at most, shape ``(...)``.
+        uncertainty: How far the torques may be off because of ``noise``, relative to the
+            largest of them, at most, shape ``(...)``. Where all equations are independent a
+            file's digits show no noise, and what they do to the torques isn't in here.
         gaps: Opening of each loop [m], [rad], shape ``(..., loops, 2)``.
         unique: Whether the motors' torques are determined (as many as freedoms).
         determined: Whether the loop forces are (independent equations), shape ``(...)``.
-        noise: How far the file's digits let dependent equations differ [rad].
+        noise: How far the file's digits let dependent equations differ, or loops stay open
+            [rad].
         idle: Motions that no motor holds.
     """
 
