@@ -6,7 +6,9 @@ Run ``python docs/readme_tables.py`` to renew them; a test fails when they are s
 from __future__ import annotations
 
 import ast
+import json
 import re
+import runpy
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -86,6 +88,28 @@ def audits() -> Iterator[str]:
         yield f"| [{name}](docs/audit/{name}.md) | {' | '.join(cells)} |"
 
 
+def robots() -> Iterator[str]:
+    """Robots no one here made, as docs/robots.py found them."""
+    stored = json.loads((ROOT / "docs" / "robots.json").read_text(encoding="utf-8"))
+    sources = runpy.run_path(str(ROOT / "docs" / "robots.py"))["SOURCES"]
+    yield (
+        "| robot | loops | equations | freedoms (idle) | motors | torques differ by | from | µs |"
+    )
+    yield "| --- " * 8 + "|"
+    for one in stored:
+        address, version, date = sources[one["source"]]
+        when = f", {date}" if date else ""
+        name = f"{one['robot']} ([{one['source']}]({address}) {version}{when})"
+        if said := one.get("open") or one.get("refused"):
+            word = "open by " if "open" in one else "refused: "
+            yield f"| {name} | {word}{said} |  |  |  |  |  |  |"
+            continue
+        idle = f" ({one['idle']})" if one["idle"] else ""
+        cells = [name, one["loops"], one["equations"], f"{one['freedom']}{idle}", one["motors"]]
+        cells += [f"{one['difference']:.0e}", one["against"], f"{one['microseconds']:.0f}"]
+        yield f"| {' | '.join(map(str, cells))} |"
+
+
 def formats() -> Iterator[str]:
     """What is read of each format of robots."""
     from thesis_pin.report.formats import FORMATS
@@ -125,7 +149,7 @@ def _first_line(place: Path) -> str:
 
 Tables = Mapping[str, Callable[[], Iterator[str]]]
 TABLES: dict[str, Tables] = {
-    "README.md": {"gaits": gaits, "paths": paths, "audits": audits},
+    "README.md": {"gaits": gaits, "paths": paths, "audits": audits, "robots": robots},
     "CONTRIBUTING.md": {"rooms": rooms},
     "docs/any_robot.md": {"formats": formats},
 }

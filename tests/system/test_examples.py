@@ -11,6 +11,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 SCRIPTS = sorted(EXAMPLES.glob("*.py"))
 
 SAYS = {
+    "any_robot_torques": "the closest is chain1_shoulder with 8%",
     "scout_explicit_model": "8.81468 N stay unbalanced",
     "scout_inverse_kinematics": "reach the target to",
     "scout_gait_report": "Scout can walk this gait",

@@ -15,6 +15,7 @@ import thesis_pin
 from scout_pin.report.verdict import sentences
 from scout_pin.report.view import gait_scene
 from thesis_pin import errors
+from thesis_pin.loops.assembly import assembly
 from thesis_pin.loops.loading import load
 
 ROOT = Path(__file__).parents[2]
@@ -40,6 +41,21 @@ def torque_block(package):
         return next(iter(scout_pin.torque_blocks(robot, gait, gait.sample_times(21))))
     path = pollard_pin.appendix_b()
     return next(iter(pollard_pin.torque_blocks(robot, path, np.linspace(0, path.duration, 21))))
+
+
+def joint_motion():
+    """A crank's swing about the pose at which the four-bar is closed."""
+    robot = looped()
+    time = np.linspace(0.0, 1.0, 6)
+    crank = assembly(robot).q[robot.actuated_q] + 0.1 * np.sin(time)[:, None]
+    return thesis_pin.JointMotion(
+        "swing",
+        time,
+        robot.actuators,
+        crank,
+        0.1 * np.cos(time)[:, None],
+        -0.1 * np.sin(time)[:, None],
+    )
 
 
 FIVE_BAR = LOOPED / "five_bar.yaml"
@@ -69,6 +85,8 @@ MAKERS = {
     "Description": lambda: looped().description,
     "Loop": lambda: looped().loops[0],
     "ForwardDynamics": lambda: thesis_pin.ForwardDynamics(looped()),
+    "JointMotion": joint_motion,
+    "TorqueReport": lambda: thesis_pin.torque_report(looped(), joint_motion()),
     "Scene": lambda: gait_scene(gait_report()),
     "LoopDynamics": lambda: thesis_pin.inverse_dynamics(
         looped(), looped().q0, ZERO, ZERO, check=False
@@ -132,8 +150,8 @@ def test_a_report_that_has_travelled_says_the_same():
     report = gait_report()
     found = travelled("pickle", report)
     assert sentences(found) == sentences(report)
-    other = trajectory_report()
-    assert other.verdict() == travelled("pickle", other).verdict()
+    for other in (trajectory_report(), MAKERS["TorqueReport"]()):
+        assert other.verdict() == travelled("pickle", other).verdict()
 
 
 def test_robots_work_in_a_spawned_process():

@@ -212,6 +212,9 @@ def _bug(error: Exception) -> str:
 
 
 def _flush() -> None:
+    if sys.stderr is not None:
+        with contextlib.suppress(OSError):  # if nobody listens there, nobody is to be told
+            sys.stderr.flush()
     if sys.stdout is not None:
         sys.stdout.flush()
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from thesis_pin.errors import BadInput, ThesisPinError, Unreachable
+from thesis_pin.errors import BadInput, SingularPose, ThesisPinError, Unreachable
 from thesis_pin.loops.closing import close_one, place_motors
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.rates import passive_rates
@@ -144,7 +144,7 @@ def _followed(
 
 
 def _at(error: ThesisPinError, sample: int) -> ThesisPinError:
-    if isinstance(error, BadInput) and type(error) is not BadInput and not error.where:
+    if isinstance(error, Unreachable | SingularPose) and not error.where:
         return type(error)(
             error.what, where=f"sample {sample}", allowed=error.allowed, remedy=error.remedy
         )

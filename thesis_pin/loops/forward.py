@@ -30,6 +30,7 @@ from thesis_pin.loops.forces.loads import (
 from thesis_pin.loops.surveying import surveyed
 from thesis_pin.loops.system.gaps import describe_gap
 from thesis_pin.loops.system.newton import settle
+from thesis_pin.loops.system.rows import POINT, WELD
 from thesis_pin.loops.system.survey import Survey
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import function, instance, real
@@ -37,6 +38,9 @@ from thesis_pin.numeric.complements import complement
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 Array = NDArray[np.float64]
+
+_MOST = 50
+"""Proximal iterations of Pinocchio's solver; it takes three where equations are independent."""
 
 _SHORTEST = 1e-9
 """Least duration and step of a simulation [s]."""
@@ -99,6 +103,15 @@ class ForwardDynamics:
     def __init__(self, robot: ClosedRobot, *, precision: float | None = None) -> None:
         self.robot, self.precision = robot, precision
         self.data = robot.model.createData()
+        anchors = all(loop.rows in (POINT, WELD) and loop.length is None for loop in robot.loops)
+        self._simple = anchors and not robot.couplings and not robot.model.armature.any()
+        if self._simple:
+            self._models = robot.rigid_constraint_models()
+            self._datas = pin.StdVec_RigidConstraintData()
+            for model in self._models:
+                self._datas.append(model.createData())
+            self._settings = pin.ProximalSettings(1e-14, 1e-8, _MOST)
+            pin.initConstraintDynamics(robot.model, self.data, self._models, self._datas)
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pinocchio's data can't travel; it is made again of the robot."""
@@ -114,11 +127,19 @@ class ForwardDynamics:
             pushed: Generalized forces from outside, shape ``(nv,)``.
         """
         robot, model, data = self.robot, self.robot.model, self.data
-        allowed, opened, mass = self._reduced(q, v)
-        tau = -pin.nonLinearEffects(model, data, q, v) - passive_forces(robot, q[None], v[None])[0]
+        tau = -passive_forces(robot, q[None], v[None])[0]
         tau[robot.actuated] += torque
         if pushed is not None:
             tau += pushed
+        # Where every equation is real Pinocchio's own is as right and faster; where it doesn't
+        # converge the pose is singular, and looked at more closely below.
+        if self._simple and surveyed(robot, q, self.precision).rank == robot.equations:
+            constraints = self._models, self._datas, self._settings
+            found = pin.constraintDynamics(model, data, q, v, tau, *constraints)
+            if self._settings.iter < _MOST:
+                return np.array(found)
+        allowed, opened, mass = self._reduced(q, v)
+        tau -= pin.nonLinearEffects(model, data, q, v)
         return np.asarray(opened + self._along(allowed, mass, tau - mass @ opened))
 
     def projected(self, q: Array, v: Array) -> Array:

@@ -24,6 +24,7 @@ CUT = 1e-4
 0.1 mm per metre, below anything manufactured."""
 
 _LONGEST = 0.5  # longest step [rad]
+_ROUNDING = 1e-15  # scaled gaps and steps [rad] that are none
 _VANISHED = 1e-8  # a step that short ends the search once steps stop shrinking [rad]
 
 
@@ -86,7 +87,8 @@ def settle(
             best = Settled(q, gap, size, last, taken)
         if size == 0.0 or not movable.size:
             return replace(best, step=0.0)
-        if last < 1e-15 or taken == iterations:
+        closed = last < _VANISHED and size <= _ROUNDING
+        if closed or last < _ROUNDING or taken == iterations:
             return replace(best, step=last)
         matrix = scale.rows[:, None] * equations.jacobian(poses)[0][:, movable] * columns
         left, values, right = np.linalg.svd(matrix, full_matrices=False)
