@@ -20,11 +20,7 @@ VERBS = {
     for command in COMMANDS.values()
     for verb in command.verbs
 }
-<<<<<<< HEAD
-OUTPUTS = ("--out", "--html", "--json", "--markdown", "--write")
-=======
 OUTPUTS = ("--out", "--write", "--html", "--json", "--markdown")
->>>>>>> 33ca4996c561da52b3ecb5898994f889b9bb0b0c
 
 
 def flags(name):
