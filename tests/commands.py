@@ -20,7 +20,7 @@ VERBS = {
     for command in COMMANDS.values()
     for verb in command.verbs
 }
-OUTPUTS = ("--out", "--html", "--json", "--markdown", "--write")
+OUTPUTS = ("--out", "--write", "--html", "--json", "--markdown")
 
 
 def flags(name):

@@ -32,6 +32,7 @@ from .pages.serving import show as show
 from .errors import (
     BadInput as BadInput,
     ModelError as ModelError,
+    ModelWarning as ModelWarning,
     NoSolution as NoSolution,
     NoSupportForce as NoSupportForce,
     NonPhysicalInertia as NonPhysicalInertia,

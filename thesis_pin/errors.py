@@ -151,6 +151,10 @@ class UnknownName(BadInput):
         super().__init__(f"unknown {kind} {name!r}", where=where, allowed=listed)
 
 
+class ModelWarning(UserWarning):
+    """A model can be used, but something in its file is odd enough to look at."""
+
+
 class ModelError(BadInput):
     """A model file can't be turned into a mechanism that makes sense."""
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import warnings
 
 import pinocchio as pin
 
 from thesis_pin.command.results import Answer, deliver, give
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.text import say
+from thesis_pin.errors import ModelWarning
 from thesis_pin.files import write_folder
 from thesis_pin.loops import soundness
 from thesis_pin.loops.assembly import assembly
@@ -65,7 +67,8 @@ def formats(arguments: argparse.Namespace) -> ExitCode:
 def _loaded(arguments: argparse.Namespace) -> ClosedRobot:
     """The robot that the arguments name."""
     root = pin.JointModelFreeFlyer() if arguments.free_flyer else None
-    return load(arguments.file, arguments.closures, root_joint=root)
+    with warnings.catch_warnings(action="ignore", category=ModelWarning):  # the verbs say them
+        return load(arguments.file, arguments.closures, root_joint=root)
 
 
 def _tell(found: soundness.Soundness) -> list[Part]:

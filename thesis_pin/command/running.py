@@ -52,7 +52,7 @@ def targets(parsed: argparse.Namespace) -> Iterator[None]:
         parsed: The parsed arguments; ``out`` becomes a claim on its folder.
 
     Raises:
-        BadInput: Two outputs want standard output.
+        BadInput: Two outputs want standard output, or one would replace what is read.
         CannotWrite: An output can't be written.
         Busy: Another run is at work for the folder.
     """
@@ -62,14 +62,20 @@ def targets(parsed: argparse.Namespace) -> Iterator[None]:
             f"{' and '.join(taken)} can't both be standard output",
             remedy="Write one of them to a file",
         )
+    sources = _sources(parsed)
     for option in _FILES:
         if (target := _value(parsed, option)) is not None:
+            if (source := _same(target, sources)) is not None:
+                raise BadInput(
+                    f"--{option} would replace {source!r}, which this command reads",
+                    remedy="Name another file",
+                )
             check_file(target)
     out = _value(parsed, "out")
     if out is None:
         yield
         return
-    with Claim(out) as claim:
+    with Claim(out, keep=sources) as claim:
         if claim.mixture:
             say(
                 f"{out} holds a mixture: a run was killed while it wrote {claim.mixture[0]}"
@@ -77,6 +83,20 @@ def targets(parsed: argparse.Namespace) -> Iterator[None]:
             )
         parsed.out = claim
         yield
+
+
+def _sources(parsed: argparse.Namespace) -> list[str]:
+    """Files that the arguments name and that aren't outputs."""
+    values = [value for option, value in vars(parsed).items() if option not in (*_FILES, "out")]
+    words = [value for value in values if isinstance(value, str) and "\0" not in value]
+    return [word for word in words if os.path.isfile(word)]
+
+
+def _same(target: str, sources: Sequence[str]) -> str | None:
+    """Which of some files a target is, under whatever name."""
+    with contextlib.suppress(OSError, ValueError):
+        return next((one for one in sources if os.path.samefile(target, one)), None)
+    return None
 
 
 def free(parsed: argparse.Namespace) -> bool:

@@ -18,7 +18,7 @@ import hashlib
 import itertools
 import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 
@@ -57,6 +57,7 @@ class Claim:
 
     Args:
         folder: The folder; it need not exist. Links are followed.
+        keep: Files that may not be replaced by others, such as those that are read.
 
     Attributes:
         mixture: Files that an earlier run, killed while it wrote, left unlike
@@ -67,8 +68,9 @@ class Claim:
         CannotWrite: It can't be made or written to.
     """
 
-    def __init__(self, folder: str | Path) -> None:
+    def __init__(self, folder: str | Path, keep: Sequence[str | Path] = ()) -> None:
         self._name = str(folder)
+        self._keep = [os.stat(one) for one in keep]
         with contextlib.ExitStack() as undo, cannot_write(folder):
             if not self._name:
                 raise OSError(errno.EINVAL, "'' isn't the name of a folder")
@@ -121,6 +123,7 @@ class Claim:
                     raise OSError(errno.EISDIR, f"there is a folder {target.name!r} in it")
                 if target.exists() and not os.access(target, os.W_OK):
                     raise OSError(errno.EACCES, f"{target.name} is read-only")
+                self._check_kept(target, contents)
             new.mkdir()
             for name, content in contents.items():
                 (new / name).parent.mkdir(parents=True, exist_ok=True)
@@ -130,6 +133,17 @@ class Claim:
             stale = stale_files(self.path, sums)
             if not self._exchange(new, {*contents, *stale}):
                 self._move(new, contents, sums, stale)
+
+    def _check_kept(self, target: Path, contents: Mapping[str, bytes]) -> None:
+        """Refuse to put something else in the place of a file that is to be kept."""
+        if not target.exists():
+            return
+        there = os.stat(target)
+        content = contents[str(target.relative_to(self.path))]
+        if any(os.path.samestat(there, one) for one in self._keep) and (
+            target.read_bytes() != content
+        ):
+            raise OSError(errno.EEXIST, f"this command reads {target.name}; name another folder")
 
     def _exchange(self, new: Path, ours: set[str]) -> bool:
         """Put the new folder in the old one's place; whether that could be done."""

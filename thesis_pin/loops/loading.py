@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
+from thesis_pin.errors import ModelWarning
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
 from thesis_pin.model.formats.reading import read
@@ -23,7 +25,8 @@ def load(
         root_joint: Joint between world and root link, ``None`` for what the files say.
 
     Returns:
-        The robot: Pinocchio model, loops, motors.
+        The robot: Pinocchio model, loops, motors. What is odd in its files is in
+        ``robot.description.warnings``, and said once as a :class:`ModelWarning`.
 
     Raises:
         BadInput: A file can't be read.
@@ -37,4 +40,7 @@ def load(
     if beside is not None:
         described = joined(described, beside.supplement())
     where = FILE_KIND if closures is None else str(closures)
-    return ClosedRobot(described, root_joint=root_joint, where=where)
+    robot = ClosedRobot(described, root_joint=root_joint, where=where)
+    if found := robot.description.warnings:
+        warnings.warn("; ".join((f"{file}: {found[0]}", *found[1:])), ModelWarning, stacklevel=2)
+    return robot

@@ -184,6 +184,9 @@ def _check_tree(description: Description, where: str) -> None:
 def _check_joint(joint: Joint, here: str) -> None:
     if joint.kind in ("fixed", "floating"):
         return  # its axis and limits mean nothing
+    for what, value in (("damping", joint.damping), ("friction", joint.friction)):
+        if value < 0:
+            raise ModelError(f"its {what} is {value:g}", where=here, allowed="at least 0")
     if joint.kind in ("revolute", "prismatic"):
         if joint.limit is None:
             raise ModelError("it has no <limit>", where=here)

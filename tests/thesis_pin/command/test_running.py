@@ -214,3 +214,19 @@ def test_a_command_run_in_a_thread_leaves_signals_alone():
     thread.start()
     thread.join()
     assert seen == [signal.SIG_DFL]
+
+
+@pytest.mark.parametrize("through", ["itself", "a link"])
+def test_what_a_command_reads_is_not_replaced_by_what_it_writes(through, tmp_path, capsys):
+    read = tmp_path / "arm.urdf"
+    read.write_text("<robot/>")
+    target = read if through == "itself" else tmp_path / "link.json"
+    if through == "a link":
+        target.symlink_to(read)
+    parser = doing(lambda _: ExitCode.DONE)
+    parser.add_argument("file")
+    parser.add_argument("--json")
+    assert run(parser, [str(read), "--json", str(target)]) == ExitCode.BAD_INPUT
+    assert "would replace" in capsys.readouterr().err
+    assert run(parser, [str(read), "--json", str(tmp_path / "new.json")]) == ExitCode.DONE
+    assert read.read_text() == "<robot/>"

@@ -208,6 +208,17 @@ def test_a_user_is_refused_where_they_may_not_write_and_nothing_changes(tmp_path
     assert as_user(tmp_path, work) == "done"
 
 
+def test_a_file_that_is_to_be_kept_is_not_replaced_by_another(tmp_path):
+    read = tmp_path / "samples.csv"
+    read.write_bytes(b"theirs")
+    with Claim(tmp_path, keep=[read]) as claim:
+        with pytest.raises(CannotWrite, match=r"reads samples\.csv"):
+            claim.write({"report.json": b"ours", "samples.csv": b"ours"})
+        claim.write({"report.json": b"ours", "samples.csv": b"theirs"})
+    assert read.read_bytes() == b"theirs"
+    assert (tmp_path / "report.json").read_bytes() == b"ours"
+
+
 def test_a_claim_that_is_not_used_leaves_no_trace(tmp_path):
     with Claim(tmp_path / "deep" / "er" / "out") as claim:
         assert str(claim) == str(tmp_path / "deep" / "er" / "out")

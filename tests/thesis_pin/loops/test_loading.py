@@ -57,3 +57,18 @@ def test_a_free_flyer_is_set_under_any_robot():
     q = pin.neutral(flying.model)
     weight = pin.rnea(flying.model, flying.model.createData(), q, np.zeros(18), np.zeros(18))[2]
     assert weight == pytest.approx(9.81 * pin.computeTotalMass(flying.model), rel=1e-12)
+
+
+HEAVY = """<robot name="odd"><link name="base"/><link name="arm"><inertial>
+<origin xyz="0.05 0 0"/><mass value="0.3"/>
+<inertia ixx="250" ixy="0" ixz="0" iyy="250" iyz="0" izz="250"/></inertial></link>
+<joint name="turn" type="continuous"><parent link="base"/><child link="arm"/>
+<axis xyz="0 0 1"/></joint></robot>"""
+
+
+def test_who_loads_a_robot_in_python_is_warned_of_sizes_that_cannot_be(tmp_path):
+    file = tmp_path / "odd.urdf"
+    file.write_text(HEAVY)
+    with pytest.warns(thesis_pin.ModelWarning, match=r"odd\.urdf: .*radius of gyration is 28\.9 m"):
+        robot = thesis_pin.load(file)
+    assert robot.description.warnings

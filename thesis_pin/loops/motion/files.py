@@ -22,7 +22,13 @@ from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.motion.sampled import quantum, resolution_warning, unlike, with_derivatives
+from thesis_pin.loops.motion.sampled import (
+    quantum,
+    resolution_warning,
+    unlike,
+    unwound,
+    with_derivatives,
+)
 from thesis_pin.model.samples import check_increasing, check_width, numbers, read_rows
 
 Array = NDArray[np.float64]
@@ -112,8 +118,9 @@ def read_motion(robot: ClosedRobot, file: str | Path) -> JointMotion:
     interpolated, warnings = [], []
     for j, joint in enumerate(joints):
         value, k, column = values[joint, 0]
-        if column.turns:  # 179° and −179° are neighbours
-            value = np.unwrap(value)
+        if column.turns:
+            value, doubts = unwound(joint, value)
+            warnings += doubts
         given = [values[joint, order][0] if (joint, order) in values else None for order in (1, 2)]
         position[:, j] = value
         if given[1] is None and len(time) < 4:
@@ -177,7 +184,11 @@ def _columns(robot: ClosedRobot, header: Sequence[str], where: str) -> dict[int,
     seen: dict[tuple[str, int], str] = {}
     times = [name for name in header if name in _TIME]
     if len(times) != 1:
-        raise BadInput(f"{len(times)} columns of time", where=where, allowed="one, t [s]")
+        joined = any(mark in name for name in header for mark in ";\t")
+        remedy = "Separate cells by commas, and write decimals with points" if joined else ""
+        raise BadInput(
+            f"{len(times)} columns of time", where=where, allowed="one, t [s]", remedy=remedy
+        )
     for k, name in enumerate(header):
         if name in _TIME:
             continue

@@ -19,8 +19,15 @@ Array = NDArray[np.float64]
 COARSE = 0.1
 """Share of the largest acceleration that the samples' steps may make up without a warning."""
 
-UNLIKE = 0.5
-"""Share by which a column of rates may differ from the derivative of its values."""
+UNLIKE = 0.25
+"""Share by which a column of rates may differ from the derivative of its values, of both
+together: twice or half of it is 0.45, and what good samples lose is below 0.1."""
+
+SLACK = 1e-6
+"""Share of a turn by which rounding may carry a wrapped angle beyond one."""
+
+FAR = math.pi / 2
+"""Step [rad] beyond which samples don't tell a jump by a turn from a real one."""
 
 _LINES = 2_000
 """Lines that are looked at for the number of digits."""
@@ -52,6 +59,33 @@ def with_derivatives(
         turn = interpolate(time, rate, "free")(time, 1) if np.ptp(rate) > 0 else still
         return rate, turn
     return rate, acceleration
+
+
+def unwound(joint: str, angle: Array) -> tuple[Array, list[str]]:
+    """Samples of an angle without its jumps by a turn: 179° and −179° are neighbours.
+
+    Samples that reach over more than one turn count turns already, and stay as they are.
+
+    Args:
+        joint: Name of the joint, for the message.
+        angle: As written [rad], shape ``(n,)``.
+
+    Returns:
+        The angle, and a warning where samples are so far apart that it may be another.
+    """
+    if np.ptp(angle) > 2 * np.pi * (1 + SLACK):
+        return angle, []
+    found = np.unwrap(angle)
+    if np.array_equal(found, angle):
+        return angle, []
+    step = float(np.abs(np.diff(found)).max())
+    if step <= FAR:
+        return found, []
+    return found, [
+        f"{joint} jumps by more than half a turn between samples, which is read as its shorter "
+        f"way; its steps of up to {step:.3g} rad leave that in doubt. Sample more finely, or "
+        "count turns in the column."
+    ]
 
 
 def quantum(cells: Sequence[str], values: Array) -> float:

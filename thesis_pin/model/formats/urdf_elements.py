@@ -30,6 +30,9 @@ _ONCE_IN_JOINT = (*_ONCE, "mimic", "safety_controller", "calibration")
 
 _INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _LIMIT = ("lower", "upper", "effort", "velocity")
+_MIMIC = ("joint", "multiplier", "offset")
+_ATTRIBUTES = ("xyz", "rpy", "damping", "friction", *_LIMIT, *_MIMIC)
+"""Attributes that may be left out, so that a misspelt one would count as none."""
 
 
 def refuse_xacro(root: Element, where: str) -> None:
@@ -137,6 +140,8 @@ def placement_of(origin: Element | None, here: str) -> Array:
     """An ``<origin>`` as a placement [m], shape ``(4, 4)``; none is where the parent stands."""
     place = np.eye(4)
     if origin is not None:
+        if turn := next((key for key in origin.attrib if key.startswith("quat")), None):
+            raise UnknownName("attribute of <origin>", turn, ("xyz", "rpy"), where=here)
         place[:3, 3] = numbers(origin, "xyz", 3, here) if "xyz" in origin.attrib else 0.0
         if "rpy" in origin.attrib:
             roll, pitch, yaw = numbers(origin, "rpy", 3, here)
@@ -150,15 +155,26 @@ def children(parent: Element, tag: str) -> list[Element]:
 
 
 def once(parent: Element, tags: Iterable[str], here: str) -> dict[str, Element]:
-    """Children by tag; of these tags each may stand there once."""
+    """Children by tag; of these tags each may stand there once, in the letters that URDF has."""
     found: dict[str, Element] = {}
     for child in parent:
-        if child.tag not in tags or not isinstance(child, Element):
+        if not isinstance(child, Element):
             continue
+        if child.tag not in tags:
+            _check_letters("element", str(child.tag), tags, here)
+            continue
+        for key in child.attrib:
+            _check_letters(f"attribute of <{child.tag}>", key, _ATTRIBUTES, here)
         if child.tag in found:
             raise ModelError(f"<{child.tag}> is given twice in its <{parent.tag}>", where=here)
         found[child.tag] = child
     return found
+
+
+def _check_letters(what: str, name: str, known: Iterable[str], here: str) -> None:
+    """Refuse a name that is a known one but for its capitals: readers pass over it silently."""
+    if name not in known and name.lower() in known:
+        raise UnknownName(what, name, [name.lower()], where=here)
 
 
 def numbers(

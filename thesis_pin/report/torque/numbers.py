@@ -13,6 +13,7 @@ from thesis_pin.loops.dynamics import LoopDynamics
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.files import JointMotion
 from thesis_pin.loops.motion.whole import WholeMotion
+from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
 from thesis_pin.tolerances import TOLERANCES
@@ -88,7 +89,8 @@ class TorqueNumbers:
     def effort_limits(self) -> Array:
         """Least and greatest torque of each motor [N·m] or [N], ``(2, motors)``; ±∞ without.
 
-        A limit of zero in a URDF is one that nobody filled in.
+        A limit of zero in a URDF is one that nobody filled in; one of 1e308 says that there
+        is none.
         """
         model, places = self.robot.model, self.robot.actuated
         low, high = model.lowerEffortLimit[places], model.upperEffortLimit[places]
@@ -96,7 +98,8 @@ class TorqueNumbers:
         least = np.array([motor[0] for motor in given], dtype=float).reshape(-1)
         most = np.array([motor[1] for motor in given], dtype=float).reshape(-1)
         unknown = (high <= 0) & (low >= 0)
-        low, high = np.where(unknown, -np.inf, low), np.where(unknown, np.inf, high)
+        low = np.where(unknown | (low <= -NO_EFFORT_LIMIT), -np.inf, low)
+        high = np.where(unknown | (high >= NO_EFFORT_LIMIT), np.inf, high)
         return np.array([np.maximum(low, least), np.minimum(high, most)])
 
     @property

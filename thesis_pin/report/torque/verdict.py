@@ -68,6 +68,8 @@ def _efforts(report: TorqueNumbers) -> list[str]:
             f"No motor exceeds its limits; the closest is {report.names[best]} with "
             f"{report.effort_use[best]:.0%} of its torque."
         )
+    elif not said and unknown:  # or the next sentence would stand as the answer
+        said.append("No limit that is known is exceeded.")
     if unknown:
         said.append(f"No torque limit is known of {', '.join(unknown)}.")
     return said

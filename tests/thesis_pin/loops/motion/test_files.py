@@ -86,6 +86,34 @@ def test_an_angle_that_wraps_around_does_not_turn_back(arm, tmp_path):
     np.testing.assert_allclose(found.rate[:, 0], 0.5, atol=1e-12)
 
 
+def test_an_angle_that_counts_turns_is_taken_as_written_however_fast_it_turns(arm, tmp_path):
+    found = read_motion(arm, written(tmp_path, {"t": TIME, "turn": 5.0 * np.arange(len(TIME))}))
+    np.testing.assert_allclose(found.position[:, 0], 5.0 * np.arange(len(TIME)))
+    np.testing.assert_allclose(found.rate[:, 0], 5.0 / TIME[1], rtol=1e-9)
+
+
+def test_a_jump_that_may_be_a_real_one_is_doubted(arm, tmp_path):
+    there = np.where(np.arange(len(TIME)) < 5, -2.0, 2.0)  # 4 rad, or 2.28 the other way
+    (warning, *_) = read_motion(arm, written(tmp_path, {"t": TIME, "turn": there})).warnings
+    assert warning.startswith("turn jumps by more than half a turn")
+    assert "2.28 rad" in warning
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_rates_of_a_motion_at_twice_or_half_the_pace_are_doubted(arm, tmp_path, factor):
+    columns = {"t": TIME, "turn": np.sin(TIME), "turn_rate": factor * np.cos(TIME)}
+    (warning,) = read_motion(arm, written(tmp_path, columns)).warnings
+    assert f"it is {factor:g} times that" in warning
+
+
+@pytest.mark.parametrize("mark", [";", "\t"])
+def test_a_table_with_other_separators_says_so(arm, tmp_path, mark):
+    file = tmp_path / "excel.csv"
+    file.write_text(mark.join(("t", "turn")) + "\n" + mark.join(("0,5", "1,5")) + "\n")
+    with pytest.raises(BadInput, match="Separate cells by commas"):
+        read_motion(arm, file)
+
+
 def test_rates_in_another_unit_than_they_say_are_doubted(arm, tmp_path):
     columns = {"t": TIME, "turn": np.sin(TIME), "turn_rate": np.degrees(np.cos(TIME))}
     (warning,) = read_motion(arm, written(tmp_path, columns)).warnings

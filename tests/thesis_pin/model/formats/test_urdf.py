@@ -78,6 +78,11 @@ def test_pinocchio_alone_drops_the_mass_of_such_a_link_without_an_error():
         ('value="0.75"', 'value="${m}"', r"r\.urdf:6: this is a xacro file.*Expand it first"),
         ('<link name="a"/>', "<xacro:include/>", "a xacro file, not a URDF: <xacro:inc"),
         ('name="b"', 'name="' + "b" * 300 + '"', "has 300 characters"),
+        ('<axis xyz="0 0 2"/>', '<Axis xyz="0 0 2"/>', "unknown element 'Axis'; allowed: axis"),
+        ('rpy="0.3 0 0"', 'RPY="0.3 0 0"', "attribute of <origin> 'RPY'; allowed: rpy"),
+        ('rpy="0.3 0 0"', 'quat_xyzw="1 0 0 0"', "attribute of <origin> 'quat_xyzw'; allowed: xyz"),
+        ('damping="0.1"', 'Damping="0.1"', "attribute of <dynamics> 'Damping'; allowed: damping"),
+        ('damping="0.1"', 'damping="-0.1"', "joint 'j': its damping is -0.1; allowed: at least 0"),
         ('<link name="a"/>', "<link/>", r"r\.urdf:2: a <link> has no name"),
     ],
 )  # fmt: skip

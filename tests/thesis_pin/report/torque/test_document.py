@@ -141,8 +141,10 @@ def test_a_joint_outside_its_range_is_a_no():
     assert excess == pytest.approx(2.5 + 0.4 * (1 - np.cos(3 * TIME)).max() - 3, abs=1e-9)
 
 
-def test_an_effort_of_zero_is_no_limit_but_one_nobody_filled_in():
-    report = torque_report(arm(effort=0), swing("hip"))
+@pytest.mark.parametrize("effort", [0, 1e308])
+def test_an_effort_of_zero_or_1e308_is_no_limit_but_says_that_none_is_known(effort):
+    report = torque_report(arm(effort=effort), swing("hip"))
+    assert np.isinf(report.effort_limits[:, 0]).all()
     assert report.within_limits
     assert "No torque limit is known of hip." in report.verdict()
 
