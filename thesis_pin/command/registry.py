@@ -31,6 +31,7 @@ class Parser(argparse.ArgumentParser):
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )
+        self._mixed = False
         # argparse knows -1 and -0.5 but takes -1e-3 for a flag.
         self._negative_number_matcher = re.compile(f"(?:{_NEGATIVE.pattern})$", re.IGNORECASE)
         self.add_argument(
@@ -48,6 +49,24 @@ class Parser(argparse.ArgumentParser):
             if word.startswith("--") and word.endswith("=--"):
                 self.error(f"argument {word[:-3]}: '--' is no value")
         return super().parse_args(args, namespace)
+
+    def parse_known_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """As argparse does; where words are left over, options may stand between the others.
+
+        argparse gives an optional word nothing once an option follows the one before it.
+        """
+        found, left = super().parse_known_args(args, namespace)
+        number = self._negative_number_matcher.match
+        words = [word for word in left if word[:1] != "-" or number(word)]
+        if not words or self._subparsers is not None or self._mixed:
+            return found, left
+        self._mixed = True
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._mixed = False
 
     def error(self, message: str) -> NoReturn:
         """As argparse does, but without what a terminal would obey."""

@@ -69,3 +69,31 @@ def test_debug_may_stand_before_and_behind_a_verb():
     assert top.parse_args(["--debug", "walk"]).debug
     assert top.parse_args(["walk", "--debug"]).debug
     assert not hasattr(top.parse_args(["walk"]), "debug")
+
+
+@pytest.mark.parametrize("place", range(4))
+@pytest.mark.parametrize("words", [["FILE", "CLOSURES", "-1e-3"], ["FILE", "MOTION"]])
+def test_options_may_stand_between_the_words(words, place):
+    parser = Parser(prog="robot-pin")
+    verb = parser.add_subparsers().add_parser("torque")
+    verb.add_argument("file")
+    verb.add_argument("closures", nargs="?")
+    verb.add_argument("motion")
+    verb.add_argument("--json")
+    line = ["torque", *words[:place], "--json", "out", *words[place:]]
+    for _ in range(2):  # the parser is as it was
+        found = parser.parse_args(line)
+        closures = words[1] if len(words) == 3 else None
+        assert (found.file, found.closures, found.motion) == (words[0], closures, words[-1])
+        assert found.json == "out"
+
+
+def test_a_word_too_many_is_named_wherever_it_stands(capsys):
+    parser = Parser(prog="robot-pin")
+    verb = parser.add_subparsers().add_parser("check")
+    verb.add_argument("file")
+    verb.add_argument("--json")
+    with pytest.raises(SystemExit) as end:
+        parser.parse_args(["check", "FILE", "--json", "out", "MORE"])
+    assert end.value.code == 2
+    assert "unrecognized arguments: MORE" in capsys.readouterr().err
