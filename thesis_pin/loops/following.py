@@ -125,6 +125,10 @@ def _followed(
             v[k, robot.base], a[k, robot.base] = flying[1][k], flying[2][k]
         v[k, robot.actuated], a[k, robot.actuated] = columns[1][k], columns[2][k]
         placed = place_motors(robot, current, columns[0][k])
+        if not (robot.equations or len(robot.passive)):  # a tree of motors: nothing to close
+            q[k] = placed
+            reasons.append("")
+            continue
         try:
             settled, reason = close_one(robot, data, placed, robot.passive, 60, precision)
             q[k] = settled.q

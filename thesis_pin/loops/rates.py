@@ -26,7 +26,8 @@ def passive_rates(
     """
     heavy = [group for group in survey.idle if not group.light]
     if heavy:
-        names = "; ".join(", ".join(group.joints[:6]) for group in heavy)
+        # A ball joint that nothing holds is three groups of one name.
+        names = "; ".join(dict.fromkeys(", ".join(group.joints[:6]) for group in heavy))
         raise SingularPose(
             f"the motors don't determine the other joints: {names} move while they stand still"
         )
