@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 import re
-import textwrap
 import sys
+import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
