@@ -24,7 +24,7 @@ from scout_pin.specification import SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics, LongContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import BLOCK, LONG, blocks
+from thesis_pin.numeric.elementwise import LONG, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
@@ -87,16 +87,13 @@ def inverse_dynamics(
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     count = len(joints.q)
-    if count <= BLOCK:
-        return _solve(robot, motion, joints)
     shapes = {"torque": (12,), "wrench": (2, 6), "double_violation": ()}
     if count < LONG:
         shapes |= {"sole_wrench": (2, 6), "required": (6,)}
-    kept = {name: np.empty((count, *shape)) for name, shape in shapes.items()}
+    kept = {name: np.zeros((count, *shape)) for name, shape in shapes.items()}
     for part in blocks(count):
-        here = _solve(robot, motion.part(part), joints.part(part))
-        for name, values in kept.items():
-            values[part] = getattr(here, name)
+        here = {name: values[part] for name, values in kept.items()}
+        _fill(here, robot, motion.part(part), joints.part(part))
     if count < LONG:
         return ContactDynamics(contacts=robot.contacts, support=motion.support, **kept)
     return LongContactDynamics(
@@ -108,17 +105,18 @@ def inverse_dynamics(
     )
 
 
-def _solve(robot: Scout, motion: GaitMotion, joints: JointTrajectory) -> ContactDynamics:
-    """:func:`inverse_dynamics` of one block of samples."""
+def _fill(
+    kept: dict[str, np.ndarray], robot: Scout, motion: GaitMotion, joints: JointTrajectory
+) -> None:
+    """Work out one block of samples and write it where it belongs, in arrays of zeros."""
     forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
-    wrench, sole_wrench = np.zeros((2, len(forces), 2, 6))
-    violation = np.full(len(forces), np.nan)
+    kept["double_violation"][:] = np.nan
     torque, total = rows(forces[:, 6:]), rows(forces[:, :6])
     shares = [np.where(motion.support[:, k], total, 0.0) for k in (0, 1)]
     double = np.flatnonzero(motion.support.all(axis=1))
     if double.size:
         both, missing = share_load(robot, motion, joints, forces, double)
-        violation[double] = missing
+        kept["double_violation"][double] = missing
         for k in (0, 1):
             shares[k][:, double] = both[:, k].T
     turn = rows(motion.torso.rotation)
@@ -133,19 +131,15 @@ def _solve(robot: Scout, motion: GaitMotion, joints: JointTrajectory) -> Contact
         arm = rows(foot.position) - rows(motion.torso.position)
         force = into(back, force)
         moment = into(back, moment) - cross(arm, force)
-        own = rows(foot.rotation)
         for column, vector in ((0, force), (3, moment)):
-            wrench[:, k, column : column + 3] = vector.T
-            sole_wrench[:, k, column : column + 3] = into(own, vector).T
-    return ContactDynamics(
-        torque=torque.T + joint_friction(robot, joints.v),
-        wrench=wrench,
-        sole_wrench=sole_wrench,
-        contacts=robot.contacts,
-        support=motion.support,
-        required=np.ascontiguousarray(forces[:, :6]),
-        double_violation=violation,
-    )
+            kept["wrench"][:, k, column : column + 3] = vector.T
+            if "sole_wrench" in kept:
+                own = into(rows(foot.rotation), vector)
+                kept["sole_wrench"][:, k, column : column + 3] = own.T
+    kept["torque"][:] = torque.T
+    kept["torque"] += joint_friction(robot, joints.v)
+    if "required" in kept:
+        kept["required"][:] = forces[:, :6]
 
 
 def joint_friction(robot: Scout, v: np.ndarray) -> np.ndarray:
