@@ -180,17 +180,34 @@ def _check_letters(what: str, name: str, known: Iterable[str], here: str) -> Non
 def numbers(
     element: Element, key: str, count: int, here: str, most: float = LIMITS.magnitude
 ) -> list[float]:
+    """Finite numbers of an attribute, ``count`` of them; see :func:`finite_numbers`."""
     text = element.get(key, "")
+    return finite_numbers(text, f"<{element.tag} {key}={shown(text)}>", count, here, most)
+
+
+def finite_numbers(text: str, what: str, count: int, here: str, most: float) -> list[float]:
+    """Numbers by XML Schema's grammar, as no reader below takes them otherwise.
+
+    Args:
+        text: Where they stand.
+        what: What is shown of the place, for messages.
+        count: How many there have to be.
+        here: File, line and element, for messages.
+        most: Largest magnitude.
+
+    Raises:
+        ModelError: Another number of them, no numbers, too large or not finite.
+    """
     parts = text.split()
     if len(parts) == count and all(map(_NUMBER.fullmatch, parts)):
         values = [float(part) for part in parts]
         if all(abs(value) <= most and np.isfinite(value) for value in values):
             return values
-    what = "a finite number" if count == 1 else f"{count} finite numbers"
+    wanted = "a finite number" if count == 1 else f"{count} finite numbers"
     if parts and len(parts) != count:
-        what += f" (it has {len(parts)})"
+        wanted += f" (it has {len(parts)})"
     raise ModelError(
-        f"<{element.tag} {key}={shown(text)}> isn't {what}",
+        f"{what} isn't {wanted}",
         where=here,
         allowed=f"numbers such as -1.5e-3, of magnitude at most {LIMITS.magnitude:g}",
     )

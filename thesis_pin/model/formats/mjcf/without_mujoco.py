@@ -76,6 +76,7 @@ class _Converted:
         self.free = self.free and list(model.parents)[1:].count(0) == 1
 
     def description(self, constraints: list[object]) -> Description:
+        """What Pinocchio's model and its constraints say, as a description."""
         if not self.free:
             self.made.links["world"] = Link("world", 0, _inertial(self.model.inertias[0]))
             self.link_of[0] = "world"

@@ -10,13 +10,13 @@ import numpy as np
 
 from thesis_pin.errors import ModelError
 from thesis_pin.model.description import Array
+from thesis_pin.model.formats.urdf_elements import finite_numbers
 from thesis_pin.model.formats.writer import pose
 from thesis_pin.model.formats.xml import Element
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import shown
 from thesis_pin.numeric.rotations import rotation
 
-_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
 _INFINITE = re.compile(r"[+-]?inf(inity)?", re.IGNORECASE)
 _TRUE, _FALSE = ("true", "1"), ("false", "0", "")
 
@@ -112,16 +112,5 @@ def pose_of(element: Element, here: str) -> tuple[Array, str]:
 
 
 def _numbers(element: Element, count: int, here: str, most: float) -> list[float]:
-    parts = (element.text or "").split()
-    if len(parts) == count and all(map(_NUMBER.fullmatch, parts)):
-        values = [float(part) for part in parts]
-        if all(abs(value) <= most and math.isfinite(value) for value in values):
-            return values
-    what = "a finite number" if count == 1 else f"{count} finite numbers"
-    if parts and len(parts) != count:
-        what += f" (it has {len(parts)})"
-    raise ModelError(
-        f"<{element.tag}>{shown(element.text or '')} isn't {what}",
-        where=here,
-        allowed=f"numbers such as -1.5e-3, of magnitude at most {LIMITS.magnitude:g}",
-    )
+    text = element.text or ""
+    return finite_numbers(text, f"<{element.tag}>{shown(text)}", count, here, most)
