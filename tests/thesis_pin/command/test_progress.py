@@ -50,15 +50,15 @@ RUNS = {
     "trajectory": ("pollard_pin.cli", ["trajectory"], "working out the trajectory"),
     "workspace": ("pollard_pin.cli", ["workspace", "--points", "9"], "mapping the workspace"),
     "audit": ("scout_pin.cli", ["audit", "--equation", "4.3.3:dot_e_9i"], "auditing"),
-    "view": ("scout_pin.cli", ["view", "--html", "/dev/null"], "working out the motion"),
+    "view": ("scout_pin.cli", ["view", "--html", "{folder}/page.html"], "working out the motion"),
     "check": ("thesis_pin.command.main", ["check", *FIVE_BAR], "checking"),
 }
 
 
 @pytest.mark.parametrize("name", RUNS)
-def test_a_run_that_takes_longer_shows_a_bar_on_a_terminal_and_takes_it_away(name):
+def test_a_run_that_takes_longer_shows_a_bar_on_a_terminal_and_takes_it_away(name, tmp_path):
     module, words, says = RUNS[name]
-    code, said, out = on_a_terminal(module, *words)
+    code, said, out = on_a_terminal(module, *(word.format(folder=tmp_path) for word in words))
     assert code == 0
     assert says in said
     assert "\x1b[2K" in said[said.rindex(says) :]  # the line is erased
