@@ -34,8 +34,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from pollard_pin.motion.curves import arc, joined, line, through
+from pollard_pin.motion.curves import arc, joined, line
 from pollard_pin.motion.path import Timing, ToolPath
+from pollard_pin.motion.samples import through
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.files import name_as_text
 from thesis_pin.model.samples import check_increasing, check_width, finite, numbers, read_rows
@@ -150,7 +151,7 @@ def _segments(content: PathFile) -> list[ToolPath]:
             paths.append(arc(current, segment.via, end, *how))
         else:
             paths.append(line(current, end, *how))
-        current = end
+        current = paths[-1].at(segment.duration).pose[0]
     return paths
 
 
@@ -175,8 +176,6 @@ def read_csv(file: str | Path, method: str = "free") -> ToolPath:
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} poses", where=str(file), allowed="at least 2")
     table *= factors
-    # 179° and −179° are neighbours: an angle that wraps around doesn't turn back.
-    table[:, 4:] = np.unwrap(table[:, 4:], axis=0)
     return through(table[:, 0], table[:, 1:], method, name=name_as_text(Path(file).name))
 
 
