@@ -69,6 +69,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "inertia": self.robot.inertia,
             "actuators": self.motors,
             "condition_length": LENGTH,
+            "notes": list(self.path.notes),
             "thesis_pin": __version__,
         }
 

@@ -63,6 +63,7 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         f"Reach margin at least {margin.min():.3f} (t = {time[margin.argmin()]:.3f} s).",
         f"With {reading} inertias the base motors of six would peak at "
         f"{', '.join(f'{value:.3f}' for value in other[:3])} N·m.",
+        *report.path.notes,
         "",
         *report.verdict(),
         "",

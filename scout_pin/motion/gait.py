@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -32,6 +32,7 @@ from thesis_pin.tolerances import TOLERANCES
 
 BODIES = ("torso", "left_foot", "right_foot")
 Support = Literal["left", "right", "double"]
+SUPPORTS: tuple[str, ...] = get_args(Support)
 
 
 class Phase(Strict):
@@ -113,6 +114,7 @@ class Gait:
         curves: For each body of :data:`BODIES`, six curves of t in the order of
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
+        notes: What was chosen for the user when its file was read, in sentences.
     """
 
     name: str
@@ -120,6 +122,7 @@ class Gait:
     time_unit: float
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
+    notes: tuple[str, ...] = ()
 
     @property
     def start(self) -> float:

@@ -65,6 +65,7 @@ class GaitReport(GaitNumbers):
             "branch": self.branch,
             "samples": len(self.joints.time),
             "inertia": self.robot.inertia,
+            "notes": list(self.gait.notes),
             "thesis_pin": __version__,
         }
 

@@ -69,6 +69,7 @@ def summary(report: GaitReport) -> Iterator[Part]:
             f"{impact.energy_lost * 1e3:.2f} mJ lost"
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
+    yield from report.gait.notes
     yield from ("", *report.verdict())
 
 

@@ -55,6 +55,7 @@ class TorqueReport(TorqueNumbers):
             "motion": self.motion.name,
             "samples": len(self.joints.time),
             "given": list(self.motion.joints),
+            "notes": list(self.motion.notes),
             "thesis_pin": __version__,
         }
 
