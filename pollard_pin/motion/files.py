@@ -184,7 +184,7 @@ def read_csv(file: str | Path, method: str = "free") -> ToolPath:
     # 179° and −179° are neighbours: an angle that wraps around doesn't turn back.
     poses[3:] = [np.unwrap(angle) for angle in poses[3:]]
     path = through(time.values, np.stack(poses, 1), method, name=name_as_text(Path(file).name))
-    notes = [table.dialect.sentence()]
+    notes = list(table.dialect.notes)
     if unused:
-        notes.append(f"Columns that mean nothing here and aren't used: {', '.join(unused)}.")
-    return replace(path, notes=tuple(filter(None, notes)))
+        notes.append(f"these columns mean nothing here and aren't used: {', '.join(unused)}")
+    return replace(path, notes=tuple(notes))

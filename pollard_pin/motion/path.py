@@ -96,7 +96,7 @@ class ToolPath:
         duration: How long it takes [s].
         function: Times ``(n,)`` → pose and derivatives, each ``(n, 6)``.
         parameters: What it was made from, for reports.
-        notes: What was chosen for the user when its file was read, in sentences.
+        notes: What was chosen when its file was read, in plain words.
     """
 
     name: str

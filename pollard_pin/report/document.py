@@ -69,7 +69,6 @@ class TrajectoryReport(TrajectoryNumbers):
             "inertia": self.robot.inertia,
             "actuators": self.motors,
             "condition_length": LENGTH,
-            "notes": list(self.path.notes),
             "thesis_pin": __version__,
         }
 
@@ -97,6 +96,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "parameters": self.parameters,
             "assumptions": self.assumptions(),
             "summary": self.summary(),
+            "notes": list(self.path.notes),
         }
         if self.three is not None:
             document["missing_force"] = self.three.missing

@@ -5,7 +5,7 @@ The format is described in docs/scout.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +13,7 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.motion.contact import changes
 from scout_pin.motion.gait import BODIES, SUPPORTS, Gait, Phase
 from thesis_pin.errors import TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
@@ -44,12 +45,19 @@ class GaitSamples:
         support: ``"left"``, ``"right"`` or ``"double"`` for each sample.
         poses: Name of :data:`POSES` → its column; those that are missing are zero. Angles
             are unwrapped.
+        notes: How the table was read, where that isn't plain.
     """
 
     table: Table
     time: Column
     support: tuple[str, ...]
     poses: Mapping[str, Column]
+    notes: tuple[str, ...] = ()
+
+    def values(self, name: str) -> np.ndarray:
+        """Samples of a pose's column, zero if it is missing, shape ``(n,)``."""
+        column = self.poses.get(name)
+        return np.zeros(len(self.table)) if column is None else column.values
 
 
 def read_gait_table(path: str | Path) -> GaitSamples:
@@ -75,7 +83,7 @@ def read_gait_table(path: str | Path) -> GaitSamples:
     for row, name in enumerate(support):
         if name not in SUPPORTS:
             raise UnknownName("support", name, SUPPORTS, where=table.where(row))
-    return GaitSamples(table, time, tuple(support), poses)
+    return GaitSamples(table, time, tuple(support), poses, table.dialect.notes)
 
 
 def through_samples(samples: GaitSamples, method: str) -> Gait:
@@ -84,12 +92,14 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
     Args:
         samples: The samples.
         method: See :data:`thesis_pin.numeric.interpolation.METHODS`.
+
+    Raises:
+        TrajectoryError: Support changes more than ``LIMITS.phases`` times.
     """
     file, t = Path(samples.table.file), samples.time.values
-    absent = np.zeros(len(t))
-    values = {name: column.values for name, column in samples.poses.items()}
+    phases, notes = phases_of(samples)
     curves = {
-        body: tuple(_curve(t, values.get(f"{body}_{c}", absent), method) for c in POSE_NAMES)
+        body: tuple(_curve(t, samples.values(f"{body}_{c}"), method) for c in POSE_NAMES)
         for body in BODIES
     }
     return Gait(
@@ -97,35 +107,35 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
         name_as_text(file),
         1.0,
         curves,
-        phases_of(samples),
-        tuple(filter(None, [samples.table.dialect.sentence()])),
+        phases,
+        (*samples.notes, *notes),
     )
 
 
-def phases_of(samples: GaitSamples) -> tuple[Phase, ...]:
-    """Runs of equal support; a change happens at the first sample that shows it.
+def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...]]:
+    """Contact phases, and what had to be mended; see :func:`scout_pin.motion.contact.changes`.
 
     Raises:
         TrajectoryError: There are more than ``LIMITS.phases``.
     """
-    phases = tuple(_runs(samples.support, samples.time.values))
+    table = samples.table
+    standing = np.array([(name != "right", name != "left") for name in samples.support])
+    feet = [
+        np.stack([samples.values(f"{body}_{c}") for c in POSE_NAMES], axis=1) for body in BODIES[1:]
+    ]
+    found, moved = changes(samples.time.values, standing, feet)
+    phases = tuple(Phase(start=a, end=b, support=c) for a, b, c in found)  # type: ignore[arg-type]
     if len(phases) > LIMITS.phases:
         raise TrajectoryError(
             f"support changes {len(phases) - 1:,} times",
-            where=samples.table.file,
+            where=table.file,
             allowed=f"at most {LIMITS.phases:,} phases",
             remedy="A sensor's noise isn't a phase: filter the column first",
         )
-    return phases
-
-
-def _runs(names: Sequence[str], t: np.ndarray) -> Iterator[Phase]:
-    start = 0
-    for k in range(1, len(names) + 1):
-        if k == len(names) or names[k] != names[start]:
-            end = min(k, len(names) - 1)
-            yield Phase(start=t[start], end=t[end], support=names[start])  # type: ignore[arg-type]
-            start = k
+    return phases, tuple(
+        f"{table.where(row)}: a foot is said to bear load beside its place; it counts as swinging"
+        for row in moved
+    )
 
 
 def _curve(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:

@@ -65,7 +65,6 @@ class GaitReport(GaitNumbers):
             "branch": self.branch,
             "samples": len(self.joints.time),
             "inertia": self.robot.inertia,
-            "notes": list(self.gait.notes),
             "thesis_pin": __version__,
         }
 
@@ -91,6 +90,7 @@ class GaitReport(GaitNumbers):
             "admissible": self.dynamics.admissible,
             "parameters": self.parameters,
             "assumptions": self.assumptions(),
+            "notes": list(self.gait.notes),
             "summary": self.summary(),
         }
 

@@ -40,8 +40,9 @@ class Dialect:
     decimal: str = "."
     header: int = 0
 
-    def sentence(self) -> str:
-        """What isn't plain CSV about it, for people; empty if nothing is."""
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What isn't plain CSV about it, for people, without a full stop; empty if nothing is."""
         said = []
         if self.separator != ",":
             said.append(f"with {MARKS[self.separator]} between cells")
@@ -49,7 +50,7 @@ class Dialect:
             said.append("with decimal commas")
         if self.header:
             said.append(f"with the comment in line {self.header} as its header")
-        return f"The table is read {', '.join(said)}." if said else ""
+        return (f"the table is read {', '.join(said)}",) if said else ()
 
 
 def split(line: str, separator: str) -> list[str]:

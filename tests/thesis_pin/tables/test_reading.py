@@ -62,7 +62,7 @@ def test_every_dialect_gives_the_same_numbers(tmp_path, text, dialect):
     assert found.header == ("t", "x")
     assert found.dialect == dialect
     assert columns(found) == [[0.5, 2.0], [1.25, -1e-3]]
-    assert bool(dialect.sentence()) == (dialect != Dialect())
+    assert bool(dialect.notes) == (dialect != Dialect())
 
 
 @pytest.mark.parametrize(

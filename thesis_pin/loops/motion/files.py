@@ -136,7 +136,7 @@ def read_motion(robot: ClosedRobot, file: str | Path) -> JointMotion:
         base,
         tuple(interpolated),
         tuple(warnings),
-        tuple(filter(None, [table.dialect.sentence()])),
+        table.dialect.notes,
     )
 
 

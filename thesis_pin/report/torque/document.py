@@ -55,7 +55,6 @@ class TorqueReport(TorqueNumbers):
             "motion": self.motion.name,
             "samples": len(self.joints.time),
             "given": list(self.motion.joints),
-            "notes": list(self.motion.notes),
             "thesis_pin": __version__,
         }
 
@@ -92,6 +91,7 @@ class TorqueReport(TorqueNumbers):
             ],
             "parameters": self.parameters,
             "summary": self.summary(),
+            "notes": list(self.motion.notes),
         }
 
     def columns(self) -> dict[str, np.ndarray]:

@@ -50,6 +50,6 @@ def summary(report: TorqueReport) -> Iterator[Part]:
     if report.robot.loops:
         yield loops_table(report)
     yield f"Unexplained load: {report.unexplained.max():.1e} of the largest."
-    yield from report.motion.notes
     yield from report.verdict()
+    yield from (f"Note: {note}." for note in report.motion.notes)
     yield from (f"Warning: {one}" for one in report.warnings())
