@@ -14,8 +14,8 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.contact import changes
-from scout_pin.motion.gait import BODIES, Gait, Phase
+from scout_pin.motion.contact import Phase, changes
+from scout_pin.motion.gait import BODIES, Gait
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
