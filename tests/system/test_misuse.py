@@ -21,7 +21,8 @@ from thesis_pin.errors import BadInput, ThesisPinError
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.loading import load as load_looped
-from thesis_pin.model import inertia, loading
+from thesis_pin.model import loading
+from thesis_pin.model.mechanism import inertia
 from thesis_pin.numeric.interpolation import cubic, interpolate
 
 JUNK = {

@@ -12,8 +12,8 @@ from thesis_pin.command.running import ExitCode
 from thesis_pin.command.text import say
 from thesis_pin.errors import ModelWarning
 from thesis_pin.files import write_folder
-from thesis_pin.loops import soundness
-from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.checking import soundness
+from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import read_motion

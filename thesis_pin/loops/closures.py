@@ -22,13 +22,13 @@ from thesis_pin.loops.system.equations import Equations
 from thesis_pin.loops.system.rows import Loop as Loop
 from thesis_pin.loops.system.scale import Scale, scale_of
 from thesis_pin.loops.system.survey import Survey
-from thesis_pin.model.closure_types import word_of
-from thesis_pin.model.description import Description
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
-from thesis_pin.model.formats.urdf import read_urdf
-from thesis_pin.model.joining import joined
+from thesis_pin.model.formats.joining import joined
+from thesis_pin.model.formats.urdf.reading import read_urdf
 from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
-from thesis_pin.model.supplement import Closure, Motor, Supplement
+from thesis_pin.model.mechanism.closure_types import word_of
+from thesis_pin.model.mechanism.description import Description
+from thesis_pin.model.mechanism.supplement import Closure, Motor, Supplement
 
 NO_LIMIT = 1e30
 """Torque, force or speed from which a joint's limit stands for none."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from thesis_pin.loops.assembly import assembly
-from thesis_pin.loops.closing import close
+from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.configurations.closing import close
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.files import JointMotion
@@ -168,7 +168,8 @@ def torque_report(
         motion: From :func:`thesis_pin.read_motion`.
         pose: Configuration near the start that picks the assembly, shape ``(nq,)``; None
             for the least open of the description's.
-        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
+        precision: What counts as dependent; see
+            :func:`thesis_pin.loops.configurations.surveying.surveyed`.
 
     Raises:
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.

@@ -198,7 +198,7 @@ def test_half_a_base_and_a_quaternion_that_is_none_are_refused(tmp_path):
 def test_a_motor_s_name_stands_for_its_joint(tmp_path):
     from dataclasses import replace
 
-    from thesis_pin.model.supplement import Motor
+    from thesis_pin.model.mechanism.supplement import Motor
 
     robot = load(DATA / "five_bar.urdf", DATA / "five_bar.yaml")
     motors = (Motor("M1", "motor_left"), Motor("M2", "motor_right"))

@@ -13,7 +13,7 @@ from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import JointMotion, read_motion
-from thesis_pin.model.supplement import Motor
+from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.report.torque.document import torque_report
 from thesis_pin.report.torque.figures import figures
 from thesis_pin.report.writers import csv_bytes, json_bytes
@@ -88,7 +88,7 @@ def test_the_motors_power_is_the_change_of_the_robot_s_energy(name, joint):
 
 
 def torque_start(robot):
-    from thesis_pin.loops.assembly import assembly
+    from thesis_pin.loops.checking.assembly import assembly
 
     return assembly(robot).q
 
