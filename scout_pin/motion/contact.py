@@ -8,17 +8,19 @@ its place, within the two rows around it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Literal, get_args
 
 import numpy as np
+from scipy.interpolate import PPoly
 
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError
+from thesis_pin.model.specification import Strict
 from thesis_pin.tolerances import TOLERANCES
 
-if TYPE_CHECKING:
-    from scout_pin.motion.gait import Gait, Phase
+Support = Literal["left", "right", "double"]
+SUPPORTS: tuple[str, ...] = get_args(Support)
 
 _FLOOR = [2, 3, 4]  # z, pitch and roll of a standing sole are zero
 _LENGTHS = np.array([True, True, True, False, False, False])
@@ -26,17 +28,27 @@ _STANDS = np.where(_LENGTHS, TOLERANCES.stance_drift, TOLERANCES.stance_tilt)
 _NEAR = np.where(_LENGTHS, TOLERANCES.stance_near, TOLERANCES.stance_near_tilt)
 
 
-def check_stance(gait: Gait) -> None:
+class Phase(Strict):
+    """Which feet bear load between two times; equal times mean an instant."""
+
+    start: float
+    end: float
+    support: Support
+
+
+def check_stance(name: str, feet: Mapping[str, Sequence[PPoly]], phases: Sequence[Phase]) -> None:
     """A foot that bears load must rest flat on the floor z = 0.
 
     Args:
-        gait: Its curves and phases.
+        name: The gait's name, for messages.
+        feet: Six curves of each foot, ``left_foot`` and ``right_foot``.
+        phases: Who bears load when.
 
     Raises:
         TrajectoryError: A foot moves or tilts by more than ``stance_drift`` [m] or
             ``stance_tilt`` [rad] while it bears load.
     """
-    for phase in gait.phases:
+    for phase in phases:
         if phase.end == phase.start:
             continue
         # Inside the phase, so that curves of the neighbours don't count.
@@ -44,8 +56,8 @@ def check_stance(gait: Gait) -> None:
         t = np.linspace(phase.start + margin, phase.end - margin, 65)
         for side in SIDES:
             if phase.support in (side, "double"):
-                values = np.stack([c(t) for c in gait.curves[f"{side}_foot"]], axis=-1)
-                _refuse_motion(gait.name, side, phase, values)
+                values = np.stack([c(t) for c in feet[f"{side}_foot"]], axis=-1)
+                _refuse_motion(name, side, phase, values)
 
 
 def _refuse_motion(name: str, side: str, phase: Phase, values: np.ndarray) -> None:

@@ -14,7 +14,8 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.gait import BODIES, Gait, Phase
+from scout_pin.motion.contact import Phase
+from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.tables import read_gait_table, through_samples
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.model.limits import LIMITS

@@ -13,15 +13,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, Literal, get_args
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.contact import check_stance
+from scout_pin.motion.contact import Phase, check_stance
 from thesis_pin.errors import TrajectoryError, WrongShape
-from thesis_pin.model.specification import Strict
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples
@@ -32,16 +31,6 @@ from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
 BODIES = ("torso", "left_foot", "right_foot")
-Support = Literal["left", "right", "double"]
-SUPPORTS: tuple[str, ...] = get_args(Support)
-
-
-class Phase(Strict):
-    """Which feet bear load between two times; equal times mean an instant."""
-
-    start: float
-    end: float
-    support: Support
 
 
 @dataclass(frozen=True)
@@ -235,7 +224,7 @@ class Gait:
                 allowed=f"{self.start:g} to {self.end:g}",
             )
         bodies = {name: self.body(name, t, unit) for name in BODIES}
-        check_stance(self)
+        check_stance(self.name, self.curves, self.phases)
         return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies)
 
     def _unit(self, time_unit: float | None) -> float:

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.contact import changes
-from scout_pin.motion.gait import BODIES, SUPPORTS, Gait, Phase
+from scout_pin.motion.contact import SUPPORTS, Phase, changes
+from scout_pin.motion.gait import BODIES, Gait
 from thesis_pin.errors import TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
