@@ -24,11 +24,11 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 import thesis_pin
-from thesis_pin.loops.assembly import assembly
-from thesis_pin.loops.closing import motor_positions
-from thesis_pin.loops.following import follow
+from thesis_pin.loops.checking.assembly import assembly
+from thesis_pin.loops.configurations.closing import motor_positions
+from thesis_pin.loops.configurations.following import follow
 from thesis_pin.loops.kinematics import mobility
-from thesis_pin.model.closure_types import rows_of
+from thesis_pin.model.mechanism.closure_types import rows_of
 
 Array = NDArray[np.float64]
 

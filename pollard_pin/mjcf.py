@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.urdf import number, numbers
 from thesis_pin.numeric.exact import cosine, sine
 from thesis_pin.tolerances import GRAVITY

@@ -30,8 +30,8 @@ from pollard_pin.urdf import urdf
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import model_folder
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array, spread, together, vector
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -49,7 +49,7 @@ def load(
 
     Args:
         specification: A specification, the path of one, or None for the thesis's robot.
-        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.inertia`.
+        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.mechanism.inertia`.
 
     Returns:
         The robot.

@@ -18,7 +18,12 @@ import numpy as np
 from pydantic import Field
 
 from thesis_pin.errors import NonPhysicalInertia
-from thesis_pin.model.inertia import Convention, Reading, centroidal_inertia, check_physical
+from thesis_pin.model.mechanism.inertia import (
+    Convention,
+    Reading,
+    centroidal_inertia,
+    check_physical,
+)
 from thesis_pin.model.specification import (
     Assumption,
     Key,
@@ -80,7 +85,7 @@ class Link(Strict):
     """Mass [kg] and printed inertia matrix [kg·m²] of a body, in the axes of its joint frame.
 
     ``inertia_convention`` says how the matrix is meant; see
-    :func:`thesis_pin.model.inertia.centroidal_inertia`.
+    :func:`thesis_pin.model.mechanism.inertia.centroidal_inertia`.
     """
 
     mass: Positive

@@ -18,7 +18,7 @@ import numpy as np
 from pollard_pin.mjcf import mjcf
 from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
 from thesis_pin.files import write_files
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.urdf import bar, cylinder, inertial, joint, robot, sphere
 from thesis_pin.numeric.exact import cosine, sine
 

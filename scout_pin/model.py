@@ -21,8 +21,8 @@ from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.contacts.feet import sole_corners
 from thesis_pin.errors import BadInput
-from thesis_pin.model.inertia import Reading
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.rotations import invert, quaternions
@@ -47,7 +47,7 @@ def load(
         root: ``"free_flyer"`` (nq 19, nv 18, Pinocchio's usual floating base) or
             ``"thesis"`` (nq = nv = 18: x_B, y_B, z_B, θ_B, φ_B, ψ_B, then the joints,
             so q is the thesis's vector (4.2)).
-        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.inertia`.
+        inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.mechanism.inertia`.
 
     Returns:
         The robot.

@@ -14,7 +14,12 @@ import numpy as np
 from pydantic import Field, field_validator
 
 from thesis_pin.errors import NonPhysicalInertia
-from thesis_pin.model.inertia import Convention, Reading, centroidal_inertia, check_physical
+from thesis_pin.model.mechanism.inertia import (
+    Convention,
+    Reading,
+    centroidal_inertia,
+    check_physical,
+)
 from thesis_pin.model.specification import (
     Assumption,
     Key,

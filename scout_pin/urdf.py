@@ -15,7 +15,7 @@ import numpy as np
 
 from scout_pin.specification import JOINT_NAMES, LINK_NAMES, SIDES, Leg, Link, Specification
 from thesis_pin.files import write_files
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.urdf import (
     bar,
     cylinder,

@@ -179,8 +179,8 @@ def _single(
     size = float(np.linalg.norm(turn))
     written = float(np.abs(last - first)[3:].max())
     note = (
-        f"A {name}'s angles are written {math.degrees(written):.4g}° apart; the tool turns the "
-        f"shorter way, by {math.degrees(size):.4g}°."
+        f"a {name}'s angles are written {math.degrees(written):.4g}° apart, and the tool turns the "
+        f"shorter way, by {math.degrees(size):.4g}°"
     )
     return ToolPath(
         name,

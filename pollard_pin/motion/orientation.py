@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from pollard_pin.coordinates import angular_rate_matrix, pose_from_placement, pose_rotation
 from thesis_pin.errors import TrajectoryError
@@ -60,6 +59,8 @@ def turning(first: np.ndarray, turn: np.ndarray, s: np.ndarray) -> Turned:
     omega = np.broadcast_to(turn, (len(s), 3))
     if not turn.any():
         return np.broadcast_to(first, (len(s), 3, 3)), omega, omega
+    from scipy.spatial.transform import Rotation
+
     turned = Rotation.from_rotvec(s[:, None] * turn).as_matrix() @ first
     return turned, omega, np.zeros_like(omega)
 

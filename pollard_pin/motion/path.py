@@ -118,7 +118,7 @@ class ToolPath:
         duration: How long it takes [s].
         function: Times ``(n,)`` → the tool's motion, and angles next to which to name it.
         parameters: What it was made from, for reports.
-        notes: What was taken for the user and may be meant otherwise, in sentences.
+        notes: What was chosen for the user, in plain words.
     """
 
     name: str

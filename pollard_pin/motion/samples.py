@@ -83,8 +83,8 @@ def through_orientations(
     size = np.linalg.norm(turn, axis=-1)
     k = int(np.argmax(size))
     note = (
-        f"From t = {time[k]:.6g} to {time[k + 1]:.6g} s the tool turns by "
-        f"{np.degrees(size[k]):.4g}°: between samples so far apart the shorter way is taken."
+        f"from t = {time[k]:.6g} to {time[k + 1]:.6g} s the tool turns by "
+        f"{np.degrees(size[k]):.4g}°, the shorter way between samples so far apart"
     )
     angles = named_alike(rotation, np.zeros(3) if written is None else written[0])
     return along_curves(

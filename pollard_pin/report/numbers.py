@@ -23,7 +23,7 @@ from pollard_pin.specification import (
     ACTUATOR_NAMES,
     ACTUATORS,
 )
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.elementwise import blocks, intervals
 from thesis_pin.numeric.long import gathered
 from thesis_pin.numeric.trajectory import JointTrajectory

@@ -33,7 +33,7 @@ from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.explicit import ExplicitTerms
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import UnknownName
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array
 
 ROW_NAMES = ("k_2", "k_6", "k_7", "k_12", "k_18", "k_25")

@@ -28,7 +28,7 @@ from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.explicit import ExplicitTerms
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import NoSolution, UnknownName
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.tolerances import TOLERANCES
 

@@ -18,7 +18,7 @@ from scout_pin.specification import SIDES, Specification
 from thesis_pin.equations.dual import Dual
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.values import STEP
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 
 COORDINATES = (
     *("x_B", "y_B", "z_B", "theta_B", "phi_B", "psi_B"),

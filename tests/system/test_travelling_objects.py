@@ -15,7 +15,7 @@ import thesis_pin
 from scout_pin.report.verdict import sentences
 from scout_pin.report.view import gait_scene
 from thesis_pin import errors
-from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.loading import load
 
 ROOT = Path(__file__).parents[2]

@@ -77,7 +77,7 @@ COMMAND = Command(
             "Check a robot's description: names, tree, loops, motors, degrees of freedom, and "
             "where it closes.",
             "check urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml",
-            "thesis_pin.loops.soundness:check",
+            "thesis_pin.loops.checking.soundness:check",
             "thesis_pin.command.any_robot:check",
             (
                 _which_robot,

@@ -12,7 +12,7 @@ from thesis_pin.equations.catalogue import Catalogue, Edition
 from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.evaluation import Movable
 from thesis_pin.errors import UnknownName, WrongShape
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array
 
 References = TypeVar("References", bound=Movable)

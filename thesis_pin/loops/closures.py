@@ -22,13 +22,13 @@ from thesis_pin.loops.system.equations import Equations
 from thesis_pin.loops.system.rows import Loop as Loop
 from thesis_pin.loops.system.scale import Scale, scale_of
 from thesis_pin.loops.system.survey import Survey
-from thesis_pin.model.closure_types import word_of
-from thesis_pin.model.description import Description
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
-from thesis_pin.model.formats.urdf import read_urdf
-from thesis_pin.model.joining import joined
+from thesis_pin.model.formats.joining import joined
+from thesis_pin.model.formats.urdf.reading import read_urdf
 from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
-from thesis_pin.model.supplement import Closure, Motor, Supplement
+from thesis_pin.model.mechanism.closure_types import word_of
+from thesis_pin.model.mechanism.description import Description
+from thesis_pin.model.mechanism.supplement import Closure, Motor, Supplement
 
 NO_LIMIT = 1e30
 """Torque, force or speed from which a joint's limit stands for none."""
@@ -192,6 +192,7 @@ def _motors(model: pin.Model, given: Sequence[Motor], where: str) -> tuple[Motor
     """Motors of the joints that are named whole or in part; a whole name beats a part."""
     known = dict.fromkeys(list(model.names)[1:])
     motors: dict[str, Motor] = {}
+    used: set[str] = set()
     for motor in given:
         part = motor.joint
         matches = [part] if part in known else [name for name in known if part in name]
@@ -204,7 +205,9 @@ def _motors(model: pin.Model, given: Sequence[Motor], where: str) -> tuple[Motor
                     where=f"{where}: name_mot",
                     remedy="Write each motor's full name once",
                 )
-            name = joint if motor.name == part else motor.name
+            own = motor.name != part and len(matches) == 1 and motor.name not in used
+            name = motor.name if own else joint
+            used.add(name)
             motors[joint] = _limited(model, replace(motor, joint=joint, name=name))
     return tuple(motors.values())
 

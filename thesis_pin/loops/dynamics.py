@@ -20,15 +20,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput
 from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.configurations.surveying import surveyed
+from thesis_pin.loops.forces.forward import ForwardDynamics as ForwardDynamics
+from thesis_pin.loops.forces.forward import forward_dynamics as forward_dynamics
+from thesis_pin.loops.forces.forward import simulate as simulate
 from thesis_pin.loops.forces.inverse import InverseWork
 from thesis_pin.loops.forces.loads import (
     Wrenches,
     checked_wrenches,
 )
-from thesis_pin.loops.forward import ForwardDynamics as ForwardDynamics
-from thesis_pin.loops.forward import forward_dynamics as forward_dynamics
-from thesis_pin.loops.forward import simulate as simulate
-from thesis_pin.loops.surveying import surveyed
 from thesis_pin.loops.system.idle import IdleGroup
 from thesis_pin.numeric.arrays import finite_array, together
 from thesis_pin.numeric.checks import instance
@@ -113,7 +113,7 @@ def inverse_dynamics(
             frame's origin, world axes [N], [N·m], shape ``(6,)`` or ``(..., 6)``.
         check: Refuse motions that open the loops, and loads that neither motors nor loops
             carry.
-        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
+        precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
 
     Returns:
         Torques, forces, and how well determined they are.
@@ -122,7 +122,7 @@ def inverse_dynamics(
         BadInput: The motion opens a loop (see :func:`close`, :func:`follow`).
         SingularPose: Torques don't exist at a pose, or the file's noise may turn them over.
         NoSolution: Neither motors nor loops carry some load.
-        ModelError: See :func:`thesis_pin.loops.surveying.surveyed`.
+        ModelError: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
     """
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     q, v, a = together(

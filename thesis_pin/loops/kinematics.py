@@ -16,14 +16,14 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput
-from thesis_pin.loops.closing import Closing as Closing
-from thesis_pin.loops.closing import close as close
-from thesis_pin.loops.closing import close_each as close_each
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.following import Following as Following
-from thesis_pin.loops.following import follow as follow
-from thesis_pin.loops.following import follow_each as follow_each
-from thesis_pin.loops.surveying import surveyed
+from thesis_pin.loops.configurations.closing import Closing as Closing
+from thesis_pin.loops.configurations.closing import close as close
+from thesis_pin.loops.configurations.closing import close_each as close_each
+from thesis_pin.loops.configurations.following import Following as Following
+from thesis_pin.loops.configurations.following import follow as follow
+from thesis_pin.loops.configurations.following import follow_each as follow_each
+from thesis_pin.loops.configurations.surveying import surveyed
 from thesis_pin.loops.system.equations import Poses
 from thesis_pin.loops.system.idle import IdleGroup
 from thesis_pin.loops.system.rows import WELD
@@ -170,7 +170,7 @@ def mobility(robot: ClosedRobot, q: ArrayLike, *, precision: float | None = None
     Args:
         robot: The robot.
         q: The configuration, shape ``(nq,)``.
-        precision: See :func:`thesis_pin.loops.surveying.surveyed`.
+        precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
 
     Raises:
         Unreachable: The loops can't be closed near q.

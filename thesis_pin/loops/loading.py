@@ -8,8 +8,8 @@ from pathlib import Path
 from thesis_pin.errors import ModelWarning
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
+from thesis_pin.model.formats.joining import joined
 from thesis_pin.model.formats.reading import read
-from thesis_pin.model.joining import joined
 from thesis_pin.model.loading import RootJoint, checked
 
 

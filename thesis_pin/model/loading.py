@@ -15,11 +15,11 @@ import numpy as np
 import pinocchio as pin
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.model.bodies import check_bodies, odd_bodies
-from thesis_pin.model.description import Description
-from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.formats.urdf.reading import read_urdf
+from thesis_pin.model.mechanism.bodies import check_bodies, odd_bodies
+from thesis_pin.model.mechanism.description import Description
+from thesis_pin.model.mechanism.soundness import check_agreement, check_description
 from thesis_pin.model.meshes import with_mesh_paths
-from thesis_pin.model.soundness import check_agreement, check_description
 from thesis_pin.numeric.checks import instance, shown
 
 RootJoint: TypeAlias = pin.JointModel | Sequence[tuple[str, pin.JointModel]] | None

@@ -15,8 +15,8 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from thesis_pin.errors import ModelError
-from thesis_pin.model.description import Description
 from thesis_pin.model.formats.xml import canonical, parse_xml
+from thesis_pin.model.mechanism.description import Description
 
 _PACKAGES = ("ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH")
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import yaml
 
 from thesis_pin.files import write_files
-from thesis_pin.model.closure_types import word_of
-from thesis_pin.model.description import Description
+from thesis_pin.model.mechanism.closure_types import word_of
+from thesis_pin.model.mechanism.description import Description
+from thesis_pin.model.mechanism.supplement import Motor, Supplement
 from thesis_pin.model.meshes import with_absolute_meshes
-from thesis_pin.model.supplement import Motor, Supplement
 
 
 def pair(description: Description) -> dict[str, str]:

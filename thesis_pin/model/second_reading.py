@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from thesis_pin.errors import ModelError
-from thesis_pin.model.description import Description, Joint, Link
+from thesis_pin.model.mechanism.description import Description, Joint, Link
 from thesis_pin.tolerances import TOLERANCES
 
 

@@ -8,7 +8,6 @@ at most half a turn between neighbours.
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.numeric.rotations import quaternions
@@ -31,6 +30,8 @@ def shorter_turns(matrix: np.ndarray, hint: np.ndarray | None = None) -> np.ndar
         TrajectoryError: A step is half a turn, and the hint doesn't tell which way;
             carries the number of the step's first rotation as ``step``.
     """
+    from scipy.spatial.transform import Rotation
+
     step = matrix[1:] @ np.swapaxes(matrix[:-1], -1, -2)
     turn = Rotation.from_quat(quaternions(step)).as_rotvec()
     size = np.linalg.norm(turn, axis=-1)
@@ -92,6 +93,8 @@ def motion(
     Returns:
         Rotation ``(n, 3, 3)``, ω ``(n, 3)`` [rad/s], α ``(n, 3)`` [rad/s²].
     """
+    from scipy.spatial.transform import Rotation
+
     square = (value * value).sum(axis=-1, keepdims=True)
     omega = 2 * _vector_part(first, value) / square
     growth = 2 * (value * first).sum(axis=-1, keepdims=True) / square

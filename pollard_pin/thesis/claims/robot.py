@@ -24,7 +24,7 @@ from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
 from thesis_pin.equations.values import Value, scalar
-from thesis_pin.model.inertia import parallel_axis
+from thesis_pin.model.mechanism.inertia import parallel_axis
 
 Check = Callable[[Catalogue, Equation, References], ClaimResult]
 

@@ -18,7 +18,7 @@ from pollard_pin.thesis.symbols.loops import PATHS, Path, placement
 from pollard_pin.thesis.symbols.rates import joint_rates
 from thesis_pin.equations import lagrangian
 from thesis_pin.equations.dual import dual
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 
 BODIES = ("1", "2", "3", "4", "5", "11", "21", "12", "22")
 """In the order of :data:`pollard_pin.specification.LINK_NAMES`."""

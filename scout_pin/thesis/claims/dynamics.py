@@ -25,7 +25,7 @@ from thesis_pin.audit.verdicts import ClaimResult, largest_relative
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import NoSolution
-from thesis_pin.model.inertia import Reading
+from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
 SEED = 20100

@@ -14,7 +14,7 @@ from scout_pin.thesis.claims.tables import beyond
 from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue
 from thesis_pin.errors import NonPhysicalInertia
-from thesis_pin.model.inertia import check_physical
+from thesis_pin.model.mechanism.inertia import check_physical
 
 
 def claims(catalogue: Catalogue) -> dict[str, Callable[[], ClaimResult]]:

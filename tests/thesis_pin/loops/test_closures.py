@@ -11,9 +11,9 @@ from thesis_pin.errors import BadInput, ModelError, SpecificationError, UnknownN
 from thesis_pin.loops.joint_types import replace_joints
 from thesis_pin.loops.kinematics import close
 from thesis_pin.loops.loading import load
-from thesis_pin.model.closure_types import word_of
 from thesis_pin.model.formats.closure_file import ClosureFile
-from thesis_pin.model.formats.urdf import read
+from thesis_pin.model.formats.urdf.reading import read
+from thesis_pin.model.mechanism.closure_types import word_of
 
 DATA = Path(__file__).parent / "data"
 

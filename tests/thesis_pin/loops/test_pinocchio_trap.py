@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 
-from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.kinematics import jacobian
 from thesis_pin.loops.loading import load
 

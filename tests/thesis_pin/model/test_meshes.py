@@ -7,7 +7,7 @@ import pytest
 
 from thesis_pin.errors import ModelError
 from thesis_pin.loops.loading import load
-from thesis_pin.model.formats.urdf import read
+from thesis_pin.model.formats.urdf.reading import read
 from thesis_pin.model.meshes import with_mesh_paths
 
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n"

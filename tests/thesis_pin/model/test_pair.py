@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from thesis_pin.loops.loading import load
 from thesis_pin.model.formats.closure_file import ClosureFile
 from thesis_pin.model.formats.reading import read
+from thesis_pin.model.mechanism.supplement import Closure, Coupling, Motor, Spring, Supplement
 from thesis_pin.model.pair import closure_text, pair, write
-from thesis_pin.model.supplement import Closure, Coupling, Motor, Spring, Supplement
 
 FULL = Supplement(
     closures=(

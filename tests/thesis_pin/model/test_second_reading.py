@@ -6,11 +6,11 @@ import pytest
 from example_robots import urdf_files
 
 from thesis_pin.errors import ModelError, ThesisPinError
-from thesis_pin.model.description import Description
-from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.formats.urdf.reading import read_urdf
+from thesis_pin.model.mechanism.description import Description
 from thesis_pin.model.second_reading import second_reading
 
-from .formats.test_urdf import GOOD
+from .formats.urdf.test_reading import GOOD
 
 
 @pytest.mark.parametrize("file", urdf_files(), ids=lambda file: file.name)

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import JointMotion, read_motion

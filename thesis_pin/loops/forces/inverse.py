@@ -9,8 +9,9 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput, NoSolution, SingularPose
-from thesis_pin.loops.closing import loop_gaps
 from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.configurations.closing import loop_gaps
+from thesis_pin.loops.configurations.surveying import surveyed
 from thesis_pin.loops.forces.judging import (
     REFUSED,
     Contradiction,
@@ -24,7 +25,6 @@ from thesis_pin.loops.forces.loads import (
     open_tree_forces,
 )
 from thesis_pin.loops.forces.wrenches import base_wrenches, loop_wrenches
-from thesis_pin.loops.surveying import surveyed
 from thesis_pin.loops.system.equations import Poses
 from thesis_pin.loops.system.idle import HARMLESS_LOAD
 from thesis_pin.loops.system.newton import CUT
@@ -222,5 +222,5 @@ class InverseWork:
             f"{robot.model.nv - self.survey.rank - len(robot.base)} freedoms",
             float(outside[k, place]) * size,
             "N·m or N",
-            remedy="Name more motors, or pass check=False",
+            remedy="Name more motors: name_mot of the closure file",
         )

@@ -10,14 +10,14 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import SingularPose, TrajectoryError
-from thesis_pin.loops.closing import close, motor_positions
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.following import follow
+from thesis_pin.loops.configurations.closing import close, motor_positions
+from thesis_pin.loops.configurations.following import follow
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.files import JointMotion
 from thesis_pin.loops.motion.sampled import with_derivatives
 from thesis_pin.loops.system.idle import joint_names
-from thesis_pin.model.supplement import Motor
+from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -59,7 +59,8 @@ def whole_motion(
         motion: How some of its joints move.
         pose: Closed configuration from which the joints go to the first sample, which
             picks the assembly, shape ``(nq,)``.
-        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
+        precision: What counts as dependent; see
+            :func:`thesis_pin.loops.configurations.surveying.surveyed`.
 
     Raises:
         Unreachable: A sample can't be closed.

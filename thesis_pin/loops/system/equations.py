@@ -15,7 +15,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.loops.system.rows import Loop
-from thesis_pin.model.supplement import Coupling
+from thesis_pin.model.mechanism.supplement import Coupling
 from thesis_pin.numeric.arrays import skew
 
 Array = NDArray[np.float64]

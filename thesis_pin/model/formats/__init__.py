@@ -1,1 +1,1 @@
-"""Formats of models: text → :class:`thesis_pin.model.description.Description`."""
+"""Formats of models: text → :class:`thesis_pin.model.mechanism.description.Description`."""

@@ -3,7 +3,7 @@
 In YAML::
 
     closed_loop: [[frame_on_one_body, frame_on_another], ...]
-    type: ['3d', '6d', ...]        # or another word of thesis_pin.model.closure_types
+    type: ['3d', '6d', ...]        # or another word of thesis_pin.model.mechanism.closure_types
     name_mot: [joint, ...]         # motors: names, or parts of names
     joint_name: [joint, ...]       # joints whose type a URDF can't express
     joint_type: ['SPHERICAL', ...] # or UJOINT_XY, FIXED, …
@@ -24,12 +24,12 @@ from typing import Annotated, Any, Literal, TypeAlias, TypeVar
 from pydantic import AfterValidator, Field, field_validator
 
 from thesis_pin.errors import BadInput
-from thesis_pin.model.closure_types import WORDS, rows_of
 from thesis_pin.model.formats.yaml_text import parse_yaml
 from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.mechanism.closure_types import WORDS, rows_of
+from thesis_pin.model.mechanism.supplement import Closure, Coupling, Motor, Spring, Supplement
 from thesis_pin.model.source import read_text
 from thesis_pin.model.specification import Key, Strict, validate
-from thesis_pin.model.supplement import Closure, Coupling, Motor, Spring, Supplement
 from thesis_pin.numeric.checks import shown
 from thesis_pin.tolerances import GRAVITY
 
@@ -99,7 +99,7 @@ class Extra(Strict):
         names: Of the loops.
         lengths: Of the loops that are rods [m].
         couplings, motors, springs, armature, damping, friction, poses: As in
-            :class:`~thesis_pin.model.supplement.Supplement`.
+            :class:`~thesis_pin.model.mechanism.supplement.Supplement`.
         root: ``fixed`` or ``free``.
         gravity: In the world's axes [m/s²].
     """

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from thesis_pin.errors import ModelError
-from thesis_pin.model.description import Array, Joint, Link
-from thesis_pin.model.supplement import Closure, Mask
+from thesis_pin.model.mechanism.description import Array, Joint, Link
+from thesis_pin.model.mechanism.supplement import Closure, Mask
 from thesis_pin.numeric.arrays import skew
 from thesis_pin.numeric.rotations import invert
 

@@ -12,9 +12,9 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.model.description import Joint, Link
 from thesis_pin.model.formats.cutting import Cutter
-from thesis_pin.model.supplement import Closure
+from thesis_pin.model.mechanism.description import Joint, Link
+from thesis_pin.model.mechanism.supplement import Closure
 
 _COST = {"fixed": 0, "revolute": 2, "continuous": 2, "prismatic": 2, "planar": 4, "floating": 6}
 _TYPE_COST = {"FIXED": 0, "SPHERICAL": 5}

@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from thesis_pin.errors import ModelError
-from thesis_pin.model.description import Description
 from thesis_pin.model.examples import located
-from thesis_pin.model.formats import urdf
 from thesis_pin.model.formats.mjcf.reading import read_mjcf
 from thesis_pin.model.formats.sdf.reading import read_sdf
+from thesis_pin.model.formats.urdf import reading as urdf
 from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.mechanism.description import Description
 from thesis_pin.model.source import read_bytes
 
 _BY_SUFFIX = {".xml": "MJCF", ".mjcf": "MJCF", ".sdf": "SDF"}

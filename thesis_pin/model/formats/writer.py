@@ -9,7 +9,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import ArrayLike
 
-from thesis_pin.model.description import Array, Inertial, Joint, Link
+from thesis_pin.model.mechanism.description import Array, Inertial, Joint, Link
 from thesis_pin.model.urdf import number, numbers
 
 UNLIMITED = 1e6

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from thesis_pin.loops.assembly import assembly
-from thesis_pin.loops.closing import close
+from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.configurations.closing import close
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.files import JointMotion
@@ -18,7 +18,7 @@ from thesis_pin.report.torque import verdict
 from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.version import __version__
 
-SCHEMA, VERSION = "thesis-pin/torque", 1
+SCHEMA, VERSION = "thesis-pin/torque", 2
 
 INTERPOLATED = (
     "Rates and accelerations of {names} come from a cubic spline through the samples. Nothing "
@@ -66,6 +66,7 @@ class TorqueReport(TorqueNumbers):
             "version": VERSION,
             "robot": robot.model.name,
             "motors": list(self.names),
+            "motor_joints": list(robot.actuators),
             "units": list(self.units),
             "joints": list(robot.model.names)[1:],
             "loops": [
@@ -91,6 +92,7 @@ class TorqueReport(TorqueNumbers):
             ],
             "parameters": self.parameters,
             "summary": self.summary(),
+            "notes": list(self.motion.notes),
         }
 
     def columns(self) -> dict[str, np.ndarray]:
@@ -168,7 +170,8 @@ def torque_report(
         motion: From :func:`thesis_pin.read_motion`.
         pose: Configuration near the start that picks the assembly, shape ``(nq,)``; None
             for the least open of the description's.
-        precision: What counts as dependent; see :func:`thesis_pin.loops.surveying.surveyed`.
+        precision: What counts as dependent; see
+            :func:`thesis_pin.loops.configurations.surveying.surveyed`.
 
     Raises:
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.

@@ -8,7 +8,7 @@ import pinocchio as pin
 import pytest
 
 from thesis_pin.errors import SingularPose
-from thesis_pin.loops.assembly import assembly
+from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import JointMotion

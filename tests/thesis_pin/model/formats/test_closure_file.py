@@ -5,8 +5,8 @@ from math import inf
 import pytest
 
 from thesis_pin.errors import SpecificationError
-from thesis_pin.model.closure_types import word_of
 from thesis_pin.model.formats.closure_file import ClosureFile
+from thesis_pin.model.mechanism.closure_types import word_of
 
 PLAIN = "closed_loop: [[a, b]]\ntype: [{}]\nname_mot: [m]\nthesis_pin:\n  format: 1\n"
 

@@ -6,10 +6,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.model.description import Inertial, Joint, Link
 from thesis_pin.model.formats.cutting import along
 from thesis_pin.model.formats.graph import cut_loops, needs_cutting
 from thesis_pin.model.formats.writer import pose, write_urdf
+from thesis_pin.model.mechanism.description import Inertial, Joint, Link
 
 GENERATOR = np.random.default_rng(7)
 LIMIT = (-2.0, 2.0, 1.0, 1.0)

@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from thesis_pin.model.description import Inertial, Joint, Link
-from thesis_pin.model.formats.urdf import read_urdf
+from thesis_pin.model.formats.urdf.reading import read_urdf
 from thesis_pin.model.formats.writer import pose, roll_pitch_yaw, write_urdf
 from thesis_pin.model.loading import load_model
+from thesis_pin.model.mechanism.description import Inertial, Joint, Link
 
 ANGLES = st.floats(-3.0, 3.0)
 TURN = Rotation.from_rotvec([0.3, -0.9, 1.7]).as_matrix()

@@ -1,1 +1,1 @@
-"""MJCF, compiled by MuJoCo → :class:`thesis_pin.model.description.Description`."""
+"""MJCF, compiled by MuJoCo → :class:`thesis_pin.model.mechanism.description.Description`."""

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thesis_pin.errors import ModelError
-from thesis_pin.model.description import Array, Description, Inertial, Joint, Link
 from thesis_pin.model.formats.cutting import Cutter, fresh
 from thesis_pin.model.formats.mjcf.equalities import Equalities
 from thesis_pin.model.formats.mjcf.forces import Forces
@@ -21,7 +20,8 @@ from thesis_pin.model.formats.mjcf.names import about, name_at, names_of, turned
 from thesis_pin.model.formats.mjcf.shapes import shapes_of
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT, UNLIMITED, pose, write_urdf
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.supplement import Supplement
+from thesis_pin.model.mechanism.description import Array, Description, Inertial, Joint, Link
+from thesis_pin.model.mechanism.supplement import Supplement
 
 if TYPE_CHECKING:
     import mujoco

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from thesis_pin.model.description import Array
 from thesis_pin.model.formats.cutting import Cutter
 from thesis_pin.model.formats.mjcf.names import name_at, turned
 from thesis_pin.model.formats.writer import pose
-from thesis_pin.model.supplement import Closure, Coupling, Mask
+from thesis_pin.model.mechanism.description import Array
+from thesis_pin.model.mechanism.supplement import Closure, Coupling, Mask
 
 if TYPE_CHECKING:
     import mujoco

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thesis_pin.model.formats.mjcf.names import name_at
-from thesis_pin.model.supplement import Motor, Spring
+from thesis_pin.model.mechanism.supplement import Motor, Spring
 
 if TYPE_CHECKING:
     import mujoco

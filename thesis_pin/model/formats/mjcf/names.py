@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from thesis_pin.model.description import Array
 from thesis_pin.model.formats.cutting import fresh
+from thesis_pin.model.mechanism.description import Array
 
 if TYPE_CHECKING:
     import mujoco

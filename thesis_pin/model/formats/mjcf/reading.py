@@ -17,12 +17,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thesis_pin.errors import ModelError
-from thesis_pin.model.description import Description
 from thesis_pin.model.formats.mjcf.compiled import describe
 from thesis_pin.model.formats.mjcf.geometry import line_of, strip_geometry
 from thesis_pin.model.formats.mjcf.without_mujoco import read_with_pinocchio
 from thesis_pin.model.formats.xml import Element, parse_xml
 from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.mechanism.description import Description
 from thesis_pin.model.source import read_bytes
 from thesis_pin.numeric.checks import shown
 

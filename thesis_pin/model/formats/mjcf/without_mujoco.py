@@ -15,12 +15,12 @@ import numpy as np
 import pinocchio as pin
 
 from thesis_pin.errors import ModelError, ThesisPinError
-from thesis_pin.model.description import Array, Description, Inertial, Joint, Link
 from thesis_pin.model.formats.cutting import Cutter
 from thesis_pin.model.formats.mjcf.trust import REMEDY, cross_check, untold, untrusted
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT, UNLIMITED, pose, write_urdf
 from thesis_pin.model.formats.xml import Element
-from thesis_pin.model.supplement import Closure, Mask, Motor, Spring, Supplement
+from thesis_pin.model.mechanism.description import Array, Description, Inertial, Joint, Link
+from thesis_pin.model.mechanism.supplement import Closure, Mask, Motor, Spring, Supplement
 
 _POINT: Mask = (True, True, True, False, False, False)
 _WELD: Mask = (True, True, True, True, True, True)

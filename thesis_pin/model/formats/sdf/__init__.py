@@ -1,1 +1,1 @@
-"""SDF → :class:`thesis_pin.model.description.Description`; its loops are cut."""
+"""SDF → :class:`thesis_pin.model.mechanism.description.Description`; its loops are cut."""

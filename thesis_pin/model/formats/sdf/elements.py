@@ -9,11 +9,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from thesis_pin.errors import ModelError
-from thesis_pin.model.description import Array
-from thesis_pin.model.formats.urdf_elements import finite_numbers
+from thesis_pin.model.formats.urdf.elements import finite_numbers
 from thesis_pin.model.formats.writer import pose
 from thesis_pin.model.formats.xml import Element
 from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.mechanism.description import Array
 from thesis_pin.numeric.checks import shown
 from thesis_pin.numeric.rotations import rotation
 

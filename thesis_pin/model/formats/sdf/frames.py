@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.model.description import Array
 from thesis_pin.model.formats.sdf.elements import pose_of, text_of
 from thesis_pin.model.formats.xml import Element
+from thesis_pin.model.mechanism.description import Array
 from thesis_pin.numeric.rotations import invert
 
 MODEL, WORLD = "__model__", "world"

@@ -9,14 +9,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.model.description import Array, Joint
 from thesis_pin.model.formats.cutting import Cutter
 from thesis_pin.model.formats.sdf.elements import flag, number, only, text_of, vector
 from thesis_pin.model.formats.sdf.frames import Frames
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT, UNLIMITED
 from thesis_pin.model.formats.xml import Element
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.supplement import Coupling, Spring
+from thesis_pin.model.mechanism.description import Array, Joint
+from thesis_pin.model.mechanism.supplement import Coupling, Spring
 from thesis_pin.numeric.rotations import invert
 
 _KINDS = {

@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 
 from thesis_pin.errors import ModelError
-from thesis_pin.model.description import Array, Description, Inertial, Joint, Link
 from thesis_pin.model.formats.cutting import Cutter
 from thesis_pin.model.formats.graph import cut_loops
 from thesis_pin.model.formats.sdf.elements import children, flag, number, only, pose_of, text_of
@@ -23,8 +22,9 @@ from thesis_pin.model.formats.sdf.shapes import shapes_of
 from thesis_pin.model.formats.writer import write_urdf
 from thesis_pin.model.formats.xml import Element, parse_xml
 from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.mechanism.description import Array, Description, Inertial, Joint, Link
+from thesis_pin.model.mechanism.supplement import Coupling, Motor, Supplement
 from thesis_pin.model.source import read_bytes
-from thesis_pin.model.supplement import Coupling, Motor, Supplement
 from thesis_pin.numeric.rotations import quaternions
 
 KIND = "SDF"

@@ -5,9 +5,9 @@ import pinocchio as pin
 import pytest
 
 from thesis_pin.errors import BadInput, ModelError
-from thesis_pin.model.description import moving_bodies
 from thesis_pin.model.formats.mjcf import reading, without_mujoco
 from thesis_pin.model.formats.mjcf.reading import read_mjcf
+from thesis_pin.model.mechanism.description import moving_bodies
 
 BIG = '<inertial pos="0.1 -0.2 0.3" mass="1.5" fullinertia="0.3 0.4 0.5 0.01 0.02 -0.03"/>'
 BAR = '<inertial pos="0 0.1 0" mass="0.5" diaginertia="0.01 0.02 0.015" euler="10 20 30"/>'

@@ -1,0 +1,1 @@
+"""Configurations of robots with loops: surveyed, closed, followed, with their rates."""

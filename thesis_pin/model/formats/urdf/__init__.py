@@ -1,0 +1,1 @@
+"""URDF and URDF+ → :class:`thesis_pin.model.mechanism.description.Description`."""
