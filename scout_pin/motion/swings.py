@@ -146,5 +146,13 @@ def _judged(
         progress = (t - t[0]) / (t[-1] - t[0])
     within = height[(progress >= middle[0]) & (progress <= middle[1])]
     ends = np.interp(middle, progress, height)
-    near = (height[1:] + height[:-1]) / 2 < TOLERANCES.scrape_height
-    return float(min(within.min(initial=np.inf), ends.min())), way, float(step[near].sum())
+    scraped = float((step * _below(TOLERANCES.scrape_height, height)).sum())
+    return float(min(within.min(initial=np.inf), ends.min())), way, scraped
+
+
+def _below(limit: float, height: np.ndarray) -> np.ndarray:
+    """Share of each step between heights ``(n,)`` that lies below a limit, ``(n - 1,)``."""
+    low, high = np.minimum(height[1:], height[:-1]), np.maximum(height[1:], height[:-1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.clip((limit - low) / (high - low), 0.0, 1.0)
+    return np.where(high > low, share, low < limit)

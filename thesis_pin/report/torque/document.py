@@ -92,6 +92,7 @@ class TorqueReport(TorqueNumbers):
             ],
             "parameters": self.parameters,
             "summary": self.summary(),
+            "notes": list(self.motion.notes),
         }
 
     def columns(self) -> dict[str, np.ndarray]:
