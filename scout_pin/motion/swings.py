@@ -155,4 +155,4 @@ def _below(limit: float, height: np.ndarray) -> np.ndarray:
     low, high = np.minimum(height[1:], height[:-1]), np.maximum(height[1:], height[:-1])
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.clip((limit - low) / (high - low), 0.0, 1.0)
-    return np.where(high > low, share, low < limit)
+    return np.asarray(np.where(high > low, share, low < limit))

@@ -25,7 +25,7 @@ def polygon_distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """
     edges = _segment_distance(one, other)
     corners = np.minimum(_corners_to_area(one, other), _corners_to_area(other, one))
-    return np.minimum(edges, corners)
+    return np.asarray(np.minimum(edges, corners))
 
 
 def least_distance(one: np.ndarray, other: np.ndarray) -> tuple[float, int]:
