@@ -14,7 +14,8 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.gait import BODIES, Gait, Phase
+from scout_pin.motion.contact import Phase, changes
+from scout_pin.motion.gait import BODIES, Gait
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
@@ -252,7 +253,14 @@ def _from_csv(path: Path, method: str) -> Gait:
     for name in names:
         if name.endswith(("pitch", "roll", "yaw")):
             values[name] = np.unwrap(values[name])
-    phases = tuple(_csv_phases(rows, columns.index("support"), t))
+    absent = np.zeros(len(t))
+    standing = _standing(rows, columns.index("support"))
+    feet = [
+        np.stack([values.get(f"{body}_{c}", absent) for c in POSE_NAMES], axis=1)
+        for body in BODIES[1:]
+    ]
+    found, moved = changes(t, standing, feet)
+    phases = tuple(Phase(start=a, end=b, support=c) for a, b, c in found)  # type: ignore[arg-type]
     if len(phases) > LIMITS.phases:
         raise TrajectoryError(
             f"support changes {len(phases) - 1:,} times",
@@ -260,12 +268,15 @@ def _from_csv(path: Path, method: str) -> Gait:
             allowed=f"at most {LIMITS.phases:,} phases",
             remedy="A sensor's noise isn't a phase: filter the column first",
         )
-    absent = np.zeros(len(t))
     curves = {
         body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in POSE_NAMES)
         for body in BODIES
     }
-    return Gait(name_as_text(path.stem), name_as_text(path), 1.0, curves, phases)
+    notes = tuple(
+        f"{rows[row].where}: a foot is said to bear load beside its place; it counts as swinging"
+        for row in moved
+    )
+    return Gait(name_as_text(path.stem), name_as_text(path), 1.0, curves, phases, notes)
 
 
 def _columns(path: Path, header: Sequence[str], known: Sequence[str]) -> list[str]:
@@ -289,15 +300,12 @@ def _sampled(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:
     return constant(t[0], t[-1], float(values[0]))
 
 
-def _csv_phases(rows: Sequence[Line], column: int, t: np.ndarray) -> Iterator[Phase]:
-    """Runs of equal support; a change happens at the first sample that shows it."""
-    names = [row.cells[column] for row in rows]
-    for row, name in zip(rows, names, strict=True):
+def _standing(rows: Sequence[Line], column: int) -> np.ndarray:
+    """Which feet bear load at each row, left then right, booleans ``(n, 2)``."""
+    result = np.empty((len(rows), 2), dtype=bool)
+    for k, row in enumerate(rows):
+        name = row.cells[column]
         if name not in ("left", "right", "double"):
             raise UnknownName("support", name, ("left", "right", "double"), where=row.where)
-    start = 0
-    for k in range(1, len(names) + 1):
-        if k == len(names) or names[k] != names[start]:
-            end = min(k, len(names) - 1)
-            yield Phase(start=t[start], end=t[end], support=names[start])  # type: ignore[arg-type]
-            start = k
+        result[k] = name != "right", name != "left"
+    return result
