@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thesis_pin.loops.system.parts import Parts, inverted
@@ -23,6 +23,7 @@ def stacks(draw):
     return touches, random.normal(size=(3, *touches.shape)) * touches
 
 
+@settings(deadline=None, max_examples=50)
 @given(stacks())
 def test_singular_values_are_those_of_the_whole_matrices(stack):
     touches, matrices = stack
@@ -34,6 +35,7 @@ def test_singular_values_are_those_of_the_whole_matrices(stack):
     assert (np.diff(values, axis=1) <= 0).all()
 
 
+@settings(deadline=None, max_examples=50)
 @given(stacks(), st.sampled_from([0.0, 0.3, 1.0]), st.sampled_from([None, 1, 3]))
 def test_pseudo_inverses_are_those_of_the_whole_truncated_matrices(stack, cut, rank):
     touches, matrices = stack
@@ -50,6 +52,7 @@ def test_pseudo_inverses_are_those_of_the_whole_truncated_matrices(stack, cut, r
         assert count == strong.sum()
 
 
+@settings(deadline=None, max_examples=50)
 @given(stacks(), st.integers(0, 3))
 def test_complements_are_orthogonal_to_what_was_kept_and_complete_it(stack, most):
     touches, matrices = stack
