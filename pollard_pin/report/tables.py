@@ -65,6 +65,7 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         f"{', '.join(f'{value:.3f}' for value in other[:3])} N·m.",
         "",
         *report.verdict(),
+        *(f"Note: {note}." for note in report.path.notes),
         "",
         "These numbers rest on assumptions:",
         *(

@@ -9,7 +9,7 @@ its place, within the two rows around it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from scipy.interpolate import PPoly
@@ -20,6 +20,7 @@ from thesis_pin.model.specification import Strict
 from thesis_pin.tolerances import TOLERANCES
 
 Support = Literal["left", "right", "double"]
+SUPPORTS: tuple[str, ...] = get_args(Support)
 
 _FLOOR = [2, 3, 4]  # z, pitch and roll of a standing sole are zero
 _LENGTHS = np.array([True, True, True, False, False, False])

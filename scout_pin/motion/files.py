@@ -1,11 +1,11 @@
-"""Gaits from files: nodes, polynomials or constants in TOML, samples in CSV.
+"""Gaits from files: nodes, polynomials or constants in TOML, samples in tables.
 
 The formats are described in docs/scout.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -14,15 +14,15 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.contact import Phase, changes
+from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.tables import read_gait_table, through_samples
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
-from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.samples import Line, check_increasing, check_width, numbers, read_rows
 from thesis_pin.model.specification import Key, Positive, Strict, read_toml
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
+from thesis_pin.tables.reading import TABLES
 from thesis_pin.tolerances import TOLERANCES
 
 GAITS = Path(__file__).parents[1] / "gaits"
@@ -151,10 +151,11 @@ class GaitFile(Strict):
 
 
 def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -> Gait:
-    """Load a preset, a TOML gait or a CSV file of samples.
+    """Load a preset, a TOML gait or a table of samples.
 
     Args:
-        source: One of :data:`PRESETS`, or a path ending in ``.toml`` or ``.csv``.
+        source: One of :data:`PRESETS`, or a path ending in ``.toml`` or in one of
+            :data:`TABLES`.
         interpolation: Method for every node segment, instead of the file's.
 
     Raises:
@@ -170,8 +171,8 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
     if str(source) in PRESETS:
         source = GAITS / f"{source}.toml"
     path = Path(source)
-    if path.suffix.lower() == ".csv":
-        return _from_csv(path, interpolation or "free")
+    if path.suffix.lower() in TABLES:
+        return through_samples(read_gait_table(path), interpolation or "free")
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)
@@ -234,78 +235,3 @@ def _join_segments(curve: tuple[Segment, ...], override: str | None, default: st
             piece = PPoly(piece.c, np.append(piece.x[:-1], segment.end))
         pieces.append(piece)
     return join(pieces)
-
-
-def _from_csv(path: Path, method: str) -> Gait:
-    """Columns ``t`` [s], ``support`` and any of ``<body>_<coordinate>`` [m], [rad]."""
-    known = [f"{body}_{coordinate}" for body in BODIES for coordinate in POSE_NAMES]
-    lines = read_rows("gait", path)
-    columns = _columns(path, lines[0].cells, known)
-    check_width(lines)
-    rows = lines[1:]
-    if len(rows) < 4:
-        raise TrajectoryError(f"{len(rows)} samples", where=str(path), allowed="at least 4")
-    names = [name for name in columns if name != "support"]
-    table = numbers(rows, [columns.index(name) for name in names], names)
-    values = dict(zip(names, table.T, strict=True))
-    t = values["t"]
-    check_increasing(rows, t)
-    for name in names:
-        if name.endswith(("pitch", "roll", "yaw")):
-            values[name] = np.unwrap(values[name])
-    absent = np.zeros(len(t))
-    standing = _standing(rows, columns.index("support"))
-    feet = [
-        np.stack([values.get(f"{body}_{c}", absent) for c in POSE_NAMES], axis=1)
-        for body in BODIES[1:]
-    ]
-    found, moved = changes(t, standing, feet)
-    phases = tuple(Phase(start=a, end=b, support=c) for a, b, c in found)  # type: ignore[arg-type]
-    if len(phases) > LIMITS.phases:
-        raise TrajectoryError(
-            f"support changes {len(phases) - 1:,} times",
-            where=str(path),
-            allowed=f"at most {LIMITS.phases:,} phases",
-            remedy="A sensor's noise isn't a phase: filter the column first",
-        )
-    curves = {
-        body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in POSE_NAMES)
-        for body in BODIES
-    }
-    notes = tuple(
-        f"{rows[row].where}: a foot is said to bear load beside its place; it counts as swinging"
-        for row in moved
-    )
-    return Gait(name_as_text(path.stem), name_as_text(path), 1.0, curves, phases, notes)
-
-
-def _columns(path: Path, header: Sequence[str], known: Sequence[str]) -> list[str]:
-    """The header, checked: known names, none twice, the two that must be there."""
-    columns = list(header)
-    for name in columns:
-        if name not in (*known, "t", "support"):
-            raise UnknownName("column", name, ["t", "support", *known], where=str(path))
-        if columns.count(name) > 1:
-            raise TrajectoryError(f"column {name!r} is given twice", where=str(path))
-    for name in ("t", "support"):
-        if name not in columns:
-            raise TrajectoryError(f"there is no column {name!r}", where=str(path))
-    return columns
-
-
-def _sampled(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:
-    """A curve through samples; one that doesn't move stays a constant."""
-    if np.ptp(values) > 0:
-        return interpolate(t, values, method)
-    return constant(t[0], t[-1], float(values[0]))
-
-
-def _standing(rows: Sequence[Line], column: int) -> np.ndarray:
-    """Which feet bear load at each row, left then right, booleans ``(n, 2)``."""
-    result = np.empty((len(rows), 2), dtype=bool)
-    for k, row in enumerate(rows):
-        name = row.cells[column]
-        if name not in ("left", "right", "double"):
-            raise UnknownName("support", name, ("left", "right", "double"), where=row.where)
-        result[k] = name != "right", name != "left"
-    return result

@@ -189,7 +189,12 @@ ROWS = "0,double,0.23,-0.04,0.04\n0.1,double,0.23,-0.04,0.04\n0.2,left,0.23,-0.0
         (HEADER + ROWS + "0.3,left,0.23\n", BadInput, "csv:5: 3 cells"),
         (HEADER + ROWS + "0.3,both,0.23,-0.04,0.04\n", UnknownName, "double"),
         (HEADER.replace("torso_z", "torso_height") + ROWS, UnknownName, "torso_height"),
-        (HEADER.replace("support,", "") + ROWS, TrajectoryError, "support"),
+        (HEADER.replace("support,", "") + ROWS, BadInput, "csv:2: 5 cells; allowed: 4"),
+        (
+            HEADER.replace("support,", "") + ROWS.replace("double,", "").replace("left,", ""),
+            TrajectoryError,
+            "no column 'support'",
+        ),
         ("", BadInput, "the gait is empty"),
     ],
 )

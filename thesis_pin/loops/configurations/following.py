@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +19,9 @@ from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
+Base: TypeAlias = tuple[ArrayLike, ArrayLike, ArrayLike]
+"""How a free flyer moves: poses ``(n, 7)`` (position, quaternion x, y, z, w), rates and
+accelerations ``(n, 6)`` in its own axes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +48,7 @@ def follow(
     accelerations: ArrayLike,
     guess: ArrayLike,
     *,
-    base: tuple[ArrayLike, ArrayLike, ArrayLike] | None = None,
+    base: Base | None = None,
     precision: float | None = None,
 ) -> JointTrajectory:
     """Motion of all joints from that of the motors.
@@ -59,8 +63,7 @@ def follow(
         rates: Their rates, same shape.
         accelerations: Their accelerations, same shape.
         guess: Configuration near the first sample, shape ``(nq,)``.
-        base: Of a free flyer: poses ``(n, 7)`` (position, quaternion x, y, z, w), rates and
-            accelerations ``(n, 6)`` in its own axes; None leaves it at rest at ``guess``.
+        base: How a free flyer moves; None leaves it at rest at ``guess``.
         precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
 
     Returns:
@@ -72,8 +75,8 @@ def follow(
         SingularPose: The motors don't determine the passive joints at a sample, or are
             asked to move as the loops forbid.
     """
-    found = _followed(robot, time, motors, rates, accelerations, guess, base, precision, True)
-    return found.motion
+    drive = (time, motors, rates, accelerations)
+    return _followed(robot, drive, guess, base, precision, strict=True).motion
 
 
 def follow_each(
@@ -84,30 +87,29 @@ def follow_each(
     accelerations: ArrayLike,
     guess: ArrayLike,
     *,
-    base: tuple[ArrayLike, ArrayLike, ArrayLike] | None = None,
+    base: Base | None = None,
     precision: float | None = None,
 ) -> Following:
     """The same where some samples may fail: says which, and why; see :func:`follow`."""
-    return _followed(robot, time, motors, rates, accelerations, guess, base, precision, False)
+    drive = (time, motors, rates, accelerations)
+    return _followed(robot, drive, guess, base, precision, strict=False)
 
 
 def _followed(
     robot: ClosedRobot,
-    time: ArrayLike,
-    motors: ArrayLike,
-    rates: ArrayLike,
-    accelerations: ArrayLike,
+    drive: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike],
     guess: ArrayLike,
-    base: tuple[ArrayLike, ArrayLike, ArrayLike] | None,
+    base: Base | None,
     precision: float | None,
+    *,
     strict: bool,
 ) -> Following:
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     count = len(robot.actuators)
-    times = finite_array("time", time, None)
+    times = finite_array("time", drive[0], None)
     columns = [
         finite_array(name, value, None, count)
-        for name, value in (("motors", motors), ("rates", rates), ("accelerations", accelerations))
+        for name, value in zip(("motors", "rates", "accelerations"), drive[1:], strict=True)
     ]
     shapes = [x.shape for x in (times, *columns)]
     if shapes != [(len(times),), *[(len(times), count)] * 3] or not len(times):
@@ -164,7 +166,7 @@ def _at(error: ThesisPinError, sample: int) -> ThesisPinError:
 
 def _base(
     robot: ClosedRobot,
-    base: tuple[ArrayLike, ArrayLike, ArrayLike] | None,
+    base: Base | None,
     count: int,
     guess: Array,
 ) -> tuple[Array, Array, Array]:

@@ -222,5 +222,5 @@ class InverseWork:
             f"{robot.model.nv - self.survey.rank - len(robot.base)} freedoms",
             float(outside[k, place]) * size,
             "N·m or N",
-            remedy="Name more motors, or pass check=False",
+            remedy="Name more motors: name_mot of the closure file",
         )

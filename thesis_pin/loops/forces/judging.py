@@ -116,7 +116,7 @@ def refuse_opening(
                 f"the robot moves {how}, but rates or accelerations are given",
                 where=f"sample {first + int(np.argmax(moving))}",
                 allowed="zero",
-                remedy="Pass precision= if equations that nearly agree aren't to count"
+                remedy="Give a precision if equations that nearly agree aren't to count"
                 if survey.freedom or survey.cut < 1e-4
                 else "",
             )
@@ -141,7 +141,7 @@ def refuse_opening(
                 f"the motion opens the loops: their opening{what} is {worst[k]:.2e} of their size",
                 where=f"sample {first + k}",
                 allowed=f"{allowed[k]:.1e}",
-                remedy="Make it with loops.close or loops.follow, or pass check=False",
+                remedy="Give the motors' motion alone: the other joints follow from the loops",
             )
 
 

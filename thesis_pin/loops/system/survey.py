@@ -140,8 +140,8 @@ def survey(
             f"where dependent ones show {noise:.1e}",
             where="loops",
             allowed=f"at least {least:.1e}, or below {CUT:.0e}",
-            remedy="Write the file with more digits, or pass precision=0 if every equation "
-            f"is real, precision={2 * weakest:.0e} if this one isn't",
+            remedy="Write the file with more digits, or give a precision: 0 if every equation "
+            f"is real, {2 * weakest:.0e} if this one isn't",
             weakest=weakest,
             noise=noise,
             least=least,
