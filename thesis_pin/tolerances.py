@@ -63,6 +63,8 @@ class Tolerances:
         on_circle: How far rounding may throw a double root off the unit circle [-].
         half_turn: How near to half a turn two rotations may be until the shorter way between
             them is anyone's guess [rad].
+        quaternion_length: Difference from 1 of a quaternion's length still taken as rounding
+            of its four numbers, to two decimals [-].
         same_mode: Angles nearer than this are one assembly mode [rad].
         vanishing: Coefficient relative to the largest, or determinant over squared
             lengths, that is replaced before one divides by it [-], [m²].
@@ -107,6 +109,7 @@ class Tolerances:
     straight: float = 1e-9
     on_circle: float = 1e-2
     half_turn: float = 1e-6
+    quaternion_length: float = 1e-2
     same_mode: float = 1e-6
     vanishing: float = 1e-14
     time_unit: float = 1e-5
