@@ -105,6 +105,7 @@ class Gait:
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
         notes: What was chosen or mended when it was read, in plain words.
+        cycle: Whether its end is meant to be its start, a step further.
     """
 
     name: str
@@ -113,6 +114,7 @@ class Gait:
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
+    cycle: bool = False
 
     @property
     def start(self) -> float:

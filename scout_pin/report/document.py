@@ -63,6 +63,7 @@ class GaitReport(GaitNumbers):
             "gait": self.gait.name,
             "time_unit": self.time_unit,
             "branch": self.branch,
+            "cycle": self.gait.cycle,
             "samples": len(self.joints.time),
             "inertia": self.robot.inertia,
             "thesis_pin": __version__,
@@ -165,6 +166,7 @@ class GaitReport(GaitNumbers):
                 {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}
                 for j in self.rate_jumps
             ],
+            "ends": self.ends.document(),
             "impacts": [
                 {
                     "time": impact.t * self.time_unit,
