@@ -64,6 +64,11 @@ class Tolerances:
             below anything physical [N], [N·m].
         explicit_rank: Singular value of an explicit model's equations, relative to the
             largest, taken as zero [-].
+        power_density, torque_density: Greatest power and stall torque of an actuator for its
+            size that are taken for right [W/m³], [N·m/m³]; hobby servos have 0.02 to 0.6 W/cm³
+            and up to 0.15 N·m/cm³.
+        specific_power, specific_torque: The same for its mass [W/kg], [N·m/kg]; the best
+            have 400 W/kg and 80 N·m/kg.
     """
 
     rotation_orthogonality: float = 1e-9
@@ -96,6 +101,10 @@ class Tolerances:
     time_unit: float = 1e-5
     unbalanced: float = 1e-8
     explicit_rank: float = 1e-11
+    power_density: float = 1e6
+    torque_density: float = 3e5
+    specific_power: float = 600.0
+    specific_torque: float = 120.0
 
 
 TOLERANCES = Tolerances()
