@@ -60,7 +60,9 @@ def summary(report: GaitReport) -> Iterator[Part]:
         f"{report.stable_share:.1%} of the time.",
         f"Floor wrench: admissible in {report.dynamics.admissible.mean():.1%} of samples; "
         "friction used up to " + ("–." if used is None else f"{used:.0%}."),
-        f"Lowest corner of a swinging sole: {report.clearance * 1e3:z.1f} mm above the floor.",
+        _clearance(report),
+        f"The soles come within {report.sole_gap[0] * 1e3:.1f} mm of each other "
+        f"(t = {report.motion.t[report.sole_gap[1]]:g}).",
     )
     for impact in report.impacts:
         normal = impact.impulse[0, 2]
@@ -73,6 +75,17 @@ def summary(report: GaitReport) -> Iterator[Part]:
         )
     yield from ("", *report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
     yield from (f"Warning: {one}" for one in implausible(s.specification))
+
+
+def _clearance(report: GaitReport) -> str:
+    """How high the feet swing."""
+    if report.clearance is None or report.lowest_corner is None:
+        return "No foot swings."
+    low = min(report.swings, key=lambda swing: swing.clearance)
+    return (
+        f"Mid-swing clearance: {low.clearance * 1e3:z.1f} mm ({low.side} foot, t = {low.start:g} "
+        f"to {low.end:g}); lowest corner of a swinging sole {report.lowest_corner * 1e3:z.1f} mm."
+    )
 
 
 def ik_document(
