@@ -44,7 +44,7 @@ class _Loader(yaml.SafeLoader):
 
 
 # YAML 1.1, which is what PyYAML reads, takes 1e-5 for a word; 1.2 and everybody else don't.
-_Loader.add_implicit_resolver(  # type: ignore[no-untyped-call]
+_Loader.add_implicit_resolver(
     "tag:yaml.org,2002:float",
     re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+"),
     list("-+.0123456789"),
