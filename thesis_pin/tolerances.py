@@ -61,6 +61,8 @@ class Tolerances:
         straight: Area that three points span, relative to the square of their largest
             distance from the first, below which they lie on a line [-].
         on_circle: How far rounding may throw a double root off the unit circle [-].
+        half_turn: How near to half a turn two rotations may be until the shorter way between
+            them is anyone's guess [rad].
         same_mode: Angles nearer than this are one assembly mode [rad].
         vanishing: Coefficient relative to the largest, or determinant over squared
             lengths, that is replaced before one divides by it [-], [m²].
@@ -109,6 +111,7 @@ class Tolerances:
     path_join: float = 1e-9
     straight: float = 1e-9
     on_circle: float = 1e-2
+    half_turn: float = 1e-6
     same_mode: float = 1e-6
     vanishing: float = 1e-14
     time_unit: float = 1e-5
