@@ -105,6 +105,8 @@ class Gait:
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
         notes: What was chosen or mended when it was read, in plain words.
+        reference: Angles [rad] of the joints that its first sample is near, twelve, where
+            they are known: they choose the branch of the legs.
     """
 
     name: str
@@ -113,6 +115,7 @@ class Gait:
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
+    reference: tuple[float, ...] | None = None
 
     @property
     def start(self) -> float:
