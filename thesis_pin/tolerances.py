@@ -49,6 +49,12 @@ class Tolerances:
             this time [s]; it is that of a landing at about 1 mm/s.
         clearance: Depth of a swinging sole's corner below the floor still taken as
             touching it [m]: floors aren't flatter.
+        scrape_height: Height below which a sole that moves over the floor scrapes [m]:
+            carpets, sagging servos and seams are that high.
+        scrape_share: Share of its way over the floor that a foot may make so low: it leaves
+            and meets the floor moving [-].
+        scrape_way: Way over the floor below which a foot goes straight up and down [m].
+        sole_gap: Distance at which two soles touch [m], as :attr:`clearance`.
         instant: What counts as just before or after a change of a gait, relative to the
             time the gait or phase takes [-].
         path_end: How far beyond a path's ends a time still means them, relative to the
@@ -65,6 +71,9 @@ class Tolerances:
             found [-].
         unbalanced: Force or moment an explicit model may leave over: above rounding,
             below anything physical [N], [N·m].
+        determined: Scaled singular value below which motors don't determine passive rates
+            [rad]: loops close to 1e-15, so that a pose is known to 1e-15 / σ there, and
+            rates to 1e-15 / σ² [-].
         explicit_rank: Singular value of an explicit model's equations, relative to the
             largest, taken as zero [-].
     """
@@ -91,6 +100,10 @@ class Tolerances:
     wrench: float = 1e-7
     impulse: float = 1e-4
     clearance: float = 1e-4
+    scrape_height: float = 1e-3
+    scrape_share: float = 0.2
+    scrape_way: float = 1e-3
+    sole_gap: float = 1e-4
     instant: float = 1e-9
     path_end: float = 1e-9
     path_join: float = 1e-9
@@ -100,6 +113,7 @@ class Tolerances:
     vanishing: float = 1e-14
     time_unit: float = 1e-5
     unbalanced: float = 1e-8
+    determined: float = 1e-6
     explicit_rank: float = 1e-11
 
 

@@ -24,7 +24,7 @@ from thesis_pin.report.info import assumptions
 from thesis_pin.version import __version__
 
 SCHEMA = "scout-pin/gait-report"
-VERSION = 1
+VERSION = 2
 
 
 class GaitReport(GaitNumbers):
@@ -146,6 +146,21 @@ class GaitReport(GaitNumbers):
             "least_violation_time": float(self.joints.time[sample]),
             "peak_friction_used": self.peak_friction_used,
             "swing_clearance": self.clearance,
+            "lowest_corner": self.lowest_corner,
+            "swings": [
+                {
+                    "foot": swing.side,
+                    "start": swing.start * self.time_unit,
+                    "end": swing.end * self.time_unit,
+                    "clearance": swing.clearance,
+                    "way": swing.way,
+                    "scraped": swing.scraped,
+                    "scrapes": swing.scrapes,
+                }
+                for swing in self.swings
+            ],
+            "sole_gap": self.sole_gap[0],
+            "sole_gap_time": float(self.joints.time[self.sole_gap[1]]),
             "rate_jumps": [
                 {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}
                 for j in self.rate_jumps

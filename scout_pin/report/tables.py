@@ -58,7 +58,9 @@ def summary(report: GaitReport) -> Iterator[Part]:
         f"{report.stable_share:.1%} of the time.",
         f"Floor wrench: admissible in {report.dynamics.admissible.mean():.1%} of samples; "
         "friction used up to " + ("–." if used is None else f"{used:.0%}."),
-        f"Lowest corner of a swinging sole: {report.clearance * 1e3:z.1f} mm above the floor.",
+        _clearance(report),
+        f"The soles come within {report.sole_gap[0] * 1e3:.1f} mm of each other "
+        f"(t = {report.motion.t[report.sole_gap[1]]:g}).",
     )
     for impact in report.impacts:
         normal = impact.impulse[0, 2]
@@ -70,6 +72,17 @@ def summary(report: GaitReport) -> Iterator[Part]:
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
     yield from ("", *report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
+
+
+def _clearance(report: GaitReport) -> str:
+    """How high the feet swing."""
+    if report.clearance is None or report.lowest_corner is None:
+        return "No foot swings."
+    low = min(report.swings, key=lambda swing: swing.clearance)
+    return (
+        f"Mid-swing clearance: {low.clearance * 1e3:z.1f} mm ({low.side} foot, t = {low.start:g} "
+        f"to {low.end:g}); lowest corner of a swinging sole {report.lowest_corner * 1e3:z.1f} mm."
+    )
 
 
 def ik_document(
