@@ -79,16 +79,15 @@ def placed(
     }
     reach = max(float(np.linalg.norm(sole[:, :3, 3], axis=1).max()) for sole in soles.values())
     step = max(column.quantum for column in angles)
-    outlines = tuple(np.array(robot.specification.leg(side).sole) for side in SIDES)
+    left, right = (np.array(robot.specification.leg(side).sole) for side in SIDES)
     slack = _STEPS * step * reach
     torso = _torso(given, len(table)) if given else None
-    pair = [soles[side] if torso is None else torso @ soles[side] for side in SIDES]
     if support:
         standing = np.array([(name != "right", name != "left") for name in support])
     elif torso is None:
-        standing = standing_by_soles(table, *pair, outlines, slack)
+        standing = standing_by_soles(table, soles, (left, right), slack)
     else:
-        standing = standing_on_floor(*pair, outlines, slack)
+        standing = standing_on_floor(torso, soles, (left, right), slack)
     if not standing.any(axis=1).all():
         row = int(np.argmin(standing.any(axis=1)))
         raise TrajectoryError("no sole is on the floor", where=table.where(row))
@@ -135,7 +134,7 @@ def _refuse_range(robot: Scout, table: Table, angles: Sequence[Column]) -> None:
 
 
 def _refuse_gap(table: Table, found: Reconstruction) -> None:
-    limits = TOLERANCES.sole_gap, TOLERANCES.sole_gap_tilt
+    limits = TOLERANCES.sole_misfit, TOLERANCES.sole_misfit_tilt
     if found.gap > limits[0] or found.tilt > limits[1]:
         raise TrajectoryError(
             f"a standing sole misses its place by {found.gap * 1e3:.3g} mm and up to "

@@ -7,11 +7,12 @@ which, and it is asked for.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scout_pin.specification import SIDES
 from thesis_pin.contacts.feet import sole_corners
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.numeric.rotations import invert
@@ -35,14 +36,13 @@ def level_within(slack: float) -> float:
 
 
 def standing_by_soles(
-    table: Table, left: Array, right: Array, outlines: tuple[Array, Array], slack: float
+    table: Table, soles: Mapping[str, Array], outlines: tuple[Array, Array], slack: float
 ) -> NDArray[np.bool_]:
     """Which feet bear load, left then right, booleans ``(n, 2)``.
 
     Args:
         table: Where the samples come from, for messages.
-        left: Left sole in the torso's frame, ``(n, 4, 4)``.
-        right: Right sole, likewise.
+        soles: Each sole in the torso's frame by side, ``(n, 4, 4)``.
         outlines: Corners of both soles in their frames [m], each ``(h, 2)``.
         slack: How far the samples' resolution may move a sole's corner [m].
 
@@ -50,7 +50,7 @@ def standing_by_soles(
         TrajectoryError: At some sample it can't be told.
     """
     limit = level_within(slack)
-    between = invert(left) @ right
+    between = invert(soles[SIDES[0]]) @ soles[SIDES[1]]
     above = sole_corners(outlines[1], between)[..., 2]  # the right sole over the left one's plane
     below = sole_corners(outlines[0], invert(between))[..., 2]
     level = (np.abs(above) <= limit).all(axis=1) & (np.abs(below) <= limit).all(axis=1)
@@ -83,13 +83,13 @@ def standing_by_soles(
 
 
 def standing_on_floor(
-    left: Array, right: Array, outlines: tuple[Array, Array], slack: float
+    torso: Array, soles: Mapping[str, Array], outlines: tuple[Array, Array], slack: float
 ) -> NDArray[np.bool_]:
-    """The same where placements ``(n, 4, 4)`` in the world are known: soles on the floor stand."""
+    """The same where the torso is known, ``(n, 4, 4)``: soles on the floor stand."""
     limit = level_within(slack)
     heights = [
-        np.abs(sole_corners(outline, sole)[..., 2]).max(axis=1)
-        for outline, sole in zip(outlines, (left, right), strict=True)
+        np.abs(sole_corners(outline, torso @ soles[side])[..., 2]).max(axis=1)
+        for side, outline in zip(SIDES, outlines, strict=True)
     ]
     return np.column_stack([height <= limit for height in heights])
 
