@@ -15,6 +15,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import verdict
+from scout_pin.report.implausible import implausible
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin.numeric.checks import function, instance
@@ -132,6 +133,8 @@ class GaitReport(GaitNumbers):
             "peak_power": a.peak_power,
             "stall_torque": self.robot.stall_torque,
             "no_load_speed": self.robot.no_load_speed,
+            "armature": self.robot.specification.armature(),
+            "implausible": implausible(self.robot.specification),
             "servo_use": self.servo_use,
             "fastest_time_unit": {
                 "speed": self.fastest.speed,

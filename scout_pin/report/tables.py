@@ -9,6 +9,8 @@ import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
+from scout_pin.report.implausible import implausible
+from scout_pin.report.servos import servo_limits
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.report import branches
 from thesis_pin.report.tables import Part, Table
@@ -51,7 +53,7 @@ def summary(report: GaitReport) -> Iterator[Part]:
     torque, line = (f"{x:.4f} s" if x is not None else "none" for x in (f.torque, f.line))
     used = report.peak_friction_used
     yield from (
-        f"Servo limits: {s.stall_torque.min():g} N·m, {s.no_load_speed.min():g} rad/s; "
+        f"Servo limits: {'; '.join(servo_limits(s.specification))}; "
         "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
         f"Fastest time unit by speed {f.speed:.4f} s, by torque {torque}, by both (line) {line}.",
         f"ZMP margin: worst {report.margin.min() * 1e3:z.1f} mm; stable in "
@@ -72,6 +74,7 @@ def summary(report: GaitReport) -> Iterator[Part]:
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
     yield from ("", *report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
+    yield from (f"Warning: {one}" for one in implausible(s.specification))
 
 
 def _clearance(report: GaitReport) -> str:
