@@ -109,7 +109,11 @@ def _foot(motion: GaitMotion, side: str) -> BodyMotion:
 def _rests(motion: GaitMotion, side: str) -> bool:
     """Whether torso and a foot rest throughout: so do the joints, at singular poses too."""
     return not any(
-        rate.any()
+        body.velocity.any()
+        or body.omega.any()
+        or body.acceleration.any()
+        or body.alpha.any()
+        or np.ptp(body.position, axis=0).any()
+        or np.ptp(body.rotation, axis=0).any()
         for body in (motion.torso, _foot(motion, side))
-        for rate in (body.velocity, body.acceleration, body.omega, body.alpha)
     )
