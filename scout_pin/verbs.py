@@ -23,7 +23,7 @@ def report(
     from scout_pin.motion.files import load_gait
     from scout_pin.report.document import gait_report
 
-    gait = load_gait(arguments.gait, arguments.interpolation)
+    gait = load_gait(arguments.gait, arguments.interpolation, robot=robot)
     if arguments.cycle:
         gait = replace(gait, cycle=True)
     one = gait.end - gait.start

@@ -106,6 +106,8 @@ class Gait:
         phases: Contact phases in order.
         notes: What was chosen or mended when it was read, in plain words.
         cycle: Whether its end is meant to be its start, a step further.
+        reference: Angles [rad] of the joints that its first sample is near, twelve, where
+            they are known: they choose the branch of the legs.
     """
 
     name: str
@@ -115,6 +117,7 @@ class Gait:
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
     cycle: bool = False
+    reference: tuple[float, ...] | None = None
 
     @property
     def start(self) -> float:

@@ -215,7 +215,7 @@ def gait_report(
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
-    joints = joint_trajectory(robot, motion, branch=branch)
+    joints = joint_trajectory(robot, motion, branch=branch, reference=gait.reference)
     progress(2, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
     progress(3, 4)
