@@ -29,6 +29,8 @@ class Tolerances:
             lost rank [-].
         stance_drift: How far a foot in support may stray from rest or floor [m].
         joint_limit: Excess still taken as inside a joint limit [rad].
+        branch_tie: Difference of two branches' distance from the neutral pose below which
+            neither is the nearer; less than a hobby servo's dead band [rad].
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
         rate_jump: Jump of rate that counts as smooth [m/s], [rad/s].
         step: Least distance of two nodes or samples: below it, rates are made of
@@ -70,6 +72,7 @@ class Tolerances:
     rank: float = 1e-9
     stance_drift: float = 1e-6
     joint_limit: float = 1e-9
+    branch_tie: float = 1e-3
     seam: float = 1e-4
     rate_jump: float = 1e-6
     step: float = 1e-9

@@ -15,6 +15,7 @@ from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.gait import BODIES, Gait, Phase
+from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
@@ -67,7 +68,7 @@ class BodyCurves(Strict):
     yaw_deg: float | tuple[Segment, ...] | None = None
 
 
-class GaitFile(Strict):
+class GaitFile(BranchKeys):
     """The format of a gait's TOML file."""
 
     format: Literal[1]
@@ -82,6 +83,7 @@ class GaitFile(Strict):
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Phases follow each other; segments do, with as many values as nodes."""
+        yield from super().cross_check()
         for k, phase in enumerate(self.phases):
             if phase.end < phase.start:
                 yield ("phases", k, "end"), "a phase can't end before it starts", phase.end
@@ -175,7 +177,7 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
-    return Gait(file.name, file.source, file.time_unit, curves, file.phases)
+    return Gait(file.name, file.source, file.time_unit, curves, file.phases, file.branch_asked)
 
 
 def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[PPoly, ...]:

@@ -51,6 +51,7 @@ class GaitMotion:
         t: The same in the gait's unit, shape ``(n,)``.
         support: Feet in support, left then right, booleans ``(n, 2)``.
         torso, left_foot, right_foot: Motions in the world.
+        branch: The branch its gait asks for; None leaves it open.
     """
 
     time: np.ndarray
@@ -59,6 +60,7 @@ class GaitMotion:
     torso: BodyMotion
     left_foot: BodyMotion
     right_foot: BodyMotion
+    branch: str | None = None
 
     @cached_property
     def phase(self) -> list[str]:
@@ -72,7 +74,10 @@ class GaitMotion:
             self.time[samples],
             self.t[samples],
             self.support[samples],
-            *(body.part(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+            self.torso.part(samples),
+            self.left_foot.part(samples),
+            self.right_foot.part(samples),
+            self.branch,
         )
 
     def at_rest(self, samples: Samples) -> GaitMotion:
@@ -81,7 +86,10 @@ class GaitMotion:
             self.time[samples],
             self.t[samples],
             self.support[samples],
-            *(body.at_rest(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+            self.torso.at_rest(samples),
+            self.left_foot.at_rest(samples),
+            self.right_foot.at_rest(samples),
+            self.branch,
         )
 
 
@@ -113,6 +121,8 @@ class Gait:
         curves: For each body of :data:`BODIES`, six curves of t in the order of
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
+        branch: The branch it asks for, as an argument ``branch`` takes it; None leaves
+            it to the robot.
     """
 
     name: str
@@ -120,6 +130,7 @@ class Gait:
     time_unit: float
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
+    branch: str | None = None
 
     @property
     def start(self) -> float:
@@ -232,7 +243,7 @@ class Gait:
             )
         bodies = {name: self.body(name, t, unit) for name in BODIES}
         self._check_stance()
-        return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies)
+        return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies, branch=self.branch)
 
     def _unit(self, time_unit: float | None) -> float:
         """Seconds in a unit of t: what was given, or the gait's own."""

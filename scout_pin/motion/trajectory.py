@@ -34,9 +34,8 @@ def joint_trajectory(
     Args:
         robot: The biped.
         motion: The sampled gait.
-        branch: Signs of the branch to take, for both legs or one label a leg, as
-            ``"+-+"`` or ``("+++", "-+-")``; None takes the nearest to the reference of
-            those that are valid throughout.
+        branch: What to choose from, see :meth:`scout_pin.Scout.inverse_kinematics`; None
+            for what the gait says, else the specification.
         reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
 
     Raises:
@@ -46,7 +45,8 @@ def joint_trajectory(
     instance("robot", robot, Scout, "scout_pin.load()")
     instance("motion", motion, GaitMotion, "Gait.sample()")
     start = None if reference is None else vector("reference", reference, 12)
-    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=branch)
+    asked = motion.branch if branch is None else branch
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=asked)
     if len(q) < LONG:
         return JointTrajectory(motion.time, q, *_rates(robot, motion, q))
     for side, mine in zip(SIDES, _LEGS, strict=True):

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
+from scout_pin.kinematics.branches import BRANCHES, knee
+from scout_pin.kinematics.inverse import LegSolutions
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.report import branches
 from thesis_pin.report.tables import Part, Table
@@ -60,6 +61,7 @@ def summary(report: GaitReport) -> Iterator[Part]:
         "friction used up to " + ("–." if used is None else f"{used:.0%}."),
         f"Lowest corner of a swinging sole: {report.clearance * 1e3:.1f} mm above the floor.",
     )
+    yield report.stance.sentence()
     for impact in report.impacts:
         normal = impact.impulse[0, 2]
         yield (
@@ -73,7 +75,10 @@ def summary(report: GaitReport) -> Iterator[Part]:
 
 
 def ik_document(
-    robot: Scout, solutions: LegSolutions, pose: np.ndarray, only: int | None = None
+    robot: Scout,
+    solutions: LegSolutions,
+    pose: np.ndarray,
+    only: int | Sequence[int] | None = None,
 ) -> dict[str, object]:
     """Inverse kinematics of one foot pose, JSON-ready.
 
@@ -81,7 +86,7 @@ def ik_document(
         robot: The biped.
         solutions: All branches of one pose.
         pose: The pose as asked for: x, y, z [m], pitch, roll, yaw [rad], ``(6,)``.
-        only: Number of the one branch to say; None says all.
+        only: Number of the branch to say, or several; None says all.
     """
     excess = (solutions.excess, True)
     return branches.document(
@@ -98,17 +103,20 @@ def ik_document(
                 solutions.explain((), k),
                 reach_excess=excess,
             )
+            | {"knee": knee(solutions.geometry, k)}
             for k in _numbers(only)
         ],
         explanation=solutions.explain((), only),
     )
 
 
-def _numbers(only: int | None) -> Sequence[int]:
-    return range(len(BRANCHES)) if only is None else (only,)
+def _numbers(only: int | Sequence[int] | None) -> Sequence[int]:
+    if only is None:
+        return range(len(BRANCHES))
+    return (only,) if isinstance(only, int) else only
 
 
-def solutions_table(solutions: LegSolutions, only: int | None = None) -> list[Part]:
+def solutions_table(solutions: LegSolutions, only: int | Sequence[int] | None = None) -> list[Part]:
     """Joint angles of one pose, a row a branch; ``only`` as for :func:`ik_document`."""
     rows = []
     for k in _numbers(only):
