@@ -1,5 +1,6 @@
 """What tests in a real browser share; and the suite leaves the checkout as it was."""
 
+import signal
 import subprocess
 from pathlib import Path
 
@@ -33,6 +34,12 @@ def _untidy():
     except OSError:
         return set()
     return set(found.stdout.splitlines()) if found.returncode == 0 else set()
+
+
+def pytest_configure():
+    """Let the commands under test be interrupted, also where a shell's background job can't be."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_sessionstart(session):

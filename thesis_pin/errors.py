@@ -143,12 +143,20 @@ class NotFinite(BadInput):
 class UnknownName(BadInput):
     """A name isn't among those that exist."""
 
-    def __init__(self, kind: str, name: object, known: Sequence[str], *, where: str = "") -> None:
+    def __init__(
+        self,
+        kind: str,
+        name: object,
+        known: Sequence[str],
+        *,
+        where: str = "",
+        remedy: str = "",
+    ) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
         listed = ", ".join(escaped(one, 100, keep="") for one in known[:MOST_NAMES])
         if len(known) > MOST_NAMES:
             listed += f", … ({len(known)} in all)"
-        super().__init__(f"unknown {kind} {name!r}", where=where, allowed=listed)
+        super().__init__(f"unknown {kind} {name!r}", where=where, allowed=listed, remedy=remedy)
 
 
 class ModelWarning(UserWarning):

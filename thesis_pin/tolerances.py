@@ -27,21 +27,27 @@ class Tolerances:
         model: Relative difference between Pinocchio's model and our own sums [-].
         rank: Singular value, relative to the largest, below which a matrix has
             lost rank [-].
-        stance_drift: How far a foot in support may stray from rest or floor [m].
+        stance_drift: How far a foot in support may stray from rest or floor [m]: floors
+            aren't flatter, and a servo's step of 0.09° moves the hip by three times that.
+        stance_tilt: The same of its angles [rad]: 0.1 mm over a sole of a decimetre.
+        stance_near: How far from its place a foot may be that a log's first or last row of
+            a stance has standing: a switch under the sole closes that early [m].
+        stance_near_tilt: The same of its angles [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
         branch_tie: Difference of two branches' distance from the neutral pose below which
             neither is the nearer; less than a hobby servo's dead band [rad].
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
-        rate_jump: Jump of rate that counts as smooth [m/s], [rad/s].
+        rate_jump: Jump of rate that counts as smooth [m/s], [rad/s]: spread over a servo's
+            period of 10 ms it moves the zero-moment point of a robot of 0.2 m by 0.2 mm.
         step: Least distance of two nodes or samples: below it, rates are made of
             rounding [s], [-].
         static: Joint speed below which Coulomb friction is taken as zero [rad/s].
         wrench: Distance outside a sole's wrench cone, forces scaled to moments, still
             taken as on its border, where a quadratic programme stops [N·m].
-        impulse: Impulse of a landing still taken as none, per mass of the robot,
-            forces scaled to moments [m²/s].
+        impulse: Impulse of a landing still taken as none: what the robot's weight gives in
+            this time [s]; it is that of a landing at about 1 mm/s.
         clearance: Depth of a swinging sole's corner below the floor still taken as
-            touching it [m].
+            touching it [m]: floors aren't flatter.
         instant: What counts as just before or after a change of a gait, relative to the
             time the gait or phase takes [-].
         path_end: How far beyond a path's ends a time still means them, relative to the
@@ -58,6 +64,9 @@ class Tolerances:
             found [-].
         unbalanced: Force or moment an explicit model may leave over: above rounding,
             below anything physical [N], [N·m].
+        determined: Scaled singular value below which motors don't determine passive rates
+            [rad]: loops close to 1e-15, so that a pose is known to 1e-15 / σ there, and
+            rates to 1e-15 / σ² [-].
         explicit_rank: Singular value of an explicit model's equations, relative to the
             largest, taken as zero [-].
     """
@@ -70,16 +79,19 @@ class Tolerances:
     loop_motion: float = 1e-7
     model: float = 1e-9
     rank: float = 1e-9
-    stance_drift: float = 1e-6
+    stance_drift: float = 1e-4
+    stance_tilt: float = 1e-3
+    stance_near: float = 1e-3
+    stance_near_tilt: float = 1e-2
     joint_limit: float = 1e-9
     branch_tie: float = 1e-3
     seam: float = 1e-4
-    rate_jump: float = 1e-6
+    rate_jump: float = 1e-4
     step: float = 1e-9
     static: float = 1e-9
     wrench: float = 1e-7
-    impulse: float = 1e-9
-    clearance: float = 1e-9
+    impulse: float = 1e-4
+    clearance: float = 1e-4
     instant: float = 1e-9
     path_end: float = 1e-9
     path_join: float = 1e-9
@@ -89,6 +101,7 @@ class Tolerances:
     vanishing: float = 1e-14
     time_unit: float = 1e-5
     unbalanced: float = 1e-8
+    determined: float = 1e-6
     explicit_rank: float = 1e-11
 
 

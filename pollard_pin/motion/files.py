@@ -1,8 +1,8 @@
-"""Reading a user's path: poses over time from CSV, poses or segments from TOML.
+"""Reading a user's path: poses over time from a table, poses or segments from TOML.
 
-CSV: a header with the columns time_s, x_m, y_m, z_m and psi, theta, phi, the
-angles as ``…_rad`` or ``…_deg``, in any order; or no header and exactly these
-seven columns, angles in radians.
+Tables: a header with the columns t, x, y, z, psi, theta, phi in any order, in SI or with a unit
+at the end of the name (``time_s``, ``x_mm``, ``psi_deg``); or no header and exactly these seven
+columns, angles in radians. How they may be written is said in :mod:`thesis_pin.tables`.
 
 TOML::
 
@@ -26,8 +26,8 @@ TOML::
 from __future__ import annotations
 
 import itertools
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -38,11 +38,17 @@ from pollard_pin.motion.curves import arc, joined, line, through
 from pollard_pin.motion.path import Timing, ToolPath
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.files import name_as_text
-from thesis_pin.model.samples import check_increasing, check_width, finite, numbers, read_rows
 from thesis_pin.model.specification import Key, Positive, Strict, Vector3, read_toml
+from thesis_pin.tables.meaning import chosen, known_names, time_column, time_names
+from thesis_pin.tables.reading import TABLES, read_table
+from thesis_pin.tables.units import ANGLE, LENGTH, TIME, headings
 
-_QUANTITIES = ("time", "x", "y", "z", "psi", "theta", "phi")
-_SUFFIXES = {"time": ("_s",), "x": ("_m",), "y": ("_m",), "z": ("_m",)}
+_UNITS = {"t": TIME, "x": LENGTH, "y": LENGTH, "z": LENGTH} | dict.fromkeys(
+    ("psi", "theta", "phi"), ANGLE
+)
+_POSE = tuple(_UNITS)[1:]
+_BARE = ("time_s", "x_m", "y_m", "z_m", "psi_rad", "theta_rad", "phi_rad")
+_KNOWN = {**time_names(), **known_names((name, _UNITS[name]) for name in _POSE)}
 
 
 class Pose(Strict):
@@ -107,13 +113,13 @@ class PathFile(Strict):
 
 
 def load_path(file: str | Path) -> ToolPath:
-    """A path from a CSV or TOML file; see the head of this module."""
-    suffix = str(file).rpartition(".")[2].lower()
-    if suffix == "csv":
+    """A path from a table or a TOML file; see the head of this module."""
+    suffix = Path(str(file)).suffix.lower()
+    if suffix in TABLES:
         return read_csv(file)
-    if suffix == "toml":
+    if suffix == ".toml":
         return read_toml_path(file)
-    raise BadInput(f"a path can't be a .{suffix} file", where=str(file), allowed=".csv or .toml")
+    raise BadInput(f"a path can't be a {suffix} file", where=str(file), allowed=".csv or .toml")
 
 
 def read_toml_path(file: str | Path) -> ToolPath:
@@ -155,57 +161,30 @@ def _segments(content: PathFile) -> list[ToolPath]:
 
 
 def read_csv(file: str | Path, method: str = "free") -> ToolPath:
-    """A path from CSV; see the head of this module.
+    """A path from a table of poses; see the head of this module.
 
     Raises:
         BadInput: It can't be read, a column is missing or a cell isn't a number.
         TrajectoryError: Time doesn't increase, or there are fewer than two rows.
     """
-    rows = read_rows("path", file)
-    header = rows[0].cells
-    bare = all(finite(cell) is not None for cell in header)
-    if bare:
-        places, factors = _bare_columns(header, rows[0].where)
-    else:
-        places, factors = _named_columns(header, rows[0].where)
-    check_width(rows)
-    rows = rows if bare else rows[1:]
-    table = numbers(rows, places, _QUANTITIES)
-    check_increasing(rows, table[:, 0])
-    if len(table) < 2:
-        raise TrajectoryError(f"{len(table)} poses", where=str(file), allowed="at least 2")
-    table *= factors
-    # 179° and −179° are neighbours: an angle that wraps around doesn't turn back.
-    table[:, 4:] = np.unwrap(table[:, 4:], axis=0)
-    return through(table[:, 0], table[:, 1:], method, name=name_as_text(Path(file).name))
-
-
-def _bare_columns(header: Sequence[str], where: str) -> tuple[list[int], np.ndarray]:
-    if len(header) != 7:
-        raise BadInput(
-            f"{len(header)} columns without a header",
-            where=where,
-            allowed="7: time_s, x_m, y_m, z_m, psi_rad, theta_rad, phi_rad",
-            remedy="Add the missing columns, or a header that says which they are",
-        )
-    return list(range(7)), np.ones(7)
-
-
-def _named_columns(header: Sequence[str], where: str) -> tuple[list[int], np.ndarray]:
-    places, factors, missing = [], np.ones(7), []
-    for k, quantity in enumerate(_QUANTITIES):
-        names = [quantity + suffix for suffix in _SUFFIXES.get(quantity, ("_rad", "_deg"))]
-        found = [name for name in names if name in header]
-        if len(found) != 1 or header.count(found[0]) != 1:
-            missing.append(" or ".join(names))
-            continue
-        places.append(header.index(found[0]))
-        factors[k] = math.pi / 180 if found[0].endswith("_deg") else 1.0
+    table = read_table("path", file, bare=_BARE)
+    columns, unused = chosen(table, _KNOWN, tuple(_UNITS), lenient=True)
+    missing = [name for name in _UNITS if name not in columns]
     if missing:
         raise BadInput(
-            f"{len(header)} columns ({', '.join(header)}); missing or repeated: "
-            f"{', '.join(missing)}",
-            where=where,
+            f"{len(table.header)} columns ({', '.join(table.header)}); missing: "
+            f"{', '.join(' or '.join(headings(name, _UNITS[name])) for name in missing)}",
+            where=table.file,
             allowed="one column each for time, x, y, z, psi, theta and phi",
         )
-    return places, factors
+    time = time_column(table, columns)
+    poses = [table.column(*columns[name], name).values for name in _POSE]
+    if len(table) < 2:
+        raise TrajectoryError(f"{len(table)} poses", where=table.file, allowed="at least 2")
+    # 179° and −179° are neighbours: an angle that wraps around doesn't turn back.
+    poses[3:] = [np.unwrap(angle) for angle in poses[3:]]
+    path = through(time.values, np.stack(poses, 1), method, name=name_as_text(Path(file).name))
+    notes = list(table.dialect.notes)
+    if unused:
+        notes.append(f"these columns mean nothing here and aren't used: {', '.join(unused)}")
+    return replace(path, notes=tuple(notes))

@@ -96,12 +96,14 @@ class ToolPath:
         duration: How long it takes [s].
         function: Times ``(n,)`` → pose and derivatives, each ``(n, 6)``.
         parameters: What it was made from, for reports.
+        notes: What was chosen when its file was read, in plain words.
     """
 
     name: str
     duration: float
     function: Callable[[np.ndarray], Triple]
     parameters: dict[str, object]
+    notes: tuple[str, ...] = ()
 
     def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""

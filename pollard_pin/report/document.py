@@ -96,6 +96,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "parameters": self.parameters,
             "assumptions": self.assumptions(),
             "summary": self.summary(),
+            "notes": list(self.path.notes),
         }
         if self.three is not None:
             document["missing_force"] = self.three.missing

@@ -51,8 +51,8 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
     joint = int(np.argmax(joint_force))
     if report.three is None:
         yield (
-            f"Energy: the motors' net work is {report.work_done[-1].sum() * 1e3:.4f} mJ, the "
-            f"robot's energy changes by {report.energy_change * 1e3:.4f} mJ."
+            f"Energy: the motors' net work is {report.work_done[-1].sum() * 1e3:z.4f} mJ, the "
+            f"robot's energy changes by {report.energy_change * 1e3:z.4f} mJ."
         )
     yield from (
         f"Loop reactions: up to {force[0]:.3f} N and {force[1]:.3f} N in the ball joints; the "
@@ -60,11 +60,12 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         f"{joint_force[joint]:.2f} N.",
         f"Actuation: condition number {condition.min():.2f} to {condition.max():.2f} "
         f"(largest at t = {time[condition.argmax()]:.3f} s), determinant of constant sign. "
-        f"Reach margin at least {margin.min():.3f} (t = {time[margin.argmin()]:.3f} s).",
+        f"Reach margin at least {margin.min():z.3f} (t = {time[margin.argmin()]:.3f} s).",
         f"With {reading} inertias the base motors of six would peak at "
         f"{', '.join(f'{value:.3f}' for value in other[:3])} N·m.",
         "",
         *report.verdict(),
+        *(f"Note: {note}." for note in report.path.notes),
         "",
         "These numbers rest on assumptions:",
         *(
@@ -112,7 +113,7 @@ def solutions_table(solutions: Solutions) -> Iterator[Part]:
         for k, branch in enumerate(solutions.branches):
             if not solutions.reachable[k]:
                 continue
-            angles = [f"{np.degrees(solutions.angles[k, j]):.3f}" for j in joints]
+            angles = [f"{np.degrees(solutions.angles[k, j]):z.3f}" for j in joints]
             rows.append((str(branch), *angles))
         if rows:
             columns = ("branch", *(JOINT_SYMBOLS[j] for j in joints))
@@ -156,8 +157,8 @@ def modes_table(robot: Pollard, modes: Assemblies) -> Iterator[Part]:
     """The assembly modes of one set of motor angles."""
     rows = []
     for k in range(int(modes.count)):
-        pose = [f"{value:.4f}" for value in modes.pose[k, :3]]
-        pose += [f"{value:.2f}" for value in np.degrees(modes.pose[k, 3:])]
+        pose = [f"{value:z.4f}" for value in modes.pose[k, :3]]
+        pose += [f"{value:z.2f}" for value in np.degrees(modes.pose[k, 3:])]
         rows.append((str(robot.branch_of(modes.angles[k])), *pose))
     if rows:
         yield Table("assembly modes, metres and degrees", ("branch", *POSE_NAMES), rows)

@@ -32,7 +32,7 @@ def _reach(numbers: TrajectoryNumbers) -> list[str]:
         f"{name} can follow this path on branch {numbers.branch}: every pose is reached inside "
         "the joint limits, and no singularity is crossed.",
         f"The path {_NEAR[int(numbers.distance_class.min())]}: reach margin at least "
-        f"{margin[k]:.3f} (t = {numbers.joints.time[k]:.3g} s), condition "
+        f"{margin[k]:z.3f} (t = {numbers.joints.time[k]:.3g} s), condition "
         f"number {condition.min():.1f} to {condition.max():.1f}.",
     ]
 

@@ -20,7 +20,7 @@ from thesis_pin.contacts.cones import in_sole_axes
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.trajectory import JointTrajectory
-from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ class Impact:
             shape ``(held, 6)``.
         energy_lost: Kinetic energy lost [J].
         admissible: Whether the floor can give every impulse: no pull, friction,
-            centre of pressure and yaw moment inside the sole's wrench cone.
+            centre of pressure and yaw moment inside the sole's wrench cone. What is smaller
+            than the weight's own impulse in ``TOLERANCES.impulse`` seconds isn't judged.
     """
 
     t: float
@@ -92,9 +93,9 @@ def touchdown_impact(
     turns = (data.oMf[robot.sole_frames[s]].rotation for s in held)
     local = [in_sole_axes(turn[None], p[None])[0] for turn, p in zip(turns, impulse, strict=True)]
     contacts = [robot.contacts[SIDES.index(s)] for s in held]
-    # Impulses of a landing at rest are rounding; they ask nothing of the floor.
-    least = -TOLERANCES.impulse * robot.mass
-    fine = all(c.margin(p) >= least for c, p in zip(contacts, local, strict=True))
+    # What the weight gives in a moment anyway asks nothing of the floor.
+    least = TOLERANCES.impulse * robot.mass * GRAVITY
+    fine = all(c.margin(p) >= -least * c.length for c, p in zip(contacts, local, strict=True))
     return Impact(t, side, held, rows[side] @ v, after[6:] - v[6:], impulse, lost, fine)
 
 

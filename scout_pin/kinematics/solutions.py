@@ -160,6 +160,6 @@ class LegSolutions:
             [self.angles[index][branch, joint], leg.lower[joint], leg.upper[joint]]
         )
         return (
-            f"outside the limits: it needs {leg.names[joint]} at {angle:.2f}°, "
+            f"outside the limits: it needs {leg.names[joint]} at {angle:z.2f}°, "
             f"outside {low:g}° to {high:g}°"
         )

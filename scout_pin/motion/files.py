@@ -1,11 +1,11 @@
-"""Gaits from files: nodes, polynomials or constants in TOML, samples in CSV.
+"""Gaits from files: nodes, polynomials or constants in TOML, samples in tables.
 
 The formats are described in docs/scout.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -14,15 +14,16 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.gait import BODIES, Gait, Phase
+from scout_pin.motion.contact import Phase
+from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.tables import read_gait_table, through_samples
 from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
-from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.samples import Line, check_increasing, check_width, numbers, read_rows
 from thesis_pin.model.specification import Key, Positive, Strict, read_toml
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
+from thesis_pin.tables.reading import TABLES
 from thesis_pin.tolerances import TOLERANCES
 
 GAITS = Path(__file__).parents[1] / "gaits"
@@ -152,10 +153,11 @@ class GaitFile(BranchKeys):
 
 
 def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -> Gait:
-    """Load a preset, a TOML gait or a CSV file of samples.
+    """Load a preset, a TOML gait or a table of samples.
 
     Args:
-        source: One of :data:`PRESETS`, or a path ending in ``.toml`` or ``.csv``.
+        source: One of :data:`PRESETS`, or a path ending in ``.toml`` or in one of
+            :data:`TABLES`.
         interpolation: Method for every node segment, instead of the file's.
 
     Raises:
@@ -171,13 +173,15 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
     if str(source) in PRESETS:
         source = GAITS / f"{source}.toml"
     path = Path(source)
-    if path.suffix.lower() == ".csv":
-        return _from_csv(path, interpolation or "free")
+    if path.suffix.lower() in TABLES:
+        return through_samples(read_gait_table(path), interpolation or "free")
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
-    return Gait(file.name, file.source, file.time_unit, curves, file.phases, file.branch_asked)
+    return Gait(
+        file.name, file.source, file.time_unit, curves, file.phases, branch=file.branch_asked
+    )
 
 
 def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[PPoly, ...]:
@@ -235,71 +239,3 @@ def _join_segments(curve: tuple[Segment, ...], override: str | None, default: st
             piece = PPoly(piece.c, np.append(piece.x[:-1], segment.end))
         pieces.append(piece)
     return join(pieces)
-
-
-def _from_csv(path: Path, method: str) -> Gait:
-    """Columns ``t`` [s], ``support`` and any of ``<body>_<coordinate>`` [m], [rad]."""
-    known = [f"{body}_{coordinate}" for body in BODIES for coordinate in POSE_NAMES]
-    lines = read_rows("gait", path)
-    columns = _columns(path, lines[0].cells, known)
-    check_width(lines)
-    rows = lines[1:]
-    if len(rows) < 4:
-        raise TrajectoryError(f"{len(rows)} samples", where=str(path), allowed="at least 4")
-    names = [name for name in columns if name != "support"]
-    table = numbers(rows, [columns.index(name) for name in names], names)
-    values = dict(zip(names, table.T, strict=True))
-    t = values["t"]
-    check_increasing(rows, t)
-    for name in names:
-        if name.endswith(("pitch", "roll", "yaw")):
-            values[name] = np.unwrap(values[name])
-    phases = tuple(_csv_phases(rows, columns.index("support"), t))
-    if len(phases) > LIMITS.phases:
-        raise TrajectoryError(
-            f"support changes {len(phases) - 1:,} times",
-            where=str(path),
-            allowed=f"at most {LIMITS.phases:,} phases",
-            remedy="A sensor's noise isn't a phase: filter the column first",
-        )
-    absent = np.zeros(len(t))
-    curves = {
-        body: tuple(_sampled(t, values.get(f"{body}_{c}", absent), method) for c in POSE_NAMES)
-        for body in BODIES
-    }
-    return Gait(name_as_text(path.stem), name_as_text(path), 1.0, curves, phases)
-
-
-def _columns(path: Path, header: Sequence[str], known: Sequence[str]) -> list[str]:
-    """The header, checked: known names, none twice, the two that must be there."""
-    columns = list(header)
-    for name in columns:
-        if name not in (*known, "t", "support"):
-            raise UnknownName("column", name, ["t", "support", *known], where=str(path))
-        if columns.count(name) > 1:
-            raise TrajectoryError(f"column {name!r} is given twice", where=str(path))
-    for name in ("t", "support"):
-        if name not in columns:
-            raise TrajectoryError(f"there is no column {name!r}", where=str(path))
-    return columns
-
-
-def _sampled(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:
-    """A curve through samples; one that doesn't move stays a constant."""
-    if np.ptp(values) > 0:
-        return interpolate(t, values, method)
-    return constant(t[0], t[-1], float(values[0]))
-
-
-def _csv_phases(rows: Sequence[Line], column: int, t: np.ndarray) -> Iterator[Phase]:
-    """Runs of equal support; a change happens at the first sample that shows it."""
-    names = [row.cells[column] for row in rows]
-    for row, name in zip(rows, names, strict=True):
-        if name not in ("left", "right", "double"):
-            raise UnknownName("support", name, ("left", "right", "double"), where=row.where)
-    start = 0
-    for k in range(1, len(names) + 1):
-        if k == len(names) or names[k] != names[start]:
-            end = min(k, len(names) - 1)
-            yield Phase(start=t[start], end=t[end], support=names[start])  # type: ignore[arg-type]
-            start = k

@@ -13,14 +13,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.motion.contact import Phase, check_stance
 from thesis_pin.errors import TrajectoryError, WrongShape
-from thesis_pin.model.specification import Strict
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples
@@ -31,15 +31,6 @@ from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
 BODIES = ("torso", "left_foot", "right_foot")
-Support = Literal["left", "right", "double"]
-
-
-class Phase(Strict):
-    """Which feet bear load between two times; equal times mean an instant."""
-
-    start: float
-    end: float
-    support: Support
 
 
 @dataclass(frozen=True)
@@ -121,6 +112,7 @@ class Gait:
         curves: For each body of :data:`BODIES`, six curves of t in the order of
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
+        notes: What was chosen or mended when it was read, in plain words.
         branch: The branch it asks for, as an argument ``branch`` takes it; None leaves
             it to the robot.
     """
@@ -130,6 +122,7 @@ class Gait:
     time_unit: float
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
+    notes: tuple[str, ...] = ()
     branch: str | None = None
 
     @property
@@ -242,7 +235,7 @@ class Gait:
                 allowed=f"{self.start:g} to {self.end:g}",
             )
         bodies = {name: self.body(name, t, unit) for name in BODIES}
-        self._check_stance()
+        check_stance(self.name, self.curves, self.phases)
         return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies, branch=self.branch)
 
     def _unit(self, time_unit: float | None) -> float:
@@ -250,37 +243,6 @@ class Gait:
         if time_unit is None:
             return self.time_unit
         return real("the time unit", time_unit, low=1e-6, high=1e6, unit="s")
-
-    def _check_stance(self) -> None:
-        """A foot that bears load must rest flat on the floor z = 0."""
-        limit = TOLERANCES.stance_drift
-        for phase in self.phases:
-            if phase.end == phase.start:
-                continue
-            # Inside the phase, so that curves of the neighbours don't count.
-            margin = TOLERANCES.instant * (phase.end - phase.start)
-            t = np.linspace(phase.start + margin, phase.end - margin, 65)
-            for side in ("left", "right"):
-                if phase.support not in (side, "double"):
-                    continue
-                values = np.stack([c(t) for c in self.curves[f"{side}_foot"]], axis=-1)
-                height = np.abs(values[:, [2, 3, 4]]).max()
-                drift = np.abs(values - values[0]).max()
-                here = f"gait {self.name!r}, {side} foot, t = {phase.start:g} to {phase.end:g}"
-                if height > limit:
-                    raise TrajectoryError(
-                        f"it bears load but z, pitch or roll reaches {height:.3g}",
-                        where=here,
-                        allowed=f"{limit:g} m or rad: flat on the floor z = 0",
-                        remedy="Correct the curve, or the phase's support",
-                    )
-                if drift > limit:
-                    raise TrajectoryError(
-                        f"it bears load but moves by {drift:.3g}",
-                        where=here,
-                        allowed=f"{limit:g} m or rad: at rest",
-                        remedy="Correct the curve, or the phase's support",
-                    )
 
 
 def _times(t: Any) -> np.ndarray:

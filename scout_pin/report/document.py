@@ -102,6 +102,7 @@ class GaitReport(GaitNumbers):
             "admissible": self.dynamics.admissible,
             "parameters": self.parameters,
             "assumptions": self.assumptions(),
+            "notes": list(self.gait.notes),
             "summary": self.summary(),
         }
 

@@ -30,7 +30,7 @@ def gait_page(report: GaitReport) -> bytes:
             subtitle=f"{seconds:.4g} s, time unit {report.time_unit:g} s, "
             f"{len(report.joints.time)} samples. {report.gait.source}",
             good=report.within_limits,
-            verdict=report.verdict(),
+            verdict=[*report.verdict(), *(f"Note: {note}." for note in report.gait.notes)],
             tiles=_tiles(report),
             plots=plots(report, thinned(report.joints.time, MOST_SAMPLES)),
             tables=_tables(report),
@@ -44,7 +44,9 @@ def _tiles(report: GaitReport) -> list[Tile]:
     used = report.peak_friction_used
     return [
         Tile(
-            "worst ZMP margin", f"{report.margin.min() * 1e3:.1f} mm", bool(report.margin.min() > 0)
+            "worst ZMP margin",
+            f"{report.margin.min() * 1e3:z.1f} mm",
+            bool(report.margin.min() > 0),
         ),
         Tile(
             "samples whose wrench the floor can give",
@@ -55,7 +57,7 @@ def _tiles(report: GaitReport) -> list[Tile]:
         Tile("peak torque", f"{report.actuators.peak_torque.max():.3f} N·m"),
         Tile(
             "lowest swinging corner",
-            f"{report.clearance * 1e3:.1f} mm",
+            f"{report.clearance * 1e3:z.1f} mm",
             report.clearance >= -TOLERANCES.clearance,
         ),
         Tile("fastest time unit", "none" if fastest is None else f"{fastest:.4f} s"),

@@ -55,23 +55,23 @@ def summary(report: GaitReport) -> Iterator[Part]:
         f"Servo limits: {s.stall_torque.min():g} N·m, {s.no_load_speed.min():g} rad/s; "
         "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
         f"Fastest time unit by speed {f.speed:.4f} s, by torque {torque}, by both (line) {line}.",
-        f"ZMP margin: worst {report.margin.min() * 1e3:.1f} mm; stable in "
+        f"ZMP margin: worst {report.margin.min() * 1e3:z.1f} mm; stable in "
         f"{report.stable_share:.1%} of the time.",
         f"Floor wrench: admissible in {report.dynamics.admissible.mean():.1%} of samples; "
         "friction used up to " + ("–." if used is None else f"{used:.0%}."),
-        f"Lowest corner of a swinging sole: {report.clearance * 1e3:.1f} mm above the floor.",
+        f"Lowest corner of a swinging sole: {report.clearance * 1e3:z.1f} mm above the floor.",
     )
     yield report.stance.sentence()
     for impact in report.impacts:
         normal = impact.impulse[0, 2]
         yield (
             f"Touchdown of the {impact.side} foot at t = {impact.t:g}: "
-            f"{-impact.foot_velocity[2] * 1e3:.0f} mm/s down, impulse {normal * 1e3:.1f} mN·s, "
+            f"{-impact.foot_velocity[2] * 1e3:z.0f} mm/s down, impulse {normal * 1e3:z.1f} mN·s, "
             f"joints jump by {abs(impact.velocity_jump).max():.2f} rad/s, "
-            f"{impact.energy_lost * 1e3:.2f} mJ lost"
+            f"{impact.energy_lost * 1e3:z.2f} mJ lost"
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
-    yield from ("", *report.verdict())
+    yield from ("", *report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
 
 
 def ik_document(
@@ -122,9 +122,9 @@ def solutions_table(solutions: LegSolutions, only: int | Sequence[int] | None = 
     for k in _numbers(only):
         label = branches.label(BRANCHES[k])
         if not solutions.reachable[k]:
-            rows.append((label, *[""] * 6, f"{solutions.excess[k] * 1e3:.1f} mm off"))
+            rows.append((label, *[""] * 6, f"{solutions.excess[k] * 1e3:z.1f} mm off"))
             continue
-        angles = [f"{value:.2f}" for value in np.degrees(solutions.angles[k])]
+        angles = [f"{value:z.2f}" for value in np.degrees(solutions.angles[k])]
         rows.append((label, *angles, "valid" if solutions.valid[k] else "limits"))
     side = solutions.geometry.names[0].split("_")[0]
     columns = ("branch", "hip yaw", "roll", "pitch", "knee", "ankle", "roll", "")

@@ -48,7 +48,7 @@ def _walking(numbers: GaitNumbers) -> list[str]:
         worst = numbers.margin.min() * 1e3
         return [
             f"{name} can walk this gait: the floor can supply every wrench it needs, and the "
-            f"ZMP keeps at least {worst:.1f} mm inside the support polygon."
+            f"ZMP keeps at least {worst:z.1f} mm inside the support polygon."
         ]
     text = f"{name} can't walk this gait as planned"
     result = []
@@ -56,7 +56,7 @@ def _walking(numbers: GaitNumbers) -> list[str]:
         single = ~numbers.motion.support.all(axis=1)
         where = "the stance sole" if (single | ~outside).all() else "the support polygon"
         low, high = -numbers.margin[outside].max() * 1e3, -numbers.margin[outside].min() * 1e3
-        span = f"{low:.1f} to {high:.1f} mm" if high - low > 0.05 else f"{high:.1f} mm"
+        span = f"{low:z.1f} to {high:z.1f} mm" if high - low > 0.05 else f"{high:.1f} mm"
         text += (
             f": the ZMP lies outside {where} by {span} in {int(outside.sum())} of {count} samples"
         )

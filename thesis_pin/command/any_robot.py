@@ -7,16 +7,15 @@ import warnings
 
 import pinocchio as pin
 
-from thesis_pin.command.results import Answer, deliver, give
+from thesis_pin.command.results import Answer, deliver, give, put_folder
 from thesis_pin.command.running import ExitCode
-from thesis_pin.command.text import say
 from thesis_pin.errors import ModelWarning
-from thesis_pin.files import write_folder
 from thesis_pin.loops.checking import soundness
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import read_motion
+from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.model.pair import pair
 from thesis_pin.report import formats as read
 from thesis_pin.report.tables import Part, Table
@@ -31,8 +30,7 @@ def check(arguments: argparse.Namespace) -> ExitCode:
         found = soundness.check(robot, pose=arguments.pose, precision=arguments.precision)
         if arguments.out:
             files = {name: text.encode() for name, text in pair(robot.description).items()}
-            write_folder(arguments.out, files)
-            say(f"wrote {', '.join(files)} to {arguments.out}")
+            put_folder(arguments.out, files)
         yes = found.sound and (found.held or not arguments.strict)
         return Answer(found.document, lambda: _tell(found), yes=yes)
 
@@ -71,6 +69,10 @@ def _loaded(arguments: argparse.Namespace) -> ClosedRobot:
         return load(arguments.file, arguments.closures, root_joint=root)
 
 
+def _named(motor: Motor) -> str:
+    return motor.joint if motor.name == motor.joint else f"{motor.name} on {motor.joint}"
+
+
 def _tell(found: soundness.Soundness) -> list[Part]:
     robot = found.robot
     rows = [
@@ -81,7 +83,7 @@ def _tell(found: soundness.Soundness) -> list[Part]:
     return [
         *([Table("", columns, rows)] if rows else []),
         f"{robot.model.name}: {robot.model.njoints - 1} joints, "
-        f"{len(robot.actuators)} motors ({', '.join(robot.actuators)}).",
+        f"{len(robot.motors)} motors ({', '.join(_named(motor) for motor in robot.motors)}).",
         *found.sentences(),
         *(f"Warning: {one}" for one in found.warnings),
         *(f"Not used: {one}" for one in robot.description.passed_over),

@@ -30,7 +30,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     from thesis_pin.audit.page import page
     from thesis_pin.command.output import print_entries, print_parts, print_table, print_text
     from thesis_pin.command.progress import track
-    from thesis_pin.files import write_file
+    from thesis_pin.command.results import put
     from thesis_pin.report.writers import json_bytes
 
     only = (
@@ -40,11 +40,11 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     )
     report = thesis.audit(only=only, progress=lambda rows, total: track(rows, "auditing", total))
     if arguments.html:
-        write_file(arguments.html, page(report).encode())
+        put(arguments.html, page(report).encode())
     if arguments.markdown:
-        write_file(arguments.markdown, markdown(report, thesis.document_command).encode())
+        put(arguments.markdown, markdown(report, thesis.document_command).encode())
     if arguments.json:
-        write_file(arguments.json, json_bytes(document(report)))
+        put(arguments.json, json_bytes(document(report)))
     if not free(arguments):
         return ExitCode.DONE
     if only:

@@ -12,12 +12,15 @@ from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import found
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
-from thesis_pin.files import write_file, write_folder
+from thesis_pin.files import Claim, is_standard_output, write_file, write_folder
 from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:  # help has to be quick
     import numpy as np
     from numpy.typing import NDArray
+
+MOST_NAMED = 6
+"""Files of a folder that are named when it is written."""
 
 
 class Report(Protocol):
@@ -65,7 +68,7 @@ def give(
         answer = make()
         content = json_bytes(answer.document()) if arguments.json else b""
     if arguments.json:
-        write_file(arguments.json, content)
+        put(arguments.json, content)
     if free(arguments):
         print_parts(answer.tell())
     return ExitCode.DONE if answer.yes else ExitCode.NO
@@ -111,7 +114,7 @@ def deliver(
             raise
     write_results(arguments, files | drawn, content)
     if arguments.html:
-        write_file(arguments.html, written)
+        put(arguments.html, written)
     if free(arguments):
         print_parts(_called(table)(answer))
     refused = arguments.strict and not answer.within_limits
@@ -123,10 +126,29 @@ def write_results(
 ) -> None:
     """Write a folder of results where ``--out`` says, and its document where ``--json`` does."""
     if arguments.out:
-        write_folder(arguments.out, files)
-        say(f"wrote {arguments.out}")
+        put_folder(arguments.out, files)
     if arguments.json:
-        write_file(arguments.json, content)
+        put(arguments.json, content)
+
+
+def put(target: str, content: bytes) -> None:
+    """Write a file, or standard output for ``-``, and say so."""
+    write_file(target, content)
+    said(target)
+
+
+def put_folder(target: str | Claim, files: Mapping[str, bytes]) -> None:
+    """Write a folder, and say what is in it."""
+    write_folder(target, files)
+    names = list(files)
+    more = [f"and {len(names) - MOST_NAMED} more"] if len(names) > MOST_NAMED else []
+    say(f"wrote {target}: {', '.join([*names[:MOST_NAMED], *more])}")
+
+
+def said(target: str) -> None:
+    """Say that a file was written; of standard output there is nothing to say."""
+    if not is_standard_output(target):
+        say(f"wrote {target}")
 
 
 def _called(name: str) -> Any:

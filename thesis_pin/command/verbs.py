@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Robot, found
-from thesis_pin.command.results import Answer, Report, deliver, give
+from thesis_pin.command.results import Answer, Report, deliver, give, put, put_folder, said
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.errors import ModelWarning
-from thesis_pin.files import is_standard_output, write_file, write_folder
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
@@ -73,15 +72,14 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
     if arguments.html:
         player.write_html(scene, arguments.html, speed=arguments.speed)
-        if not is_standard_output(arguments.html):
-            say(f"wrote {arguments.html}")
+        said(arguments.html)
         if arguments.json:
-            write_file(arguments.json, json_bytes(shown | {"address": None}))
+            put(arguments.json, json_bytes(shown | {"address": None}))
         return ExitCode.DONE
 
     def ready(address: str) -> None:
         if arguments.json:
-            write_file(arguments.json, json_bytes(shown | {"address": address}))
+            put(arguments.json, json_bytes(shown | {"address": address}))
 
     serving.show(
         scene,
@@ -131,12 +129,11 @@ def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         "files": [{"name": name, "bytes": len(content)} for name, content in files.items()],
     }
     if arguments.out:
-        write_folder(arguments.out, files)
-        say(f"wrote {', '.join(files)} to {arguments.out}")
+        put_folder(arguments.out, files)
     if arguments.json:
-        write_file(arguments.json, json_bytes(document))
+        put(arguments.json, json_bytes(document))
     if not arguments.out and free(arguments):
-        write_file("-", text.encode())
+        put("-", text.encode())
     return ExitCode.DONE
 
 

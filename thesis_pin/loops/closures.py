@@ -192,6 +192,7 @@ def _motors(model: pin.Model, given: Sequence[Motor], where: str) -> tuple[Motor
     """Motors of the joints that are named whole or in part; a whole name beats a part."""
     known = dict.fromkeys(list(model.names)[1:])
     motors: dict[str, Motor] = {}
+    used: set[str] = set()
     for motor in given:
         part = motor.joint
         matches = [part] if part in known else [name for name in known if part in name]
@@ -204,7 +205,9 @@ def _motors(model: pin.Model, given: Sequence[Motor], where: str) -> tuple[Motor
                     where=f"{where}: name_mot",
                     remedy="Write each motor's full name once",
                 )
-            name = joint if motor.name == part else motor.name
+            own = motor.name != part and len(matches) == 1 and motor.name not in used
+            name = motor.name if own else joint
+            used.add(name)
             motors[joint] = _limited(model, replace(motor, joint=joint, name=name))
     return tuple(motors.values())
 

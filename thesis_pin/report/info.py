@@ -169,7 +169,7 @@ def told(info: Info) -> list[Part]:
             (
                 body["name"],
                 f"{body['mass'] * 1e3:.2f}",
-                " ".join(f"{value * 1e3:.2f}" for value in body["com"]),
+                " ".join(f"{value * 1e3:z.2f}" for value in body["com"]),
                 f"{body['radius_of_gyration'] * 1e3:.1f}",
                 f"{body['span'] * 1e3:.1f}",
             )
@@ -205,7 +205,7 @@ def told(info: Info) -> list[Part]:
 
 
 def _place(end: str, place: np.ndarray) -> str:
-    values = ", ".join(f"{value * 1e3:.3f}" for value in place)
+    values = ", ".join(f"{value * 1e3:z.3f}" for value in place)
     return f"Neutral {end.replace('_', ' ')}: ({values}) mm."
 
 

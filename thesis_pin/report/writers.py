@@ -13,6 +13,8 @@ from thesis_pin.errors import NotFinite
 def json_bytes(document: object) -> bytes:
     """A document of dicts, lists, numbers, strings, None and NumPy arrays as JSON.
 
+    A zero has no sign in it.
+
     Raises:
         NotFinite: Some number is NaN or infinite, which JSON can't say.
     """
@@ -24,7 +26,19 @@ def json_bytes(document: object) -> bytes:
     if any(isinstance(value, np.ndarray) and value.size > 10_000 for value in _values(document)):
         options &= ~orjson.OPT_INDENT_2
     # orjson takes C-contiguous arrays only; others go through lists.
-    return orjson.dumps(document, option=options, default=lambda value: value.tolist())
+    plain = _without_signed_zeros(document)
+    return orjson.dumps(plain, option=options, default=lambda value: value.tolist())
+
+
+def _without_signed_zeros(value: object) -> object:
+    """The same document with 0 for −0, which says nothing and looks like an error."""
+    if isinstance(value, Mapping):
+        return {key: _without_signed_zeros(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_without_signed_zeros(item) for item in value]
+    if isinstance(value, float) or (isinstance(value, np.ndarray) and value.dtype.kind == "f"):
+        return value + 0.0
+    return value
 
 
 def _values(document: object) -> list[object]:
@@ -46,7 +60,7 @@ def _refuse_not_finite(value: object, path: tuple[object, ...]) -> None:
 
 
 def csv_bytes(columns: Mapping[str, np.ndarray | Sequence[str]]) -> bytes:
-    """Columns of equal length as CSV with a header; numbers read back exactly.
+    """Columns of equal length as CSV with a header; numbers read back exactly, −0 as 0.
 
     Args:
         columns: Name → values, shape ``(n,)``; strings are kept, NaN becomes empty.
@@ -71,6 +85,7 @@ def _number_rows(table: np.ndarray) -> list[bytes]:
     """The rows of a table ``(n, k)`` as text; NaN becomes empty."""
     import orjson
 
+    table = table + 0.0
     if not table.size or np.isinf(table).any():  # which JSON can't say
         return [",".join("" if v != v else repr(v) for v in row).encode() for row in table.tolist()]
     text = orjson.dumps(table, option=orjson.OPT_SERIALIZE_NUMPY)

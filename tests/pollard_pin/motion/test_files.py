@@ -32,14 +32,17 @@ def test_csv_without_a_header_is_seven_columns_in_radians(tmp_path):
     ("text", "says"),
     [
         ("0,1,2,3\n1,1,2,3\n", "4 columns without a header"),
-        ("time_s,x_m,y_m,z_m\n0,1,2,3\n", "missing or repeated: psi_rad or psi_deg"),
+        ("time_s,x_m,y_m,z_m\n0,1,2,3\n", "missing: psi or psi_rad or psi_deg"),
         (HEADER + "0,.4,0,0,0,0,0\n2,.4,0,0,0,0,0\n1,.4,0,0,0,0,0\n", "csv:4: time goes from 2"),
         (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,0,0,0\n", "csv:3: 6 cells"),
         (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,nan,0,0,0\n", "csv:3, column 4: z is 'nan'"),
         (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,zero,0,0,0\n", "z is 'zero'; allowed: a finite number"),
         (HEADER + "0,.4,0,0,0,0,0\n", "1 poses"),
         ("", "the path is empty"),
-        (HEADER.replace("psi_deg", "psi_deg,psi_rad"), "missing or repeated: psi_rad or psi_deg"),
+        (
+            HEADER.replace("psi_deg", "psi_deg,psi_rad") + "0,.4,0,0,0,0,0,0\n",
+            "columns 'psi_deg' and 'psi_rad' say the same",
+        ),
     ],
 )
 def test_a_bad_csv_is_refused_with_line_and_reason(tmp_path, text, says):

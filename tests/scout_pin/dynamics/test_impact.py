@@ -72,3 +72,17 @@ def test_an_impact_the_floor_cannot_give_is_called_so(scout, lopsided):
             for side, impulse in zip(straight.held, straight.impulse, strict=True)
         ]
         assert straight.admissible == all(by_hand)
+
+
+@pytest.mark.parametrize(("speed", "judged"), [(1e-8, False), (1e-3, False), (0.1, True)])
+def test_a_landing_as_gentle_as_the_weights_own_push_is_not_judged(scout, speed, judged):
+    """Sliding sideways with next to no push no cone admits; 1e-8 of it is nobody's slip."""
+    q, v = scout.q0.copy(), np.zeros(18)
+    v[0], v[2] = speed, -1e-3 * speed
+    impact = touchdown_impact(scout, q, v, "left")
+    local = [
+        linear_programme_admits(scout.contacts[SIDES.index(side)], impulse / speed)
+        for side, impulse in zip(impact.held, impact.impulse, strict=True)
+    ]
+    assert not all(local)  # the cone alone refuses it at any speed
+    assert impact.admissible != judged

@@ -1,6 +1,7 @@
 """Gaits: the thesis's tables, the file formats, and what is refused."""
 
 import csv
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import BODIES
 from scout_pin.motion.trajectory import joint_trajectory
 from thesis_pin.errors import BadInput, SpecificationError, TrajectoryError, UnknownName
+from thesis_pin.numeric.interpolation import linear
 
 from ..conftest import EXAMPLES
 
@@ -187,7 +189,12 @@ ROWS = "0,double,0.23,-0.04,0.04\n0.1,double,0.23,-0.04,0.04\n0.2,left,0.23,-0.0
         (HEADER + ROWS + "0.3,left,0.23\n", BadInput, "csv:5: 3 cells"),
         (HEADER + ROWS + "0.3,both,0.23,-0.04,0.04\n", UnknownName, "double"),
         (HEADER.replace("torso_z", "torso_height") + ROWS, UnknownName, "torso_height"),
-        (HEADER.replace("support,", "") + ROWS, TrajectoryError, "support"),
+        (HEADER.replace("support,", "") + ROWS, BadInput, "csv:2: 5 cells; allowed: 4"),
+        (
+            HEADER.replace("support,", "") + ROWS.replace("double,", "").replace("left,", ""),
+            TrajectoryError,
+            "no column 'support'",
+        ),
         ("", BadInput, "the gait is empty"),
     ],
 )
@@ -258,6 +265,15 @@ def test_rate_jumps_are_found_with_their_sizes():
     assert thesis[25.0, "torso", "y"] == pytest.approx(1.43e-3, rel=1e-2)
     assert load_gait(EXAMPLES / "walk.toml").rate_jumps() == []
     assert load_gait(EXAMPLES / "walk.toml", "linear").rate_jumps()
+
+
+@pytest.mark.parametrize(("size", "counts"), [(0.9e-4, False), (1.1e-4, True)])
+def test_a_rate_that_jumps_by_a_tenth_of_a_millimetre_a_second_is_smooth(size, counts):
+    gait = load_gait(EXAMPLES / "squat.toml")
+    torso = list(gait.curves["torso"])
+    torso[1] = linear([0.0, 1.0, 2.0], [0.0, 0.0, size])
+    jerky = dataclasses.replace(gait, curves=gait.curves | {"torso": tuple(torso)})
+    assert len(jerky.rate_jumps()) == counts
 
 
 def test_times_outside_the_gait_and_bad_units_are_refused():

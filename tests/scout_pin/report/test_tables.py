@@ -7,9 +7,12 @@ import pinocchio as pin
 import pytest
 
 import scout_pin
+from scout_pin.report.page import _tables, _tiles
 from scout_pin.report.tables import ik_document, solutions_table, summary
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.report.tables import Table
+
+from ..conftest import EXAMPLES
 
 
 def said(parts):
@@ -91,3 +94,16 @@ def test_the_printed_angles_are_degrees_of_the_leg(scout):
     assert parts[0].title.startswith("right leg")
     wanted = [f"{value:.2f}" for value in np.degrees(theta)]
     assert any(row[1:7] == wanted for row in said(parts)[0])
+
+
+@pytest.mark.parametrize("name", ["walk", "lopsided_walk", "squat"])
+def test_no_zero_of_the_text_or_page_has_a_sign(scout, lopsided, name):
+    """These gaits land at rest: up, down and impulse are zeros of either sign."""
+    robot = lopsided if name == "lopsided_walk" else scout
+    gait = scout_pin.load_gait(EXAMPLES / f"{name}.toml")
+    report = scout_pin.gait_report(robot, gait, samples=41)
+    rows, text = said(summary(report))
+    page = [cell for part in _tables(report) for row in part.rows for cell in row]
+    tiles = [tile.value for tile in _tiles(report)]
+    everything = " ".join([text, *(cell for row in rows for cell in row), *page, *tiles])
+    assert not re.search(r"[-−]0+(\.0*)?(?![\d.])", everything)

@@ -40,3 +40,10 @@ def test_csv_of_numbers_and_words_reads_back_exactly_also_what_json_cannot_say()
         column = [row[k] for row in rows]
         assert column == expected if k == 2 else np.array_equal(np.array(column, float), expected)
     assert csv_bytes({"a": np.zeros(0)}) == b"a\n"
+
+
+def test_no_zero_has_a_sign():
+    values = {"one": -0.0, "list": [-0.0, {"deep": np.array([-0.0, -1.0])}], "text": "-0.0"}
+    assert b"-0.0" not in json_bytes(values | {"text": ""})
+    assert json.loads(json_bytes(values))["text"] == "-0.0"
+    assert b"-0" not in csv_bytes({"a": np.array([-0.0, 0.0]), "b": np.array([0.0, -0.0])})

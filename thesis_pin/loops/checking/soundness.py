@@ -17,7 +17,7 @@ from thesis_pin.loops.kinematics import Mobility, mobility
 from thesis_pin.model.second_reading import second_reading
 from thesis_pin.tolerances import TOLERANCES
 
-SCHEMA, VERSION = "thesis-pin/check", 1
+SCHEMA, VERSION = "thesis-pin/check", 2
 
 MOST_JOINTS = 8
 """Joints of an idle group that are named."""
@@ -81,7 +81,8 @@ class Soundness:
             "version": VERSION,
             "robot": robot.model.name,
             "joints": list(robot.model.names)[1:],
-            "motors": list(robot.actuators),
+            "motors": [motor.name for motor in robot.motors],
+            "motor_joints": list(robot.actuators),
             "loops": [
                 {"name": loop.name, "type": loop.kind, "frames": list(loop.frames)}
                 for loop in robot.loops

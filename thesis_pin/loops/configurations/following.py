@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput, SingularPose, ThesisPinError, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.configurations.closing import close_one, place_motors
+from thesis_pin.loops.configurations.chaining import MOST, chained, place
 from thesis_pin.loops.configurations.rates import passive_rates
 from thesis_pin.loops.configurations.surveying import surveyed
 from thesis_pin.numeric.arrays import finite_array, vector
@@ -18,6 +19,9 @@ from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
+Base: TypeAlias = tuple[ArrayLike, ArrayLike, ArrayLike]
+"""How a free flyer moves: poses ``(n, 7)`` (position, quaternion x, y, z, w), rates and
+accelerations ``(n, 6)`` in its own axes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +48,7 @@ def follow(
     accelerations: ArrayLike,
     guess: ArrayLike,
     *,
-    base: tuple[ArrayLike, ArrayLike, ArrayLike] | None = None,
+    base: Base | None = None,
     precision: float | None = None,
 ) -> JointTrajectory:
     """Motion of all joints from that of the motors.
@@ -59,8 +63,7 @@ def follow(
         rates: Their rates, same shape.
         accelerations: Their accelerations, same shape.
         guess: Configuration near the first sample, shape ``(nq,)``.
-        base: Of a free flyer: poses ``(n, 7)`` (position, quaternion x, y, z, w), rates and
-            accelerations ``(n, 6)`` in its own axes; None leaves it at rest at ``guess``.
+        base: How a free flyer moves; None leaves it at rest at ``guess``.
         precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
 
     Returns:
@@ -72,8 +75,8 @@ def follow(
         SingularPose: The motors don't determine the passive joints at a sample, or are
             asked to move as the loops forbid.
     """
-    found = _followed(robot, time, motors, rates, accelerations, guess, base, precision, True)
-    return found.motion
+    drive = (time, motors, rates, accelerations)
+    return _followed(robot, drive, guess, base, precision, strict=True).motion
 
 
 def follow_each(
@@ -84,30 +87,29 @@ def follow_each(
     accelerations: ArrayLike,
     guess: ArrayLike,
     *,
-    base: tuple[ArrayLike, ArrayLike, ArrayLike] | None = None,
+    base: Base | None = None,
     precision: float | None = None,
 ) -> Following:
     """The same where some samples may fail: says which, and why; see :func:`follow`."""
-    return _followed(robot, time, motors, rates, accelerations, guess, base, precision, False)
+    drive = (time, motors, rates, accelerations)
+    return _followed(robot, drive, guess, base, precision, strict=False)
 
 
 def _followed(
     robot: ClosedRobot,
-    time: ArrayLike,
-    motors: ArrayLike,
-    rates: ArrayLike,
-    accelerations: ArrayLike,
+    drive: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike],
     guess: ArrayLike,
-    base: tuple[ArrayLike, ArrayLike, ArrayLike] | None,
+    base: Base | None,
     precision: float | None,
+    *,
     strict: bool,
 ) -> Following:
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     count = len(robot.actuators)
-    times = finite_array("time", time, None)
+    times = finite_array("time", drive[0], None)
     columns = [
         finite_array(name, value, None, count)
-        for name, value in (("motors", motors), ("rates", rates), ("accelerations", accelerations))
+        for name, value in zip(("motors", "rates", "accelerations"), drive[1:], strict=True)
     ]
     shapes = [x.shape for x in (times, *columns)]
     if shapes != [(len(times),), *[(len(times), count)] * 3] or not len(times):
@@ -118,31 +120,38 @@ def _followed(
     current = vector("guess", guess, model.nq).copy()
     flying = _base(robot, base, len(times), current)
     q, (v, a) = np.empty((len(times), model.nq)), np.zeros((2, len(times), model.nv))
-    reasons, data = [], model.createData()
-    for k in range(len(times)):
-        if len(robot.base):
-            current[:7] = flying[0][k]
-            v[k, robot.base], a[k, robot.base] = flying[1][k], flying[2][k]
-        v[k, robot.actuated], a[k, robot.actuated] = columns[1][k], columns[2][k]
-        placed = place_motors(robot, current, columns[0][k])
-        if not (robot.equations or len(robot.passive)):  # a tree of motors: nothing to close
-            q[k] = placed
-            reasons.append("")
-            continue
+    if len(robot.base):
+        v[:, robot.base], a[:, robot.base] = flying[1:]
+    v[:, robot.actuated], a[:, robot.actuated] = columns[1], columns[2]
+    reasons, data = [""] * len(times), model.createData()
+    if not (robot.equations or len(robot.passive)):  # a tree of motors: nothing to close
+        q[:] = place(robot, np.tile(current, (len(times), 1)), columns[0], flying[0])
+        return Following(JointTrajectory(times, q, v, a), np.ones(len(times), bool), tuple(reasons))
+    k, many = 0, 1  # the survey is made at the first sample
+    while k < len(times):
+        some = slice(k, k + many)
         try:
-            settled, reason = close_one(robot, data, placed, robot.passive, 60, precision)
-            q[k] = settled.q
+            closed, reason = chained(
+                robot, data, current, columns[0][some], flying[0][some], precision
+            )
+            done = slice(k, k + len(closed))
+            q[done] = closed
             if reason:
                 raise Unreachable(reason)
-            survey = surveyed(robot, settled.q, precision)
-            passive_rates(robot, survey, data, q[k], v[k], a[k])
-            current, reason = q[k].copy(), ""
+            survey = surveyed(robot, closed[0], precision)
+            errors = passive_rates(robot, survey, data, closed, v[done], a[done])
+            good = next((j for j, error in enumerate(errors) if error), len(closed))
+            if good:
+                current, k = closed[good - 1], k + good
+            if good < len(closed):
+                raise errors[good] or SingularPose("")
+            many = 1 if survey.idle else min(max(4 * good, many), MOST)
         except ThesisPinError as error:
             if strict:
                 raise _at(error, k) from None
             v[k] = a[k] = np.nan
-            reason = str(error)
-        reasons.append(reason)
+            reasons[k] = str(error)
+            k, many = k + 1, 1
     valid = np.array([not reason for reason in reasons])
     return Following(JointTrajectory(times, q, v, a), valid, tuple(reasons))
 
@@ -157,7 +166,7 @@ def _at(error: ThesisPinError, sample: int) -> ThesisPinError:
 
 def _base(
     robot: ClosedRobot,
-    base: tuple[ArrayLike, ArrayLike, ArrayLike] | None,
+    base: Base | None,
     count: int,
     guess: Array,
 ) -> tuple[Array, Array, Array]:

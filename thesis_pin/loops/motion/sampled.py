@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from decimal import Decimal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +27,6 @@ SLACK = 1e-6
 
 FAR = math.pi / 2
 """Step [rad] beyond which samples don't tell a jump by a turn from a real one."""
-
-_LINES = 2_000
-"""Lines that are looked at for the number of digits."""
 
 
 def with_derivatives(
@@ -86,35 +82,6 @@ def unwound(joint: str, angle: Array) -> tuple[Array, list[str]]:
         f"way; its steps of up to {step:.3g} rad leave that in doubt. Sample more finely, or "
         "count turns in the column."
     ]
-
-
-def quantum(cells: Sequence[str], values: Array) -> float:
-    """Smallest step that a column's samples resolve, in the column's unit.
-
-    Either its last written digit, or the step of a counter: the least difference of its
-    values, if all differences are multiples of it and neighbours often share a value.
-
-    Args:
-        cells: The samples as written.
-        values: The same as numbers, shape ``(n,)``.
-    """
-    looked = cells[:: max(1, len(cells) // _LINES)]
-    places = [int(exponent) for cell in looked if (exponent := _exponent(cell)) is not None]
-    digit = 10.0 ** min(places) if places else 0.0
-    steps = np.diff(np.unique(values))
-    moves = np.diff(values)
-    if not steps.size or not (moves == 0).any():
-        return digit
-    least = float(steps.min())
-    multiples = steps / least
-    if multiples.max() < 1e6 and (np.abs(multiples - np.round(multiples)) < 1e-2).all():
-        return max(digit, least)
-    return digit
-
-
-def _exponent(cell: str) -> int | None:
-    exponent = Decimal(cell).as_tuple().exponent
-    return exponent if isinstance(exponent, int) else None
 
 
 def resolution_warning(

@@ -184,7 +184,9 @@ def _check_tree(description: Description, where: str) -> None:
 def _check_joint(joint: Joint, here: str) -> None:
     if joint.kind in ("fixed", "floating"):
         return  # its axis and limits mean nothing
-    for what, value in (("damping", joint.damping), ("friction", joint.friction)):
+    effort, velocity = (0.0, 0.0) if joint.limit is None else joint.limit[2:]
+    most = (("greatest effort", effort), ("greatest velocity", velocity))
+    for what, value in (("damping", joint.damping), ("friction", joint.friction), *most):
         if value < 0:
             raise ModelError(f"its {what} is {value:g}", where=here, allowed="at least 0")
     if joint.kind in ("revolute", "prismatic"):

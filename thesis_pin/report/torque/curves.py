@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.loops.joints import singles
-from thesis_pin.report.curves import PALETTE, VERMILLION, Curve, Dash, Plot
+from thesis_pin.report.curves import PALETTE, VERMILLION, Curve, Dash, Limit, Plot
 from thesis_pin.report.torque.document import TorqueReport
+from thesis_pin.report.torque.verdict import UNEXPLAINED
 
 Array = NDArray[np.float64]
 Samples = NDArray[np.intp]
@@ -93,12 +94,15 @@ def joints(report: TorqueReport, keep: Samples) -> list[Plot]:
 
 def unexplained(report: TorqueReport, keep: Samples) -> Plot:
     """Load that neither motors nor loops carry."""
+    share = report.unexplained[keep]
     return Plot(
         "Unexplained load",
-        "Share of the largest load that neither motors nor loops carry; rounding is 1e-12.",
+        "Share of the largest load that neither motors nor loops carry; what is less than may be "
+        "left over is drawn as zero.",
         "share [-]",
-        [Curve("unexplained", report.unexplained[keep], VERMILLION)],
+        [Curve("unexplained", np.where(share > UNEXPLAINED, share, 0.0), VERMILLION)],
         report.joints.time[keep],
+        limits=[Limit("may be left over", UNEXPLAINED)],
     )
 
 

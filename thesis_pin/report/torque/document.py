@@ -18,7 +18,7 @@ from thesis_pin.report.torque import verdict
 from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.version import __version__
 
-SCHEMA, VERSION = "thesis-pin/torque", 1
+SCHEMA, VERSION = "thesis-pin/torque", 2
 
 INTERPOLATED = (
     "Rates and accelerations of {names} come from a cubic spline through the samples. Nothing "
@@ -66,6 +66,7 @@ class TorqueReport(TorqueNumbers):
             "version": VERSION,
             "robot": robot.model.name,
             "motors": list(self.names),
+            "motor_joints": list(robot.actuators),
             "units": list(self.units),
             "joints": list(robot.model.names)[1:],
             "loops": [
@@ -91,6 +92,7 @@ class TorqueReport(TorqueNumbers):
             ],
             "parameters": self.parameters,
             "summary": self.summary(),
+            "notes": list(self.motion.notes),
         }
 
     def columns(self) -> dict[str, np.ndarray]:

@@ -44,14 +44,14 @@ class TorqueNumbers:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The motors' joints, in the file's order."""
-        return self.robot.actuators
+        """The motors, as the description calls them, in its order."""
+        return tuple(motor.name for motor in self.robot.motors)
 
     @property
     def turning(self) -> NDArray[np.bool_]:
         """Whether each motor's joint turns rather than slides, shape ``(motors,)``."""
         known = singles(self.robot.model)
-        return np.array([known[name].turns for name in self.names], dtype=bool)
+        return np.array([known[name].turns for name in self.robot.actuators], dtype=bool)
 
     @property
     def units(self) -> tuple[str, ...]:

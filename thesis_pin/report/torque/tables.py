@@ -51,4 +51,5 @@ def summary(report: TorqueReport) -> Iterator[Part]:
         yield loops_table(report)
     yield f"Unexplained load: {report.unexplained.max():.1e} of the largest."
     yield from report.verdict()
+    yield from (f"Note: {note}." for note in report.motion.notes)
     yield from (f"Warning: {one}" for one in report.warnings())

@@ -14,6 +14,7 @@ from thesis_pin.loops.joints import singles
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import JointMotion, read_motion
 from thesis_pin.model.mechanism.supplement import Motor
+from thesis_pin.report.torque.curves import unexplained
 from thesis_pin.report.torque.document import torque_report
 from thesis_pin.report.torque.figures import figures
 from thesis_pin.report.writers import csv_bytes, json_bytes
@@ -195,9 +196,44 @@ def test_documents_and_figures_can_be_written_and_read():
     start = singles(robot.model)["motor"].position(torque_start(robot))
     report = torque_report(robot, swing("motor", start=float(start), size=0.1))
     document = json.loads(json_bytes(report.document()))
-    assert (document["schema"], document["version"]) == ("thesis-pin/torque", 1)
+    assert (document["schema"], document["version"]) == ("thesis-pin/torque", 2)
     assert np.shape(document["torque"]) == (len(TIME), 1)
     assert document["summary"]["verdict"] == report.verdict()
     assert set(figures(report)) == {
         f"{name}.{end}" for name in ("motors", "joints", "loops") for end in ("png", "svg")
     }
+
+
+def test_motors_bear_their_own_names_and_say_which_joints_they_drive():
+    robot = arm()
+    named = replace(robot.description.supplement, motors=(Motor("hip_drive", "hip"),))
+    robot = ClosedRobot(replace(robot.description, supplement=named))
+    report = torque_report(robot, swing("hip"))
+    document = json.loads(json_bytes(report.document()))
+    assert (document["motors"], document["motor_joints"]) == (["hip_drive"], ["hip"])
+    assert {"torque_hip_drive_Nm", "power_hip_drive_W", "hip_rad"} <= set(report.columns())
+    assert "the closest is hip_drive with" in report.verdict()[0]
+
+
+def test_a_name_that_stands_for_several_motors_is_none_of_them():
+    text = ARM.format(kind="revolute", axis="-1 0", effort=1, velocity=1)
+    more = text.replace("</robot>", "") + text[text.index('<link name="rod"') :].replace(
+        'name="rod"', 'name="rod_2"'
+    ).replace('name="hip"', 'name="hip_2"').replace('child link="rod"', 'child link="rod_2"')
+    robot = ClosedRobot(more)
+    both = (Motor("drive", "hip"), Motor("drive", "hip_2"))
+    robot = ClosedRobot(
+        replace(robot.description, supplement=replace(robot.supplement, motors=both))
+    )
+    assert [motor.name for motor in robot.motors] == ["drive", "hip_2"]
+
+
+def test_a_load_left_over_by_rounding_is_drawn_as_none():
+    report = torque_report(arm(), swing("hip"))
+    rounding = np.full(len(TIME), 3e-16)
+    rounding[7] = 2e-3
+    report = replace(report, dynamics=replace(report.dynamics, unexplained=rounding))
+    plot = unexplained(report, np.arange(len(TIME)))
+    (curve,) = plot.curves
+    assert np.flatnonzero(curve.y).tolist() == [7]
+    assert [limit.value for limit in plot.limits] == [1e-6]

@@ -18,9 +18,10 @@ from thesis_pin.model.formats.graph import cut_loops, needs_cutting
 from thesis_pin.model.formats.urdf.closing_frames import closing_frames
 from thesis_pin.model.formats.urdf.edited import edited
 from thesis_pin.model.formats.urdf.elements import joint_of, link_of, named, refuse_xacro
+from thesis_pin.model.formats.urdf.mended import mend
 from thesis_pin.model.formats.urdf.passed_over import passed_over
 from thesis_pin.model.formats.urdf.plus import independent, read_couplings, read_loops
-from thesis_pin.model.formats.xml import Element, parse_xml
+from thesis_pin.model.formats.xml import Element, canonical, parse_xml
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.mechanism.description import Description, Joint
 from thesis_pin.model.mechanism.supplement import Coupling, Motor, Supplement
@@ -70,7 +71,9 @@ def read_urdf(
     joints = {name: joint_of(name, e, where) for name, e in named(root, "joint", where).items()}
     if not links:
         raise ModelError("there is no <link>", where=where)
-    tree = Description(root.get("name", ""), links, joints, text, where)
+    changed, said = mend(root, where)
+    text = canonical(root) if changed else text
+    tree = Description(root.get("name", ""), links, joints, text, where, warnings=tuple(said))
     return _closed(root, tree, motors)
 
 
@@ -108,7 +111,7 @@ def _closed(root: Element, tree: Description, motors: Sequence[str]) -> Descript
         joints=made.joints,
         text=edited(root, tree, made.links, made.joints) if changed else tree.text,
         supplement=replace(supplement, motors=driven),
-        warnings=notes,
+        warnings=(*tree.warnings, *notes),
         passed_over=passed_over(root, where),
     )
 

@@ -1,0 +1,1 @@
+"""Curves through samples of finite resolution, and what the samples leave open."""

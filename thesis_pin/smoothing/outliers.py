@@ -1,0 +1,53 @@
+"""Single samples that don't belong to their neighbours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import median_filter
+
+from thesis_pin.smoothing.noise import Array
+
+_PATTERN = np.array([1.0, -4.0, 6.0, -4.0, 1.0])
+_TIMES = 9.0  # what the fourth difference must exceed the usual one by
+_ALIKE = 0.8  # how near neighbours must be to the pattern, relative to the error
+_QUANTA = 4.0
+_AROUND = 25  # samples that say what is usual here
+
+
+@dataclass(frozen=True)
+class Outlier:
+    """A sample that is off.
+
+    Attributes:
+        sample: Its number.
+        error: By how much.
+    """
+
+    sample: int
+    error: float
+
+
+def outliers(values: Array, quantum: float) -> list[Outlier]:
+    """Samples whose error alone makes the pattern 1, −4, 6, −4, 1 in fourth differences.
+
+    Args:
+        values: Samples at about equal steps, shape ``(n,)``.
+        quantum: Smallest step that their text resolves.
+    """
+    if len(values) < 12:
+        return []
+    high = np.diff(values, 4)
+    size = np.abs(high)
+    usual = np.maximum(median_filter(size, _AROUND, mode="reflect"), 1.4826 * np.median(size))
+    usual = np.maximum(usual, np.sqrt(70.0 / 12.0) * quantum)
+    found: list[Outlier] = []
+    for k in np.flatnonzero(size > _TIMES * usual):
+        error = high[k] / 6.0
+        places = np.arange(k - 2, k + 3)
+        inside = (places >= 0) & (places < len(high))
+        off = np.abs(high[places[inside]] - error * _PATTERN[inside])
+        if abs(error) > _QUANTA * quantum and (off <= _ALIKE * abs(error)).all():
+            found.append(Outlier(int(k) + 2, float(error)))
+    return found

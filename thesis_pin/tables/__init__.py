@@ -1,0 +1,1 @@
+"""Tables as people have them: dialects, columns with units and resolutions, and writing them."""

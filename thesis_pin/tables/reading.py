@@ -1,0 +1,169 @@
+"""Tables of samples from text files, within the limits of what is read.
+
+Lines that are empty or start with ``#`` are skipped, and so is Excel's first line ``sep=;``.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import itertools
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from thesis_pin.errors import BadInput
+from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.source import read_text
+from thesis_pin.tables.dialect import MARKS, NUMBER, Dialect, decimal_of, separator_of, split
+from thesis_pin.tables.table import Table
+
+TABLES = (".csv", ".tsv", ".txt", ".dat")
+"""Endings of files that are read as tables."""
+
+_ANNOUNCED = re.compile(r'"?sep=(.)"?[;,\t]*', re.IGNORECASE)
+_LOOKED = 50
+"""Lines from which the separator is recognised."""
+
+_Row = tuple[int, tuple[str, ...]]
+"""Number of a line, from 1, and its cells."""
+
+
+def read_table(kind: str, file: str | Path, *, bare: Sequence[str] = ()) -> Table:
+    """A table with a header from a text file.
+
+    Args:
+        kind: What the file is, for messages ("gait", "path").
+        file: The file.
+        bare: Names of the columns of a table that has no header; none, where it has to.
+
+    Raises:
+        BadInput: It can't be read, is empty, has no header, lines of different widths or two
+            decimal marks, or passes a limit of :mod:`thesis_pin.model.limits`.
+    """
+    name = str(file)
+    text, separator = _separated(read_text(kind, file, LIMITS.csv_bytes))
+    rows = list(_bounded(kind, name, _rows(kind, name, text, separator)))
+    if not rows:
+        raise BadInput(f"the {kind} is empty", where=name)
+    decimal = "."
+    if separator != "," or '"' in text:
+        decimal = decimal_of([(f"{name}:{line}", cells) for line, cells in rows])
+    header, commented = _header(kind, name, text, rows, bare, separator)
+    if not commented and not _numeric(rows[0][1]):
+        rows = rows[1:]
+    cells = list(_of_one_width(name, rows, header))
+    lines = np.array([line for line, _ in rows], dtype=np.intp)
+    return Table(name, header, lines, cells, Dialect(separator, decimal, commented))
+
+
+def _separated(text: str) -> tuple[str, str]:
+    """The text, without a line that announces the separator, and the separator."""
+    first, _, rest = text.partition("\n")
+    announced = _ANNOUNCED.fullmatch(first.strip(" "))
+    if announced and announced[1] in MARKS:
+        return "\n" + rest, announced[1]
+    looked = list(itertools.islice((x for x in io.StringIO(text) if _content(x)), _LOOKED))
+    return text, separator_of(looked) if looked else ","
+
+
+def _content(line: str) -> bool:
+    line = line.strip().lstrip('"')
+    return bool(line.strip(';,|" \t')) and not line.startswith("#")
+
+
+def _rows(kind: str, name: str, text: str, separator: str) -> Iterator[_Row]:
+    """Lines that hold something and aren't comments."""
+    if separator == " ":
+        for number, line in enumerate(io.StringIO(text), start=1):
+            cells = tuple(line.split())
+            if cells and not cells[0].startswith("#"):
+                yield number, cells
+        return
+    reader = csv.reader(io.StringIO(text), delimiter=separator)
+    try:
+        for written in reader:
+            stripped = tuple([cell.strip() for cell in written])  # faster than a generator
+            if len(stripped) > LIMITS.columns or (
+                any(stripped) and not stripped[0].startswith("#")
+            ):
+                yield reader.line_num, stripped
+    except csv.Error as error:
+        where = f"{name}:{reader.line_num}"
+        raise BadInput(f"the {kind} isn't CSV: {error}", where=where) from None
+
+
+def _bounded(kind: str, name: str, rows: Iterator[_Row]) -> Iterator[_Row]:
+    """The same lines, as far as they keep the limits of what is read."""
+    cells = 0
+    for count, row in enumerate(rows, start=1):
+        cells += len(row[1])
+        for what, size, most in (
+            ("columns", len(row[1]), LIMITS.columns),
+            ("cells", cells, LIMITS.cells),
+            ("lines", count, LIMITS.rows),
+        ):
+            if size > most:
+                raise BadInput(
+                    f"the {kind} has {size:,} {what} up to here",
+                    where=f"{name}:{row[0]}",
+                    allowed=f"at most {most:,}",
+                    remedy="Leave out samples or columns",
+                )
+        yield row
+
+
+def _numeric(cells: Sequence[str]) -> bool:
+    return all(NUMBER.fullmatch(cell) or not cell for cell in cells) and any(cells)
+
+
+def _header(
+    kind: str, name: str, text: str, rows: Sequence[_Row], bare: Sequence[str], separator: str
+) -> tuple[tuple[str, ...], int]:
+    """Names of the columns, and the line of the comment that says them, else 0."""
+    first, cells = rows[0]
+    if not _numeric(cells):
+        return _without_last(cells), 0
+    comment, line = "", 0
+    for number, one in enumerate(itertools.islice(io.StringIO(text), first - 1), start=1):
+        if one.lstrip().startswith("#"):
+            comment, line = one.strip().lstrip("# "), number
+    cells = _without_last(cells)
+    said = tuple(split(comment, separator)) if comment else ()
+    if len(said) == len(cells) and all(re.fullmatch(r"[^\W\d]\w*", one) for one in said):
+        return said, line
+    if len(bare) != len(cells):
+        allowed = f"{len(bare)}: {', '.join(bare)}" if bare else "a header of names"
+        raise BadInput(
+            f"the {kind} has {len(cells)} columns without a header",
+            where=f"{name}:{first}",
+            allowed=allowed,
+            remedy="Write the columns' names into the first line",
+        )
+    return tuple(bare), 0
+
+
+def _without_last(cells: tuple[str, ...]) -> tuple[str, ...]:
+    """Cells without the empty ones at the end, which spreadsheets leave there."""
+    while cells and not cells[-1]:
+        cells = cells[:-1]
+    return cells
+
+
+def _of_one_width(
+    name: str, rows: Sequence[_Row], header: Sequence[str]
+) -> Iterator[tuple[str, ...]]:
+    """Cells of the rows, as many as the header's; more at the end have to be empty."""
+    width = len(header)
+    for line, cells in rows:
+        if len(cells) != width:
+            if len(cells) < width or any(cells[width:]):
+                raise BadInput(
+                    f"{len(cells)} cells",
+                    where=f"{name}:{line}",
+                    allowed=f"{width}, as in the first row",
+                )
+            cells = cells[:width]
+        yield cells
