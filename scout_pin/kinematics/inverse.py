@@ -14,7 +14,6 @@ thesis's numeric solver.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +24,7 @@ from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
 from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
 from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, Number, blocks
+from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, Number, Numbers, blocks
 from thesis_pin.tolerances import TOLERANCES
 
 _FREE_POSES = 64
@@ -176,7 +175,7 @@ def _members(
     )
 
 
-def free_values(leg: LegGeometry, xp: Elementwise, gamma: Any) -> Free:
+def free_values(leg: LegGeometry, xp: Elementwise, gamma: Numbers | None) -> Free:
     """What a reference, as γ with the joint first, says of γ1 and e; None is neutral."""
     if gamma is None:
         gamma = leg.beta.tolist()
