@@ -22,6 +22,7 @@ from scout_pin.specification import SIDES
 from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.elementwise import ARRAYS, FLOATS, blocks
+from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
 
 Floats = NDArray[np.float64]
@@ -292,6 +293,7 @@ def _along(
         chunk = ClosedForm(ARRAYS, leg, matrices(part), free)
         *gammas, excess = chunk.solve(*PAIRS[number // 2])
         angles = wrap(np.array(gammas[number % 2]) - leg.beta[:, None])
+        angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
         if not (
             np.all(excess <= TOLERANCES.reach)
             and (angles >= lower).all()
