@@ -200,7 +200,8 @@ class Scout(LoadedRobot):
             reference: Angles [rad], ``(12,)`` for a start or ``(..., 12)`` for each pose.
             branch: What to choose from: the way the knees bend, ``"forward"`` or
                 ``"backward"``, or the signs of one branch, as ``"+-+"``; for both legs or
-                for each, as ``("+++", "-+-")``; None takes what the specification says.
+                for each, as ``("+++", "-+-")``; None takes what the specification says,
+                or near a reference any.
 
         Returns:
             Joint angles [rad], shape ``(..., 12)``.
@@ -227,7 +228,7 @@ class Scout(LoadedRobot):
         given = None if reference is None else finite_array("reference", reference, 12)
         world_to_torso = invert(placements[0])
         targets = [world_to_torso @ place for place in placements[1:]]
-        allowed, legs = self.allowed_branches(branch), self._legs
+        allowed, legs = self.allowed_branches(branch, near=given is not None), self._legs
         if given is None:
             sides = choosing.both_legs(legs, targets, allowed)
         else:
@@ -239,16 +240,19 @@ class Scout(LoadedRobot):
             ]
         return np.concatenate(np.broadcast_arrays(*sides), axis=-1)
 
-    def allowed_branches(self, branch: str | Sequence[str] | None) -> tuple[Numbers, Numbers]:
+    def allowed_branches(
+        self, branch: str | Sequence[str] | None, *, near: bool = False
+    ) -> tuple[Numbers, Numbers]:
         """Which of :data:`scout_pin.BRANCHES` each leg may take, left then right.
 
         Args:
             branch: As in :meth:`inverse_kinematics`; None for what the specification says.
+            near: Whether a reference is to decide where nobody asks.
 
         Raises:
             BadInput: There is no such branch.
         """
-        asked = self.specification.branch_asked if branch is None else branch
+        asked = self.specification.branch_asked if branch is None and not near else branch
         return allowed_branches(self._legs, asked)
 
     def follow(
@@ -273,7 +277,7 @@ class Scout(LoadedRobot):
             Unreachable: Some sample has no valid branch; says which and why.
             BadInput: A rotation isn't one.
         """
-        allowed, legs = self.allowed_branches(branch), self._legs
+        allowed, legs = self.allowed_branches(branch, near=reference is not None), self._legs
         feet = (left_foot, right_foot)
 
         def entries(number: int) -> Callable[[slice], np.ndarray]:

@@ -33,6 +33,9 @@ class Tolerances:
         stance_near: How far from its place a foot may be that a log's first or last row of
             a stance has standing: a switch under the sole closes that early [m].
         stance_near_tilt: The same of its angles [rad].
+        sole_misfit: How far from its place joint angles may put a standing sole: servos of 1°
+            and legs of 0.3 m make 5 mm; another robot, or degrees for radians, more [m].
+        sole_misfit_tilt: The same of its angles [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
         branch_tie: Difference of two branches' distance from the neutral pose below which
             neither is the nearer; less than a hobby servo's dead band [rad].
@@ -96,6 +99,8 @@ class Tolerances:
     stance_tilt: float = 1e-3
     stance_near: float = 1e-3
     stance_near_tilt: float = 1e-2
+    sole_misfit: float = 1e-2
+    sole_misfit_tilt: float = 1e-1
     joint_limit: float = 1e-9
     branch_tie: float = 1e-3
     seam: float = 1e-4

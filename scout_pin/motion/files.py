@@ -14,6 +14,7 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.model import Scout
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.tables import read_gait_table, through_samples
@@ -152,13 +153,19 @@ class GaitFile(BranchKeys):
             )
 
 
-def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -> Gait:
+def load_gait(
+    source: str | Path = "thesis",
+    interpolation: str | None = None,
+    *,
+    robot: Scout | None = None,
+) -> Gait:
     """Load a preset, a TOML gait or a table of samples.
 
     Args:
         source: One of :data:`PRESETS`, or a path ending in ``.toml`` or in one of
             :data:`TABLES`.
         interpolation: Method for every node segment, instead of the file's.
+        robot: The biped, for tables of its joints' angles; nothing else needs it.
 
     Raises:
         BadInput: The file can't be read, has an unknown ending, or a cell of a CSV
@@ -174,7 +181,7 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
         source = GAITS / f"{source}.toml"
     path = Path(source)
     if path.suffix.lower() in TABLES:
-        return through_samples(read_gait_table(path), interpolation or "free")
+        return through_samples(read_gait_table(path, robot), interpolation or "free")
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)

@@ -113,6 +113,8 @@ class Gait:
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
         notes: What was chosen or mended when it was read, in plain words.
+        reference: Angles [rad] of the joints that its first sample is near, twelve, where
+            they are known: they choose the branch of the legs.
         branch: The branch it asks for, as an argument ``branch`` takes it; None leaves
             it to the robot.
     """
@@ -123,6 +125,7 @@ class Gait:
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
+    reference: tuple[float, ...] | None = None
     branch: str | None = None
 
     @property

@@ -19,7 +19,7 @@ from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import verdict
 from scout_pin.report.implausible import implausible
 from scout_pin.report.numbers import GaitNumbers
-from scout_pin.report.stance import Stance, stance
+from scout_pin.report.stance import Stance, branch_asked, stance
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import function, instance
@@ -225,9 +225,8 @@ def gait_report(
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
-    choices = (branch, gait.branch, robot.specification.branch_asked)
-    asked = next((one for one in choices if one is not None), None)
-    joints = joint_trajectory(robot, motion, branch=asked)
+    asked = branch_asked(robot, gait, branch)
+    joints = joint_trajectory(robot, motion, branch=asked, reference=gait.reference)
     progress(2, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
     progress(3, 4)

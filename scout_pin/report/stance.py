@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -36,8 +37,9 @@ class Stance:
     Attributes:
         labels: Branch of each leg, left then right; several, if it changes, in order.
         knees: The way each knee bends at the first sample.
-        chosen: Who chose: ``asked``, ``gait``, ``specification`` or ``nearest``, where
-            nobody said and the shape nearest to the neutral pose was taken.
+        chosen: Who chose: ``asked``, ``gait``, ``angles`` (those the gait was made from),
+            ``specification`` or ``nearest``, where nobody said and the shape nearest to the
+            neutral pose was taken.
         others: Ways both legs could stand throughout all the same, as words for
             ``branch``.
         tied: Whether one of the others is as near to the neutral pose.
@@ -63,6 +65,7 @@ class Stance:
             "asked": "as asked for",
             "gait": "as the gait says",
             "specification": "as the specification says",
+            "angles": "as the gait's joint angles say",
             "nearest": "nearest to the neutral pose",
         }[self.chosen]
         if self.tied:
@@ -76,6 +79,17 @@ class Stance:
             word = f'knee = "{other}" in specification or gait, or ' if other in KNEES else ""
             text += f" Possible too: {', '.join(self.others)} ({word}--branch={other})."
         return text
+
+
+def branch_asked(
+    robot: Scout, gait: Gait, branch: str | Sequence[str] | None
+) -> str | Sequence[str] | None:
+    """What is asked for: by an argument, else by the gait, else by the specification.
+
+    Joint angles that a gait was made from leave nothing to ask for.
+    """
+    of_robot = robot.specification.branch_asked if gait.reference is None else None
+    return next((one for one in (branch, gait.branch, of_robot) if one is not None), None)
 
 
 def stance(
@@ -101,12 +115,12 @@ def stance(
     first = [int(one[0]) for one in taken]
     chosen = "asked"
     if asked is None:
-        chosen = "nearest"
+        chosen = "nearest" if gait.reference is None else "angles"
     elif gait.branch is not None and asked == branch_label(gait.branch):
         chosen = "gait"
     elif asked == branch_label(robot.specification.branch_asked):
         chosen = "specification"
-    others, tied = ((), False) if asked is not None else _others(robot, motion.part(some), first)
+    others, tied = ((), False) if chosen != "nearest" else _others(robot, motion.part(some), first)
     return Stance(
         (" ".join(names[0]), " ".join(names[1])),
         (knee(legs[0], first[0]), knee(legs[1], first[1])),

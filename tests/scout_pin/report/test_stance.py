@@ -1,6 +1,7 @@
 """What a report says of its branches: taken, by whom, and what else would do."""
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -113,3 +114,13 @@ def test_where_one_way_only_serves_nothing_else_is_offered(scout):
     assert found.stance.sentence() == (
         "Knees bend forward (left +++, right -+-): nearest to the neutral pose."
     )
+
+
+def test_joint_angles_a_gait_was_made_from_say_more_than_the_specification(straight, gait):
+    robot = scout_pin.load(Specification.model_validate(straight | {"knee": "backward"}))
+    poses = gait()
+    motion = poses.sample(poses.sample_times(5))
+    angles = scout_pin.joint_trajectory(robot, motion, branch="forward").q[0]
+    found = scout_pin.gait_report(robot, replace(poses, reference=tuple(angles)), samples=21)
+    assert found.stance.knees == ("forward", "forward")
+    assert found.stance.sentence().endswith("as the gait's joint angles say.")
