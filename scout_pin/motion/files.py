@@ -78,6 +78,7 @@ class GaitFile(BranchKeys):
     source: str = ""
     time_unit: Positive
     interpolation: Method = "quadratic"
+    cycle: bool = False
     torso: BodyCurves
     left_foot: BodyCurves
     right_foot: BodyCurves
@@ -187,7 +188,13 @@ def load_gait(
     file = read_toml("gait", GaitFile, path)
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
     return Gait(
-        file.name, file.source, file.time_unit, curves, file.phases, branch=file.branch_asked
+        file.name,
+        file.source,
+        file.time_unit,
+        curves,
+        file.phases,
+        cycle=file.cycle,
+        branch=file.branch_asked,
     )
 
 

@@ -76,6 +76,7 @@ class GaitReport(GaitNumbers):
             "branches": list(self.stance.labels),
             "knees": list(self.stance.knees),
             "branch_choice": self.stance.sentence(),
+            "cycle": self.gait.cycle,
             "samples": len(self.joints.time),
             "inertia": self.robot.inertia,
             "thesis_pin": __version__,
@@ -180,6 +181,7 @@ class GaitReport(GaitNumbers):
                 {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}
                 for j in self.rate_jumps
             ],
+            "ends": self.ends.document(),
             "impacts": [
                 {
                     "time": impact.t * self.time_unit,
