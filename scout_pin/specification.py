@@ -6,12 +6,13 @@ polygonal soles) is another file of this format; the two legs need not be equal.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, field_validator
+from pydantic import AfterValidator, Field, field_validator
 
 from thesis_pin.errors import NonPhysicalInertia
 from thesis_pin.model.mechanism.inertia import (
@@ -32,6 +33,7 @@ from thesis_pin.model.specification import (
     read_toml,
 )
 from thesis_pin.numeric.checks import choice
+from thesis_pin.sizing.actuator import Actuator
 
 SCOUT_PATH = Path(__file__).parent / "specifications" / "scout.toml"
 """The thesis's robot."""
@@ -57,12 +59,50 @@ SixNames = tuple[str, str, str, str, str, str]
 Twelve = Annotated[tuple[float, ...], Field(min_length=12, max_length=12)]
 
 
+def _branch(text: str) -> str:
+    words = text.split(",")
+    if len(words) > 2 or not all(re.fullmatch("[+-]{3}|forward|backward", word) for word in words):
+        raise ValueError(
+            'must be three signs for both legs, as "+-+", or for each, as "+++,-+-"; or the '
+            'way the knees bend, "forward" or "backward"'
+        )
+    return text
+
+
+class BranchKeys(Strict):
+    """How the legs are to stand where several ways reach: in specifications and gaits.
+
+    Attributes:
+        knee: The way both knees bend, seen from the soles: towards the toes or away.
+        branch: The same for each leg, or the signs of one branch of inverse kinematics.
+    """
+
+    knee: Literal["forward", "backward"] | None = None
+    branch: Annotated[str, AfterValidator(_branch)] | None = None
+
+    @property
+    def branch_asked(self) -> str | None:
+        """What is asked for, as an argument ``branch`` takes it; None if it is left open."""
+        return self.branch or self.knee
+
+    def cross_check(self) -> Iterator[tuple[Key, str, object]]:
+        """Only one of the two is given."""
+        if self.knee and self.branch:
+            yield ("branch",), "says what knee says already; leave one of them out", self.branch
+
+
 class Servo(Strict):
-    """A servo's limits (B.1): they bound |τ|/stall_torque + |θ̇|/no_load_speed by 1."""
+    """A servo's limits (B.1): they bound |τ|/stall_torque + |θ̇|/no_load_speed by 1.
+
+    Its rotor, with ``rotor_inertia`` [kg·m²] about its own axis, turns ``gear_ratio`` times as
+    fast as the joint; the thesis gives none. Its mass is part of the links'.
+    """
 
     stall_torque: Positive
     no_load_speed: Positive
     size: tuple[Positive, Positive, Positive] = (38.8e-3, 19.8e-3, 36.0e-3)
+    rotor_inertia: NotNegative = 0.0
+    gear_ratio: Positive = 1.0
 
 
 class Link(Strict):
@@ -157,7 +197,7 @@ class Assumptions(Strict):
     joint_friction: JointFriction
 
 
-class Specification(Strict):
+class Specification(BranchKeys):
     """A Scout-like biped. ``Specification.read(path)`` reads and validates a file."""
 
     format: Literal[1]
@@ -219,8 +259,31 @@ class Specification(Strict):
             np.array([servo.no_load_speed for servo in servos]),
         )
 
+    def actuator(self, servo: str) -> Actuator:
+        """A servo by its name, as any actuator."""
+        one = self.servos[choice("servo", servo, tuple(self.servos))]
+        return Actuator(
+            servo,
+            one.stall_torque,
+            one.no_load_speed,
+            size=one.size,
+            rotor_inertia=one.rotor_inertia,
+            gear_ratio=one.gear_ratio,
+        )
+
+    def driven_by(self, servo: str) -> tuple[str, ...]:
+        """Joints that a servo drives."""
+        servos = [name for side in SIDES for name in self.leg(side).servos]
+        return tuple(joint for joint, one in zip(JOINT_NAMES, servos, strict=True) if one == servo)
+
+    def armature(self) -> np.ndarray:
+        """Inertia of each joint's rotor as the joint feels it, N² J [kg·m²], ``(12,)``."""
+        servos = [name for side in SIDES for name in self.leg(side).servos]
+        return np.array([self.actuator(name).armature for name in servos])
+
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Servo names, joint ranges and physical inertias."""
+        yield from super().cross_check()
         known = ", ".join(self.servos)
         for side in SIDES:
             for name in dict.fromkeys(self.leg(side).servos):

@@ -44,6 +44,7 @@ def _tiles(report: TrajectoryReport) -> list[Tile]:
         Tile("peak power of a motor", f"{a.peak_power.max():.3f} W"),
         Tile("work given by the motors", f"{a.positive_work.sum():.3f} J"),
         Tile("peak ball-joint force", f"{report.loop_force_size.max():.2f} N"),
+        Tile("fastest spray tip", f"{report.tool_speed.max():.3f} m/s"),
         Tile("least reach margin", f"{report.solutions.margin.min():z.3f}"),
         Tile("largest condition number", f"{report.holding.condition.max():.1f}"),
         Tile("loops open by, most", f"{report.solutions.loop_residual.max():.1e} m"),

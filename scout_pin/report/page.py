@@ -6,6 +6,7 @@ import numpy as np
 
 from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
+from scout_pin.report.implausible import implausible
 from scout_pin.report.tables import joints_table
 from scout_pin.report.verdict import digs, soles_collide
 from scout_pin.report.view import gait_scene
@@ -30,7 +31,11 @@ def gait_page(report: GaitReport) -> bytes:
             subtitle=f"{seconds:.4g} s, time unit {report.time_unit:g} s, "
             f"{len(report.joints.time)} samples. {report.gait.source}",
             good=report.within_limits,
-            verdict=[*report.verdict(), *(f"Note: {note}." for note in report.gait.notes)],
+            verdict=[
+                *report.verdict(),
+                *(f"Note: {note}." for note in report.gait.notes),
+                *(f"Warning: {one}" for one in implausible(report.robot.specification)),
+            ],
             tiles=_tiles(report),
             plots=plots(report, thinned(report.joints.time, MOST_SAMPLES)),
             tables=_tables(report),
