@@ -65,6 +65,48 @@ def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
     return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
 
 
+def size_verb(robot: Robot, help: str, description: str, example: str, *, samples: int) -> Verb:
+    """The verb that holds a list of servos or motors against a motion."""
+
+    def which(words: Words) -> None:
+        words.add_argument(
+            "servos",
+            nargs="+",
+            metavar="LIST",
+            help="lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)",
+        )
+        words.add_argument(
+            "--voltage",
+            type=options.number("--voltage", positive=True),
+            metavar="V",
+            help="take those for this voltage (default: all)",
+        )
+        words.add_argument(
+            "--factor",
+            type=options.number("--factor", positive=True),
+            default=1.0,
+            help="least safety factor against the torque-speed line (default: 1)",
+        )
+        words.add_argument(
+            "--samples",
+            type=options.count("--samples", 2),
+            default=samples,
+            metavar="N",
+            help=f"evenly spaced samples of the motion (default: {samples})",
+        )
+        words.add_argument("--out", metavar="DIR", help="write report.json and sizes.csv")
+        options.add_json(words, "the answer")
+        words.add_argument(
+            "--strict",
+            action="store_true",
+            help="exit with 1 if some joint has no servo that carries it for long",
+        )
+
+    return _verb(
+        robot, "size", (help, description, example), robot.size, verbs.size, which, robot.motion
+    )
+
+
 def ik_verb(
     robot: Robot, help: str, description: str, example: str, pose: Callable[[Words], None]
 ) -> Verb:

@@ -7,14 +7,25 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Robot, found
-from thesis_pin.command.results import Answer, Report, deliver, give, put, put_folder, said
+from thesis_pin.command.results import (
+    Answer,
+    Report,
+    deliver,
+    give,
+    put,
+    put_folder,
+    said,
+    write_results,
+)
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
+    from thesis_pin.sizing.document import Sizing
 
 
 class MakeReport(Protocol):
@@ -88,6 +99,27 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         ready=ready,
     )
     return ExitCode.DONE
+
+
+def size(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Hold lists of servos against a motion."""
+    from thesis_pin.report.writers import csv_bytes, json_bytes
+    from thesis_pin.sizing.catalogue import read_catalogue
+    from thesis_pin.sizing.tables import summary
+
+    catalogue = read_catalogue(arguments.servos, voltage=arguments.voltage)
+    files: dict[str, bytes] = {}
+    with Bar("working out the motion") as bar:
+        report = _report(robot, arguments, lambda _: arguments.samples, bar)
+        found: Sizing = _hook(robot, robot.size)(report, catalogue, arguments.factor)
+        wanted = arguments.json or arguments.out
+        content = json_bytes(found.document(robot.command)) if wanted else b""
+        if arguments.out:
+            files = {"report.json": content, "sizes.csv": csv_bytes(found.columns())}
+    write_results(arguments, files, content)
+    if free(arguments):
+        print_parts(summary(found))
+    return ExitCode.NO if arguments.strict and not found.yes else ExitCode.DONE
 
 
 def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
