@@ -44,16 +44,7 @@ def report_verb(
         samples: Default number of samples.
         breaks: When ``--strict`` exits with 1.
     """
-
-    def how_many(words: Words) -> None:
-        words.add_argument(
-            "--samples",
-            type=options.count("--samples", 2),
-            default=samples,
-            metavar="N",
-            help=f"evenly spaced samples; more stand beside abrupt changes (default: {samples})",
-        )
-
+    how_many = partial(options.add_samples, default=samples)
     add = (robot.motion, how_many, partial(options.add_report, breaks=breaks))
     run = partial(verbs.report, what=f"working out the {name}")
     return _verb(robot, name, (help, description, example), robot.report, run, *add)
@@ -87,13 +78,7 @@ def size_verb(robot: Robot, help: str, description: str, example: str, *, sample
             default=1.0,
             help="least safety factor against the torque-speed line (default: 1)",
         )
-        words.add_argument(
-            "--samples",
-            type=options.count("--samples", 2),
-            default=samples,
-            metavar="N",
-            help=f"evenly spaced samples of the motion (default: {samples})",
-        )
+        options.add_samples(words, samples)
         words.add_argument("--out", metavar="DIR", help="write report.json and sizes.csv")
         options.add_json(words, "the answer")
         words.add_argument(
