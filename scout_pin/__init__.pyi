@@ -22,6 +22,7 @@ from .kinematics.solutions import (
 # Motion
 from .motion.gait import Gait as Gait
 from .motion.files import load_gait as load_gait
+from .motion.cycles import repeat_gait as repeat_gait
 from .motion.trajectory import joint_trajectory as joint_trajectory
 
 # Dynamics

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
-from thesis_pin.command.options import add_branch, number
+from thesis_pin.command.options import add_branch, count, number
 from thesis_pin.command.registry import Command, Parser, Robot
 
 _branch = partial(
@@ -35,6 +35,19 @@ def _which_gait(words: argparse.ArgumentParser) -> None:
         type=number("--time-unit", positive=True),
         metavar="SECONDS",
         help="seconds in the gait's unit of t (default: the gait's own)",
+    )
+    words.add_argument(
+        "--cycle",
+        action="store_true",
+        help="the gait's end is its start, a step further (as cycle = true in its file)",
+    )
+    words.add_argument(
+        "--repeat",
+        type=count("--repeat", 1),
+        default=1,
+        metavar="N",
+        help="walk the gait N times, each time a step further and with as many samples "
+        "(default: 1)",
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,15 +19,22 @@ def report(
     progress: Callable[[int, int], None],
 ) -> object:
     """The report on the gait that the arguments ask for."""
+    from scout_pin.motion.cycles import repeat_gait
     from scout_pin.motion.files import load_gait
     from scout_pin.report.document import gait_report
 
     gait = load_gait(arguments.gait, arguments.interpolation, robot=robot)
+    if arguments.cycle:
+        gait = replace(gait, cycle=True)
+    one = gait.end - gait.start
+    if arguments.repeat > 1:
+        gait = repeat_gait(gait, arguments.repeat)
     unit = arguments.time_unit or gait.time_unit
     return gait_report(
         robot,
         gait,
-        samples=samples((gait.end - gait.start) * unit),
+        # As many for each walk: peaks don't get lost where it is repeated.
+        samples=1 + arguments.repeat * (samples(one * unit) - 1),
         time_unit=unit,
         branch=arguments.branch,
         progress=progress,

@@ -43,6 +43,12 @@ class Tolerances:
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
         rate_jump: Jump of rate that counts as smooth [m/s], [rad/s]: spread over a servo's
             period of 10 ms it moves the zero-moment point of a robot of 0.2 m by 0.2 mm.
+        closed_acceleration: Jump of acceleration where a cycle begins anew that isn't told
+            [m/s²]: 1 mm of the zero-moment point of a robot of 0.2 m.
+        closed_turning: The same of its angles [rad/s²].
+        rest_rate: Rate at which a gait still begins or ends at rest [m/s]: to stop it a robot
+            of 0.2 m needs 0.1 mm of its soles.
+        rest_turning: The same of its angles [rad/s].
         step: Least distance of two nodes or samples: below it, rates are made of
             rounding [s], [-].
         static: Joint speed below which Coulomb friction is taken as zero [rad/s].
@@ -107,6 +113,10 @@ class Tolerances:
     joint_limit: float = 1e-9
     seam: float = 1e-4
     rate_jump: float = 1e-4
+    closed_acceleration: float = 0.05
+    closed_turning: float = 0.5
+    rest_rate: float = 1e-3
+    rest_turning: float = 1e-2
     step: float = 1e-9
     static: float = 1e-9
     wrench: float = 1e-7

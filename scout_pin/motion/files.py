@@ -77,6 +77,7 @@ class GaitFile(Strict):
     source: str = ""
     time_unit: Positive
     interpolation: Method = "quadratic"
+    cycle: bool = False
     torso: BodyCurves
     left_foot: BodyCurves
     right_foot: BodyCurves
@@ -184,7 +185,7 @@ def load_gait(
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
-    return Gait(file.name, file.source, file.time_unit, curves, file.phases)
+    return Gait(file.name, file.source, file.time_unit, curves, file.phases, cycle=file.cycle)
 
 
 def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[PPoly, ...]:

@@ -105,6 +105,7 @@ class Gait:
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
         notes: What was chosen or mended when it was read, in plain words.
+        cycle: Whether its end is meant to be its start, a step further.
         reference: Angles [rad] of the joints that its first sample is near, twelve, where
             they are known: they choose the branch of the legs.
     """
@@ -115,6 +116,7 @@ class Gait:
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
+    cycle: bool = False
     reference: tuple[float, ...] | None = None
 
     @property

@@ -150,7 +150,7 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
         curves,
         phases,
         (*samples.notes, *notes),
-        samples.reference,
+        reference=samples.reference,
     )
 
 

@@ -84,6 +84,7 @@ class GaitReport(GaitNumbers):
             "gait": self.gait.name,
             "time_unit": self.time_unit,
             "branch": self.branch,
+            "cycle": self.gait.cycle,
             "samples": len(self.joints.time),
             "inertia": self.robot.inertia,
             "thesis_pin": __version__,
@@ -189,6 +190,7 @@ class GaitReport(GaitNumbers):
                 {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}
                 for j in self.rate_jumps
             ],
+            "ends": self.ends.document(),
             "impacts": [
                 {
                     "time": impact.t * self.time_unit,
