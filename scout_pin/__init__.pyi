@@ -14,10 +14,8 @@ from .model import (
 )
 
 # Kinematics
-from .kinematics.solutions import (
-    BRANCHES as BRANCHES,
-    LegSolutions as LegSolutions,
-)
+from .kinematics.branches import BRANCHES as BRANCHES
+from .kinematics.solutions import LegSolutions as LegSolutions
 
 # Motion
 from .motion.gait import Gait as Gait

@@ -12,13 +12,13 @@ from thesis_pin.command.registry import Command, Parser, Robot
 
 _branch = partial(
     add_branch,
-    signs="three signs S_E S_2 S_K for both legs, written --branch=+-+, or for left and right, "
-    "--branch=+++,-+-",
+    signs="the way the knees bend, forward or backward, or three signs S_E S_2 S_K, written "
+    "--branch=+-+; for both legs, or for left and right, --branch=+++,-+-",
 )
 
 
 def _which_gait(words: argparse.ArgumentParser) -> None:
-    _branch(words, default="the nearest to zero angles that is valid throughout")
+    _branch(words, default="the gait's, the specification's, else nearest to neutral")
     words.add_argument(
         "--gait",
         metavar="NAME|FILE",

@@ -40,6 +40,8 @@ class Tolerances:
             it moves the zero-moment point of a robot of 0.2 m by 2 µm [m/s²], [rad/s²].
         moves: Travel from which something moves rather than trembles [m], [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
+        branch_tie: Difference of two branches' distance from the neutral pose below which
+            neither is the nearer; less than a hobby servo's dead band [rad].
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
         rate_jump: Jump of rate that counts as smooth [m/s], [rad/s]: spread over a servo's
             period of 10 ms it moves the zero-moment point of a robot of 0.2 m by 0.2 mm.
@@ -111,6 +113,7 @@ class Tolerances:
     inertia_unfelt: float = 1e-4
     moves: float = 1e-3
     joint_limit: float = 1e-9
+    branch_tie: float = 1e-3
     seam: float = 1e-4
     rate_jump: float = 1e-4
     closed_acceleration: float = 0.05

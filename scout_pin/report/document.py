@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from functools import cached_property
 
@@ -11,14 +12,16 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
 from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
-from scout_pin.kinematics.solutions import branch_label
+from scout_pin.kinematics.branches import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import verdict
 from scout_pin.report.implausible import implausible
 from scout_pin.report.numbers import GaitNumbers
+from scout_pin.report.stance import Stance, branch_asked, stance
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
+from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
@@ -52,6 +55,11 @@ class GaitReport(GaitNumbers):
         """Walkable and carried by the servos."""
         return verdict.within_limits(self)
 
+    @cached_property
+    def stance(self) -> Stance:
+        """The branches the legs are on, why, and what else would do."""
+        return stance(self.robot, self.gait, self.motion, self.joints, self.branch)
+
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
@@ -84,6 +92,9 @@ class GaitReport(GaitNumbers):
             "gait": self.gait.name,
             "time_unit": self.time_unit,
             "branch": self.branch,
+            "branches": list(self.stance.labels),
+            "knees": list(self.stance.knees),
+            "branch_choice": self.stance.sentence(),
             "cycle": self.gait.cycle,
             "samples": len(self.joints.time),
             "inertia": self.robot.inertia,
@@ -223,8 +234,8 @@ def gait_report(
         gait: The gait.
         samples: Number of evenly spaced samples.
         time_unit: Seconds in the gait's unit of t; None for the gait's own.
-        branch: Signs of the branch to take, for both legs or one label a leg, as ``"+-+"``
-            or ``("+++", "-+-")``; None takes one that is valid throughout.
+        branch: What to choose from, see :meth:`scout_pin.Scout.inverse_kinematics`; None
+            for what the gait says, else the specification.
         progress: Called with the steps done and their total.
 
     Raises:
@@ -236,7 +247,8 @@ def gait_report(
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
-    joints = joint_trajectory(robot, motion, branch=branch, reference=gait.reference)
+    asked = branch_asked(robot, gait, branch)
+    joints = joint_trajectory(robot, motion, branch=asked, reference=gait.reference)
     progress(2, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
     progress(3, 4)
@@ -249,7 +261,7 @@ def gait_report(
         robot=robot,
         gait=gait,
         time_unit=unit,
-        branch=branch_label(branch),
+        branch=branch_label(asked),
         motion=motion,
         joints=joints,
         dynamics=dynamics,
@@ -259,4 +271,6 @@ def gait_report(
         impacts=tuple(impacts(robot, gait, joints, unit)),
     )
     progress(4, 4)
+    if report.stance.tied:
+        warnings.warn(report.stance.sentence(), ModelWarning, stacklevel=2)
     return report

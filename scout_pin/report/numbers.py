@@ -27,7 +27,8 @@ class GaitNumbers:
     Attributes:
         robot, gait: What was asked about.
         time_unit: Seconds in the gait's unit of t.
-        branch: Labels of the branches asked for, left then right; None left it open.
+        branch: What the legs were asked for, left then right: labels, or ways of the
+            knees; None left it open.
         motion: Sampled task-space motion.
         joints: Joint trajectory.
         dynamics: Torques and floor wrenches.

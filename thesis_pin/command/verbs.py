@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+import contextlib
+import warnings
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, Protocol
 
 from thesis_pin.command.options import refuse_beside
@@ -12,6 +14,7 @@ from thesis_pin.command.registry import Robot, found
 from thesis_pin.command.results import Answer, Report, deliver, give, put, put_folder, said
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
+from thesis_pin.errors import ModelWarning
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
@@ -147,8 +150,22 @@ def _hook(robot: Robot, name: str) -> Any:
     return found(robot.name_of(name))
 
 
+@contextlib.contextmanager
+def _said() -> Iterator[None]:
+    """Say what the library warns of in the words of a command."""
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always", ModelWarning)
+        yield
+    for one in found:
+        if issubclass(one.category, ModelWarning):
+            say(f"warning: {one.message}")
+        else:
+            warnings.showwarning(one.message, one.category, one.filename, one.lineno)
+
+
 def _load(robot: Robot, arguments: argparse.Namespace) -> Any:
-    return _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
+    with _said():
+        return _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
 
 
 def _report(
@@ -158,4 +175,6 @@ def _report(
     progress: Callable[[int, int], None],
 ) -> Report:
     make: MakeReport = _hook(robot, robot.makes_report)
-    return make(arguments, _load(robot, arguments), samples, progress)
+    loaded = _load(robot, arguments)
+    with _said():
+        return make(arguments, loaded, samples, progress)
