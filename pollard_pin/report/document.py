@@ -10,6 +10,7 @@ import numpy as np
 from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.dynamics.inverse import inverse_dynamics
 from pollard_pin.dynamics.three_motors import three_torques
+from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
@@ -26,7 +27,7 @@ from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.workers import silent
-from thesis_pin.report.info import assumptions
+from thesis_pin.report.info import assumptions, odd_sizes
 from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/trajectory-report"
@@ -56,7 +57,7 @@ class TrajectoryReport(TrajectoryNumbers):
                     continue
                 one["name"] = f"inertia of {one['link']}"
             result.append(one)
-        return result
+        return [*result, *odd_sizes(implausible(self.robot.specification))]
 
     @property
     def parameters(self) -> dict[str, object]:
@@ -135,6 +136,7 @@ class TrajectoryReport(TrajectoryNumbers):
         summary: dict[str, object] = {
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
+            "implausible": implausible(self.robot.specification),
             **self.actuators.document(),
             "tool_speed": {
                 "least": float(self.tool_speed.min()),
