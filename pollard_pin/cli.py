@@ -24,8 +24,22 @@ def _which_path(words: argparse.ArgumentParser) -> None:
     )
     words.add_argument(
         "--timing",
-        choices=("constant-rate", "rest-to-rest"),
-        help="timing of appendix B's curve (default: the specification's)",
+        choices=("constant-rate", "rest-to-rest", "ramped"),
+        help="timing of appendix B's curve (default: the specification's), or of a path whose "
+        "times a tool speed gives (default: ramped)",
+    )
+    words.add_argument(
+        "--euler",
+        metavar="ORDER",
+        help="order of the angles in columns a, b, c (or about rx, ry, rz) of a path: ZYX turns "
+        "about z, then the turned y, then the turned x; zyx about the fixed axes. Columns psi, "
+        "theta, phi are Rx(θ) Ry(ψ) Rz(φ)",
+    )
+    words.add_argument(
+        "--feed",
+        type=number("--feed", positive=True),
+        metavar="SPEED",
+        help="speed of the spray tip along a path without times [m/s]",
     )
     words.add_argument(
         "--placement",

@@ -25,8 +25,13 @@ from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
+from thesis_pin.report import pace
 from thesis_pin.report.info import assumptions, odd_sizes
+from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
+
+ARM = 0.1
+"""Length [m] at which a body's turning counts as its moving."""
 
 SCHEMA = "scout-pin/gait-report"
 VERSION = 2
@@ -58,6 +63,20 @@ class GaitReport(GaitNumbers):
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
+
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed."""
+        return self._doubts
+
+    @cached_property
+    def _doubts(self) -> list[str]:
+        seconds, speed, push = float(self.joints.time[-1] - self.joints.time[0]), 0.0, 0.0
+        for samples in blocks(len(self.joints.time)):
+            part = self.motion.part(samples)
+            for body in (part.torso, part.left_foot, part.right_foot):
+                speed = max(speed, largest(body.velocity, ARM * body.omega))
+                push = max(push, largest(body.acceleration, ARM * body.alpha))
+        return pace.doubts(seconds, speed * seconds, push)
 
     def assumptions(self) -> list[dict[str, object]]:
         """Numbers that nothing prints, with their reasons, and sizes taken as they are."""
@@ -146,6 +165,7 @@ class GaitReport(GaitNumbers):
             "can_walk": self.can_walk,
             "servos_carry": self.servos_carry,
             "verdict": self.verdict(),
+            "doubts": self.doubts(),
             "peak_torque": a.peak_torque,
             "rms_torque": a.rms_torque,
             "peak_speed": a.peak_speed,

@@ -32,6 +32,7 @@ def gait_page(report: GaitReport) -> bytes:
             f"{len(report.joints.time)} samples. {report.gait.source}",
             good=report.within_limits,
             verdict=[
+                *(f"Warning: {one}." for one in report.doubts()),
                 *report.verdict(),
                 *(f"Note: {note}." for note in report.gait.notes),
                 *(f"Warning: {one}" for one in implausible(report.robot.specification)),
