@@ -89,6 +89,13 @@ def add_report(words: Words, breaks: str) -> None:
     words.add_argument("--strict", action="store_true", help=f"exit with 1 if {breaks}")
 
 
+def add_strict(words: Words) -> None:
+    """Refuse what is only warned of."""
+    words.add_argument(
+        "--strict", action="store_true", help="refuse sizes that nobody builds (exit code 2)"
+    )
+
+
 def add_view(words: Words) -> None:
     """The options every ``view`` verb has besides its motion's."""
     words.add_argument(

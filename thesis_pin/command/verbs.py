@@ -24,7 +24,7 @@ from thesis_pin.command.results import (
 )
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
-from thesis_pin.errors import ModelWarning
+from thesis_pin.errors import BadInput, ModelWarning
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
@@ -183,11 +183,16 @@ def _hook(robot: Robot, name: str) -> Any:
 
 
 @contextlib.contextmanager
-def _said() -> Iterator[None]:
-    """Say what the library warns of in the words of a command."""
+def _said(strict: bool = False) -> Iterator[None]:
+    """Say what the library warns of in the words of a command, or refuse it."""
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", ModelWarning)
         yield
+    odd = [str(one.message) for one in found if issubclass(one.category, ModelWarning)]
+    if strict and odd:
+        raise BadInput(
+            "; ".join(odd), where="--strict", remedy="Correct the sizes, or leave --strict out"
+        )
     for one in found:
         if issubclass(one.category, ModelWarning):
             say(f"warning: {one.message}")
@@ -196,7 +201,7 @@ def _said() -> Iterator[None]:
 
 
 def _load(robot: Robot, arguments: argparse.Namespace) -> Any:
-    with _said():
+    with _said(strict=getattr(arguments, "strict", False)):
         return _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
 
 
