@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from pollard_pin.report.numbers import TrajectoryNumbers
-from pollard_pin.specification import ACTUATOR_SYMBOLS
+from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.numeric.arrays import wrap
+from thesis_pin.tolerances import TOLERANCES
 
 _NEAR = (
     "nearly touches a singularity",
@@ -21,7 +23,12 @@ def within_limits(numbers: TrajectoryNumbers) -> bool:
 
 def sentences(numbers: TrajectoryNumbers) -> list[str]:
     """The verdict, most important first: reach, singularities, motors, energy."""
-    return [*_reach(numbers), *_motors(numbers), *_balance(numbers)]
+    return [
+        *_reach(numbers),
+        *_motors(numbers),
+        *_balance(numbers),
+        *_turns(numbers),
+    ]
 
 
 def _reach(numbers: TrajectoryNumbers) -> list[str]:
@@ -35,6 +42,19 @@ def _reach(numbers: TrajectoryNumbers) -> list[str]:
         f"{margin[k]:z.3f} (t = {numbers.joints.time[k]:.3g} s), condition "
         f"number {condition.min():.1f} to {condition.max():.1f}.",
     ]
+
+
+def _turns(numbers: TrajectoryNumbers) -> list[str]:
+    """Joints that start outside (−180°, 180°]: the turn that was taken for the user."""
+    start, told = numbers.joints.part(np.array([0])).q[0], []
+    for k in np.flatnonzero(np.abs(start) > np.pi + TOLERANCES.joint_limit):
+        low, high = np.degrees([numbers.robot.lower[k], numbers.robot.upper[k]])
+        told.append(
+            f"{JOINT_NAMES[k]} ({JOINT_SYMBOLS[k]}) starts at {np.degrees(start[k]):.2f}°, whole "
+            f"turns from {np.degrees(wrap(start[k])):.2f}°: so the motion fits {low:g}° to "
+            f"{high:g}°."
+        )
+    return told
 
 
 def _motors(numbers: TrajectoryNumbers) -> list[str]:

@@ -18,9 +18,21 @@ def can_walk(numbers: GaitNumbers) -> bool:
     return bool(
         (numbers.margin > 0).all()
         and numbers.dynamics.admissible.all()
-        and numbers.clearance >= -TOLERANCES.clearance
+        and not digs(numbers)
+        and not soles_collide(numbers)
         and not numbers.rate_jumps
     )
+
+
+def digs(numbers: GaitNumbers) -> bool:
+    """Whether a swinging sole goes into the floor."""
+    lowest = numbers.lowest_corner
+    return lowest is not None and lowest < -TOLERANCES.clearance
+
+
+def soles_collide(numbers: GaitNumbers) -> bool:
+    """Whether the soles touch each other."""
+    return numbers.sole_gap[0] < TOLERANCES.sole_gap
 
 
 def within_limits(numbers: GaitNumbers) -> bool:
@@ -107,9 +119,23 @@ def _servos(numbers: GaitNumbers) -> list[str]:
 
 
 def _swing(numbers: GaitNumbers) -> list[str]:
-    if numbers.clearance < -TOLERANCES.clearance:
-        return [f"A swinging sole goes {-numbers.clearance * 1e3:.1f} mm into the floor."]
-    return []
+    said = []
+    if digs(numbers):
+        depth = -(numbers.lowest_corner or 0.0)
+        said.append(f"A swinging sole goes {depth * 1e3:.1f} mm into the floor.")
+    if soles_collide(numbers):
+        time = numbers.motion.t[numbers.sole_gap[1]]
+        said.append(f"The soles collide (t = {time:g}).")
+    scraping = [swing for swing in numbers.swings if swing.scrapes]
+    if scraping:
+        worst = max(scraping, key=lambda swing: swing.scraped)
+        often = "" if len(scraping) == 1 else f", and {len(scraping) - 1} other swings do"
+        said.append(
+            f"The {worst.side} foot scrapes: of its way of {worst.way * 1e3:.1f} mm it makes "
+            f"{worst.scraped * 1e3:.1f} mm less than {TOLERANCES.scrape_height * 1e3:g} mm above "
+            f"the floor (t = {worst.start:g} to {worst.end:g}){often}."
+        )
+    return said
 
 
 def _smooth(numbers: GaitNumbers) -> list[str]:
