@@ -16,6 +16,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.errors import ModelError, UnknownName
+from thesis_pin.loops.configurations.rounding import Rounding, rounding
 from thesis_pin.loops.joint_types import replace_joints
 from thesis_pin.loops.joints import is_free, singles
 from thesis_pin.loops.system.equations import Equations
@@ -117,6 +118,19 @@ class ClosedRobot(LoadedRobot):
     def scale(self) -> Scale:
         """What makes the equations comparable."""
         return scale_of(self.system)
+
+    @cached_property
+    def rounding(self) -> Rounding | None:
+        """Which of its directions are nearly round; None if none is."""
+        return rounding(self.description)
+
+    @cached_property
+    def rounded(self) -> ClosedRobot:
+        """The robot that its file may have meant: nearly round directions made round."""
+        if self.rounding is None:
+            return self
+        root = pin.JointModelFreeFlyer() if len(self.base) else None
+        return ClosedRobot(self.rounding.description, root_joint=root)
 
     @property
     def constraint_models(
