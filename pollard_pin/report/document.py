@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.dynamics.inverse import inverse_dynamics
 from pollard_pin.dynamics.three_motors import three_torques
+from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
@@ -25,12 +27,18 @@ from pollard_pin.report import verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.checks import choice, function, instance
+from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
-from thesis_pin.report.info import assumptions
+from thesis_pin.report import pace
+from thesis_pin.report.info import assumptions, odd_sizes
+from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
 
+ARM = 0.1
+"""Length [m] at which the tool's turning counts as its moving."""
+
 SCHEMA = "pollard-pin/trajectory-report"
-VERSION = 1
+VERSION = 2
 
 
 class TrajectoryReport(TrajectoryNumbers):
@@ -45,6 +53,19 @@ class TrajectoryReport(TrajectoryNumbers):
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
 
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed."""
+        return self._doubts
+
+    @cached_property
+    def _doubts(self) -> list[str]:
+        seconds, speed, push = float(self.joints.time[-1] - self.joints.time[0]), 0.0, 0.0
+        for samples in blocks(len(self.joints.time)):
+            part = self.motion.part(samples)
+            speed = max(speed, largest(part.rate[:, :3], ARM * part.rate[:, 3:]))
+            push = max(push, largest(part.acceleration[:, :3], ARM * part.acceleration[:, 3:]))
+        return pace.doubts(seconds, speed * seconds, push)
+
     def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open and this report rests on, with their reasons."""
         result = []
@@ -56,7 +77,7 @@ class TrajectoryReport(TrajectoryNumbers):
                     continue
                 one["name"] = f"inertia of {one['link']}"
             result.append(one)
-        return result
+        return [*result, *odd_sizes(implausible(self.robot.specification))]
 
     @property
     def parameters(self) -> dict[str, object]:
@@ -83,6 +104,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "symbols": list(JOINT_SYMBOLS),
             "time": self.joints.time,
             "pose": self.motion.pose,
+            "tool_speed": self.tool_speed,
             "theta": self.joints.q,
             "theta_rate": self.joints.v,
             "theta_acceleration": self.joints.a,
@@ -108,6 +130,7 @@ class TrajectoryReport(TrajectoryNumbers):
         units = ("m", "m", "m", "rad", "rad", "rad")
         for k, (name, unit) in enumerate(zip(POSE_NAMES, units, strict=True)):
             columns[f"{name}_{unit}"] = self.motion.pose[:, k]
+        columns["tool_speed_m_s"] = self.tool_speed
         for prefix, names, values, unit in (
             ("theta", JOINT_NAMES, self.joints.q, "rad"),
             ("theta_rate", JOINT_NAMES, self.joints.v, "rad_s"),
@@ -133,7 +156,14 @@ class TrajectoryReport(TrajectoryNumbers):
         summary: dict[str, object] = {
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
+            "implausible": implausible(self.robot.specification),
+            "doubts": self.doubts(),
             **self.actuators.document(),
+            "tool_speed": {
+                "least": float(self.tool_speed.min()),
+                "largest": float(self.tool_speed.max()),
+                "time": float(time[self.tool_speed.argmax()]),
+            },
             "energy": {
                 "net_work": float(self.work_done[-1].sum()),
                 "change": self.energy_change,

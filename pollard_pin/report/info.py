@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from pollard_pin.closure import gruebler
+from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.model import Pollard
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, JOINT_SYMBOLS, LINK_NAMES
@@ -15,7 +16,7 @@ from thesis_pin.report import info
 def document(robot: Pollard) -> info.Info:
     """A robot's joints, bodies, loops, mobility and assumptions, JSON-ready."""
     spec = robot.specification
-    limits = spec.assumptions.joint_limits
+    limits = [spec.assumptions.joint_limits.of_joint(k) for k in range(len(JOINT_NAMES))]
     joints: list[info.JointEntry] = [
         {
             "name": name,
@@ -24,8 +25,8 @@ def document(robot: Pollard) -> info.Info:
             "motor": k in ACTUATORS,
             "lower": float(robot.lower[k]),
             "upper": float(robot.upper[k]),
-            "effort": limits.effort if k in ACTUATORS else None,
-            "velocity": limits.velocity if k in ACTUATORS else None,
+            "effort": limits[k][0] if k in ACTUATORS else None,
+            "velocity": limits[k][1] if k in ACTUATORS else None,
         }
         for k, name in enumerate(JOINT_NAMES)
     ]
@@ -54,6 +55,7 @@ def document(robot: Pollard) -> info.Info:
         freedom={"counted": gruebler(), "by_rank": rank, "at_pose": pose},
         neutral={"spray_tip": pose[:3]},
         stated=spec.assumptions,
+        implausible=implausible(spec),
     )
 
 

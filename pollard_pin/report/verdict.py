@@ -60,21 +60,22 @@ def _turns(numbers: TrajectoryNumbers) -> list[str]:
 def _motors(numbers: TrajectoryNumbers) -> list[str]:
     """The most loaded motors, or everything that is exceeded."""
     use, broken = numbers.motor_use, []
-    for shares, times, limit in (
-        (use.torque, use.torque_time, f"{use.effort:g} N·m"),
-        (use.speed, use.speed_time, f"{use.velocity:g} rad/s"),
+    for shares, times, limits, unit in (
+        (use.torque, use.torque_time, use.effort, "N·m"),
+        (use.speed, use.speed_time, use.velocity, "rad/s"),
     ):
         for k in np.flatnonzero(shares > 1.0):
             broken.append(
-                f"{ACTUATOR_SYMBOLS[k]} needs {shares[k]:.0%} of its {limit} (t = {times[k]:.3f} s)"
+                f"{ACTUATOR_SYMBOLS[k]} needs {shares[k]:.0%} of its {limits[k]:g} {unit} "
+                f"(t = {times[k]:.3f} s)"
             )
     if broken:
         return [f"The motors can't do this: {'; '.join(broken)}."]
     torque, speed = int(use.torque.argmax()), int(use.speed.argmax())
     return [
         f"Motors within their limits: the most loaded is {ACTUATOR_SYMBOLS[torque]} with "
-        f"{use.torque[torque]:.0%} of {use.effort:g} N·m, the fastest "
-        f"{ACTUATOR_SYMBOLS[speed]} with {use.speed[speed]:.0%} of {use.velocity:g} rad/s."
+        f"{use.torque[torque]:.0%} of {use.effort[torque]:g} N·m, the fastest "
+        f"{ACTUATOR_SYMBOLS[speed]} with {use.speed[speed]:.0%} of {use.velocity[speed]:g} rad/s."
     ]
 
 

@@ -14,9 +14,11 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.model import Scout
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.tables import read_gait_table, through_samples
+from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.specification import Key, Positive, Strict, read_toml
@@ -68,7 +70,7 @@ class BodyCurves(Strict):
     yaw_deg: float | tuple[Segment, ...] | None = None
 
 
-class GaitFile(Strict):
+class GaitFile(BranchKeys):
     """The format of a gait's TOML file."""
 
     format: Literal[1]
@@ -76,6 +78,7 @@ class GaitFile(Strict):
     source: str = ""
     time_unit: Positive
     interpolation: Method = "quadratic"
+    cycle: bool = False
     torso: BodyCurves
     left_foot: BodyCurves
     right_foot: BodyCurves
@@ -83,6 +86,7 @@ class GaitFile(Strict):
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Phases follow each other; segments do, with as many values as nodes."""
+        yield from super().cross_check()
         for k, phase in enumerate(self.phases):
             if phase.end < phase.start:
                 yield ("phases", k, "end"), "a phase can't end before it starts", phase.end
@@ -150,13 +154,19 @@ class GaitFile(Strict):
             )
 
 
-def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -> Gait:
+def load_gait(
+    source: str | Path = "thesis",
+    interpolation: str | None = None,
+    *,
+    robot: Scout | None = None,
+) -> Gait:
     """Load a preset, a TOML gait or a table of samples.
 
     Args:
         source: One of :data:`PRESETS`, or a path ending in ``.toml`` or in one of
             :data:`TABLES`.
         interpolation: Method for every node segment, instead of the file's.
+        robot: The biped, for tables of its joints' angles; nothing else needs it.
 
     Raises:
         BadInput: The file can't be read, has an unknown ending, or a cell of a CSV
@@ -172,12 +182,20 @@ def load_gait(source: str | Path = "thesis", interpolation: str | None = None) -
         source = GAITS / f"{source}.toml"
     path = Path(source)
     if path.suffix.lower() in TABLES:
-        return through_samples(read_gait_table(path), interpolation or "free")
+        return through_samples(read_gait_table(path, robot), interpolation or "free")
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
-    return Gait(file.name, file.source, file.time_unit, curves, file.phases)
+    return Gait(
+        file.name,
+        file.source,
+        file.time_unit,
+        curves,
+        file.phases,
+        cycle=file.cycle,
+        branch=file.branch_asked,
+    )
 
 
 def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[PPoly, ...]:

@@ -42,6 +42,7 @@ class GaitMotion:
         t: The same in the gait's unit, shape ``(n,)``.
         support: Feet in support, left then right, booleans ``(n, 2)``.
         torso, left_foot, right_foot: Motions in the world.
+        branch: The branch its gait asks for; None leaves it open.
     """
 
     time: np.ndarray
@@ -50,6 +51,7 @@ class GaitMotion:
     torso: BodyMotion
     left_foot: BodyMotion
     right_foot: BodyMotion
+    branch: str | None = None
 
     @cached_property
     def phase(self) -> list[str]:
@@ -63,7 +65,10 @@ class GaitMotion:
             self.time[samples],
             self.t[samples],
             self.support[samples],
-            *(body.part(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+            self.torso.part(samples),
+            self.left_foot.part(samples),
+            self.right_foot.part(samples),
+            self.branch,
         )
 
     def at_rest(self, samples: Samples) -> GaitMotion:
@@ -72,7 +77,10 @@ class GaitMotion:
             self.time[samples],
             self.t[samples],
             self.support[samples],
-            *(body.at_rest(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+            self.torso.at_rest(samples),
+            self.left_foot.at_rest(samples),
+            self.right_foot.at_rest(samples),
+            self.branch,
         )
 
 
@@ -105,6 +113,11 @@ class Gait:
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
         notes: What was chosen or mended when it was read, in plain words.
+        cycle: Whether its end is meant to be its start, a step further.
+        reference: Angles [rad] of the joints that its first sample is near, twelve, where
+            they are known: they choose the branch of the legs.
+        branch: The branch it asks for, as an argument ``branch`` takes it; None leaves
+            it to the robot.
     """
 
     name: str
@@ -113,6 +126,9 @@ class Gait:
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
+    cycle: bool = False
+    reference: tuple[float, ...] | None = None
+    branch: str | None = None
 
     @property
     def start(self) -> float:
@@ -225,7 +241,7 @@ class Gait:
             )
         bodies = {name: self.body(name, t, unit) for name in BODIES}
         check_stance(self.name, self.curves, self.phases)
-        return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies)
+        return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies, branch=self.branch)
 
     def _unit(self, time_unit: float | None) -> float:
         """Seconds in a unit of t: what was given, or the gait's own."""

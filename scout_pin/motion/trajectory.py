@@ -18,7 +18,7 @@ from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.elementwise import LONG, Samples, blocks
 from thesis_pin.numeric.long import LongTrajectory
-from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
 from thesis_pin.numeric.turns import TURN, started, unwound
 from thesis_pin.tolerances import TOLERANCES
 
@@ -37,9 +37,8 @@ def joint_trajectory(
     Args:
         robot: The biped.
         motion: The sampled gait.
-        branch: Signs of the branch to take, for both legs or one label a leg, as
-            ``"+-+"`` or ``("+++", "-+-")``; None takes the nearest to the reference of
-            those that are valid throughout.
+        branch: What to choose from, see :meth:`scout_pin.Scout.inverse_kinematics`; None
+            for what the gait says, else the specification.
         reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
             Where a range is wider than a turn, its whole turns are taken.
 
@@ -50,13 +49,16 @@ def joint_trajectory(
     instance("robot", robot, Scout, "scout_pin.load()")
     instance("motion", motion, GaitMotion, "Gait.sample()")
     start = None if reference is None else vector("reference", reference, 12)
-    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=branch)
+    asked = motion.branch if branch is None else branch
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=asked)
     if max(robot.upper.max(), -robot.lower.min()) > np.pi:
         q = _without_jumps(robot, motion.time, q, start)
     if len(q) < LONG:
         return JointTrajectory(motion.time, q, *_rates(robot, motion, q))
     for side, mine in zip(SIDES, _LEGS, strict=True):
         for part in blocks(len(q)):
+            if _rests(motion.part(part), side):
+                continue
             LegScrews(robot.legs[side], q[part, mine]).refuse_singular(part.start)
     return LongTrajectory(motion.time, q, partial(_rates, robot, motion, q))
 
@@ -92,8 +94,26 @@ def _rates(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Joint rates and accelerations at some samples, each ``(m, 12)``."""
     motion, q = motion.part(samples), q[samples]
-    feet = (motion.left_foot, motion.right_foot)
-    v, a = np.empty(q.shape), np.empty(q.shape)
-    for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):
-        v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
+    v, a = np.zeros(q.shape), np.zeros(q.shape)
+    for side, mine in zip(SIDES, _LEGS, strict=True):
+        if not _rests(motion, side):
+            foot = _foot(motion, side)
+            v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
     return v, a
+
+
+def _foot(motion: GaitMotion, side: str) -> BodyMotion:
+    return motion.left_foot if side == "left" else motion.right_foot
+
+
+def _rests(motion: GaitMotion, side: str) -> bool:
+    """Whether torso and a foot rest throughout: so do the joints, at singular poses too."""
+    return not any(
+        body.velocity.any()
+        or body.omega.any()
+        or body.acceleration.any()
+        or body.alpha.any()
+        or np.ptp(body.position, axis=0).any()
+        or np.ptp(body.rotation, axis=0).any()
+        for body in (motion.torso, _foot(motion, side))
+    )

@@ -11,6 +11,7 @@ from scout_pin.dynamics.impact import Impact
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion, RateJump
 from scout_pin.motion.swings import Swing, lowest_corner, sole_gap, swings
+from scout_pin.report.ends import Ends, ends
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.contacts.dynamics import ContactDynamics
@@ -26,7 +27,8 @@ class GaitNumbers:
     Attributes:
         robot, gait: What was asked about.
         time_unit: Seconds in the gait's unit of t.
-        branch: Labels of the branches asked for, left then right; None left it open.
+        branch: What the legs were asked for, left then right: labels, or ways of the
+            knees; None left it open.
         motion: Sampled task-space motion.
         joints: Joint trajectory.
         dynamics: Torques and floor wrenches.
@@ -102,6 +104,11 @@ class GaitNumbers:
         worst = np.argsort(margin)[:32]
         sizes = [d.least_violation(int(sample))[0] for sample in worst]
         return int(worst[np.argmax(sizes)]), max(sizes)
+
+    @cached_property
+    def ends(self) -> Ends:
+        """How the gait begins and ends."""
+        return ends(self.robot, self.gait, self.motion, self.com, self.time_unit)
 
     @cached_property
     def swings(self) -> list[Swing]:

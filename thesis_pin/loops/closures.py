@@ -16,7 +16,6 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.loops.configurations.rounding import Rounding, rounding
 from thesis_pin.loops.joint_types import replace_joints
 from thesis_pin.loops.joints import is_free, singles
 from thesis_pin.loops.system.equations import Equations
@@ -25,6 +24,7 @@ from thesis_pin.loops.system.scale import Scale, scale_of
 from thesis_pin.loops.system.survey import Survey
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
 from thesis_pin.model.formats.joining import joined
+from thesis_pin.model.formats.rounding import Rounding, rounding
 from thesis_pin.model.formats.urdf.reading import read_urdf
 from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
 from thesis_pin.model.mechanism.closure_types import word_of

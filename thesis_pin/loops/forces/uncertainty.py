@@ -3,7 +3,7 @@
 Two witnesses of that noise are heard. Dependent equations and gaps show it in the mechanism
 itself (:attr:`Survey.blur`); near a singular pose the error is what moving along the weakest
 motion does. Directions a little off a round one show it in the file: the robot with these
-made round is asked for the same motion (:mod:`thesis_pin.loops.configurations.rounding`).
+made round is asked for the same motion (:mod:`thesis_pin.model.formats.rounding`).
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ import pytest
 from thesis_pin.errors import SingularPose, ThesisPinError
 from thesis_pin.loops import dynamics
 from thesis_pin.loops import kinematics as loops
-from thesis_pin.loops.configurations.rounding import rounding
+from thesis_pin.model.formats.rounding import rounding
 from thesis_pin.model.formats.urdf.reading import read_urdf
 
 

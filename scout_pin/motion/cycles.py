@@ -1,0 +1,199 @@
+"""Gaits that go on: whether an end fits its start, and the same gait several times over.
+
+A cycle ends as it begins, a step further. What doesn't fit would jump at every repetition: a
+place and a rate can't, an acceleration can, at the cost of a torque that jumps.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from scipy.interpolate import PPoly
+
+from scout_pin.coordinates import POSE_NAMES
+from scout_pin.motion.contact import Phase
+from scout_pin.motion.gait import BODIES, Gait
+from thesis_pin.errors import TrajectoryError
+from thesis_pin.model.limits import LIMITS
+from thesis_pin.numeric.checks import instance, whole
+from thesis_pin.numeric.interpolation import join
+from thesis_pin.tolerances import TOLERANCES
+
+What = Literal["position", "rate", "acceleration"]
+WHATS: tuple[What, What, What] = ("position", "rate", "acceleration")
+
+
+@dataclass(frozen=True)
+class Gap:
+    """A coordinate whose end doesn't fit its start.
+
+    Attributes:
+        body: One of :data:`scout_pin.motion.gait.BODIES`.
+        coordinate: One of :data:`scout_pin.coordinates.POSE_NAMES`.
+        what: Its position, rate or acceleration.
+        size: End less start, the step taken off [m] or [rad], a second, a second squared.
+    """
+
+    body: str
+    coordinate: str
+    what: What
+    size: float
+
+    @property
+    def words(self) -> str:
+        """As in "torso y position by 3.1 mm"."""
+        per = ("", "/s", "/s²")[WHATS.index(self.what)]
+        length = self.coordinate in "xyz"
+        amount = abs(self.size) * 1e3 if length else math.degrees(abs(self.size))
+        unit = f"{' mm' if length else '°'}{per}"
+        return f"{self.body.replace('_', ' ')} {self.coordinate} {self.what} by {amount:.3g}{unit}"
+
+
+@dataclass(frozen=True)
+class Closure:
+    """How a gait's end fits its start.
+
+    Attributes:
+        displacement: What a cycle moves the robot by, x and y [m].
+        gaps: What doesn't fit, largest first as a multiple of its tolerance.
+    """
+
+    displacement: tuple[float, float]
+    gaps: tuple[Gap, ...]
+
+    @property
+    def closed(self) -> bool:
+        """Whether places and rates fit; accelerations may jump."""
+        return all(gap.what == "acceleration" for gap in self.gaps)
+
+
+def allowed(coordinate: str, what: What) -> float:
+    """The gap that still counts as closed [m] or [rad], a second, a second squared."""
+    if what == "rate":
+        return TOLERANCES.rate_jump
+    length = coordinate in "xyz"
+    if what == "position":
+        return TOLERANCES.seam if length else TOLERANCES.stance_tilt
+    return TOLERANCES.closed_acceleration if length else TOLERANCES.closed_turning
+
+
+def state(gait: Gait, t: float, time_unit: float) -> np.ndarray:
+    """Every coordinate with its rate and acceleration at a time t, ``(bodies, 6, 3)``.
+
+    At an inner knot the piece on the right holds; at the gait's end the last piece.
+    """
+    orders = range(3)
+    return np.array(
+        [
+            [[float(curve(t, n)) / time_unit**n for n in orders] for curve in gait.curves[body]]
+            for body in BODIES
+        ]
+    )
+
+
+def closure(gait: Gait, time_unit: float | None = None) -> Closure:
+    """How the end of a gait fits its start.
+
+    A cycle may move the robot over the floor; the displacement is the one that at least two
+    of torso and feet agree on. A gait that turns doesn't close.
+
+    Args:
+        gait: The gait.
+        time_unit: Seconds in its unit of t; None for the gait's own.
+    """
+    instance("gait", gait, Gait, "scout_pin.load_gait()")
+    unit = gait.time_unit if time_unit is None else time_unit
+    # The last piece, not one that a curve may have beyond the gait's end.
+    late = np.nextafter(gait.end, -np.inf)
+    gaps = state(gait, late, unit) - state(gait, gait.start, unit)
+    step = np.median(gaps[:, :2, 0], axis=0)
+    gaps[:, :2, 0] -= step
+    found = [
+        (abs(gaps[b, c, n]) / allowed(coordinate, what), b, c, n)
+        for b in range(len(BODIES))
+        for c, coordinate in enumerate(POSE_NAMES)
+        for n, what in enumerate(WHATS)
+    ]
+    return Closure(
+        (float(step[0]), float(step[1])),
+        tuple(
+            Gap(BODIES[b], POSE_NAMES[c], WHATS[n], float(gaps[b, c, n]))
+            for share, b, c, n in sorted(found, reverse=True)
+            if share > 1
+        ),
+    )
+
+
+def repeat_gait(gait: Gait, times: int) -> Gait:
+    """A gait several times over, each time a step further.
+
+    Rates that don't fit jump where one ends and the next begins; the report counts them.
+
+    Args:
+        gait: The gait.
+        times: How often it is walked.
+
+    Raises:
+        TrajectoryError: Places don't fit, or there would be more than ``LIMITS.phases``.
+    """
+    times = whole("times", times, 1)
+    found = closure(gait)
+    places = [gap.words for gap in found.gaps if gap.what == "position"]
+    if places:
+        raise TrajectoryError(
+            f"its end doesn't fit its start: {', '.join(places)}",
+            where=f"gait {gait.name!r}, repeated {times} times",
+            allowed="an end like the start, at another place of the floor",
+            remedy="Let the last poses be the first, all moved along x and y alike",
+        )
+    if times * len(gait.phases) > LIMITS.phases:
+        raise TrajectoryError(
+            f"{times} × {len(gait.phases)} phases",
+            where=f"gait {gait.name!r}",
+            allowed=f"at most {LIMITS.phases:,}",
+        )
+    steps = {c: found.displacement[k] for k, c in enumerate("xy")}
+    curves = {
+        body: tuple(
+            _again(curve, gait.start, gait.end, steps.get(coordinate, 0.0), times)
+            for coordinate, curve in zip(POSE_NAMES, gait.curves[body], strict=True)
+        )
+        for body in BODIES
+    }
+    return replace(gait, curves=curves, phases=tuple(_phases(gait, times)))
+
+
+def _again(curve: PPoly, start: float, end: float, step: float, times: int) -> PPoly:
+    """The part of a curve between two times, repeated, moved by ``step`` each time."""
+    knots = np.concatenate([[start], curve.x[(curve.x > start) & (curve.x < end)], [end]])
+    order = len(curve.c)
+    coefficients = np.stack(
+        [curve(knots[:-1], n) / math.factorial(n) for n in reversed(range(order))]
+    )
+    pieces = []
+    for k in range(times):
+        moved = coefficients.copy()
+        moved[-1] += k * step
+        pieces.append(PPoly(moved, knots + k * (end - start)))
+    return join(pieces)
+
+
+def _phases(gait: Gait, times: int) -> Iterator[Phase]:
+    """The phases, repeated; two that meet with the same feet standing are one."""
+    held: Phase | None = None
+    for k in range(times):
+        shift = k * (gait.end - gait.start)
+        for phase in gait.phases:
+            moved = Phase(start=phase.start + shift, end=phase.end + shift, support=phase.support)
+            if held is not None and held.support == moved.support:
+                held = Phase(start=held.start, end=moved.end, support=held.support)
+                continue
+            if held is not None:
+                yield held
+            held = moved
+    if held is not None:
+        yield held
