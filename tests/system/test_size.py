@@ -50,7 +50,8 @@ def test_files_have_every_servo_at_every_joint(size, tmp_path):
     joints = len(document["joints"])
     assert [len(row) for row in document["fits"]["factor"]] == [joints] * 2
     assert document["servos"][1]["extra"] == {"price": "40"}
-    rows = list(csv.DictReader((tmp_path / "out" / "sizes.csv").open(encoding="utf-8")))
+    text = (tmp_path / "out" / "sizes.csv").read_text(encoding="utf-8")
+    rows = list(csv.DictReader(text.splitlines()))
     assert len(rows) == 2 * joints
     assert f"wrote {tmp_path / 'out'}: report.json, sizes.csv" in err
 
