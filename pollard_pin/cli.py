@@ -144,6 +144,13 @@ COMMAND = Command(
             samples=2001,
             breaks="a motor exceeds its limits",
         ),
+        common.size_verb(
+            ROBOT,
+            "which motors of a list carry this path?",
+            "Motors of a list held against what a path asks of each joint: safety factor, RMS.",
+            "size examples/servos.csv --path examples/spray_arch.toml",
+            samples=2001,
+        ),
         common.view_verb(
             ROBOT,
             "watch the robot on a path in the browser",
