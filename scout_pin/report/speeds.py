@@ -81,7 +81,8 @@ class Speeds:
         found: dict[Cause, list[Intervals]] = {"stall torque": [], "servo": []}
         for torques in self._torques():
             speed = np.abs(self.joints.part(torques.samples).v) / self.robot.no_load_speed
-            for cause, growth in (("stall torque", 0.0 * speed), ("servo", speed)):
+            growths: dict[Cause, np.ndarray] = {"stall torque": 0.0 * speed, "servo": speed}
+            for cause, growth in growths.items():
                 found[cause].append(pruned(self._passed(torques, growth, cause)))
         return {cause: pruned(Intervals.joined(parts, 3)) for cause, parts in found.items()}
 
@@ -133,12 +134,10 @@ class Speeds:
                 continue
             some, low, high = (np.concatenate(columns) for columns in zip(*parts, strict=True))
             slow, fast = int(np.argmax(low)), int(np.argmin(high))
-            ends = [
-                (self.low, _root(low[slow]), some[slow]),
-                (_root(high[fast]), self.high, some[fast]),
-            ]
-            source = [[CAUSES.index(cause), sample, -1] for _, _, sample in ends]
-            taken = Intervals(*np.array([end[:2] for end in ends]).T, np.array(source))
+            start = np.array([self.low, _root(high[fast])])
+            end = np.array([_root(low[slow]), self.high])
+            source = [[CAUSES.index(cause), some[k], -1] for k in (slow, fast)]
+            taken = Intervals(start, end, np.array(source))
             found.append(taken.within(np.full(2, self.low), np.full(2, self.high)))
         return Intervals.joined(found, 3)
 
