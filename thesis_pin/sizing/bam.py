@@ -83,7 +83,7 @@ def read_identified(text: str, where: str, voltage: float | None) -> Actuator:
     """
     try:
         data = json.loads(text)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise BadInput(f"the list isn't valid JSON: {error}", where=where) from None
     servo = validate("identified servo", Identified, data, where=where)
     if voltage is None:

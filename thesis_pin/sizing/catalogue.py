@@ -17,6 +17,7 @@ from typing import Literal
 from pydantic import Field
 
 from thesis_pin.errors import BadInput
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.source import read_text
 from thesis_pin.model.specification import Strict, read_toml
 from thesis_pin.sizing.actuator import Actuator
@@ -69,6 +70,12 @@ def read_catalogue(
         found += some
         notes += said
     kept = [one for one in found if None in (voltage, one.voltage) or one.voltage == voltage]
+    if len(kept) > LIMITS.entries:
+        raise BadInput(
+            f"there are {len(kept):,} servos",
+            where=", ".join(map(str, paths)),
+            allowed=f"at most {LIMITS.entries:,}",
+        )
     if len(kept) < len(found):
         notes.append(f"{len(found) - len(kept)} are left out: they are for another voltage")
     if not kept:

@@ -82,6 +82,7 @@ def test_a_file_is_read_with_its_rotor_as_the_output_feels_it():
         (json.dumps({"actuator": "a", "model": "m1", "kt": 1}), 7.4, SpecificationError, "R: "),
         (json.dumps(PLAIN | {"R": -1}), 7.4, SpecificationError, "R: "),
         ("{", 7.4, BadInput, "isn't valid JSON"),
+        ("[" * 100_000, 7.4, BadInput, "isn't valid JSON"),
         ("[1, 2]", 7.4, SpecificationError, "identified servo"),
     ],
 )

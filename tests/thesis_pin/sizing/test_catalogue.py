@@ -3,6 +3,7 @@
 import pytest
 
 from thesis_pin.errors import BadInput, SpecificationError
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.sizing.catalogue import read_catalogue
 
 KGCM = 0.0980665
@@ -123,3 +124,9 @@ def test_a_voltage_that_no_servo_is_for_is_refused(listed):
 def test_an_unknown_table_of_a_toml_list_is_refused(listed):
     with pytest.raises(SpecificationError, match="unknown key"):
         listed("[server.A]\nstall_torque = 1\n", "list.toml")
+
+
+def test_more_servos_than_anybody_sells_are_refused(listed):
+    rows = "".join(f"A{k},1,50\n" for k in range(LIMITS.entries + 1))
+    with pytest.raises(BadInput, match="servos; allowed: at most"):
+        listed("name,torque_Nm,speed_rpm\n" + rows)
