@@ -145,6 +145,13 @@ COMMAND = Command(
             samples=2001,
             breaks="a motor exceeds its limits",
         ),
+        common.size_verb(
+            ROBOT,
+            "which motors of a list carry this path?",
+            "Motors of a list held against what a path asks of each joint: safety factor, RMS.",
+            "size examples/servos.csv --path examples/spray_arch.toml",
+            samples=2001,
+        ),
         common.view_verb(
             ROBOT,
             "watch the robot on a path in the browser",
@@ -155,7 +162,7 @@ COMMAND = Command(
             ROBOT,
             "Write a path as a table of poses, motor angles or servo ticks, in our own format, "
             "or for ROS.",
-            "convert --path examples/spray_arch.toml --to arch.yaml",
+            "convert --path examples/spray_arch.toml --as joint-trajectory --to arch.yaml",
         ),
         common.ik_verb(
             ROBOT,

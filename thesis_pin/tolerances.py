@@ -40,6 +40,13 @@ class Tolerances:
             it moves the zero-moment point of a robot of 0.2 m by 2 µm [m/s²], [rad/s²].
         moves: Travel from which something moves rather than trembles [m], [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
+        density: More than any body has: that of osmium [kg/m³].
+        slender: Length of a body in radii of gyration that nobody builds; a uniform rod has
+            3.5, one with 200 times its own mass at one end 50 [-].
+        narrow: Range of joints that would be some degrees if all of them had it: radians
+            written as degrees, for a whole turn is 2π [rad].
+        overload: Weight times length of the limbs in the strongest actuator's torque, beyond
+            which nothing stands [-]; robots that walk have 2 to 20.
         branch_tie: Difference of two branches' distance from the neutral pose below which
             neither is the nearer; less than a hobby servo's dead band [rad].
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
@@ -117,6 +124,10 @@ class Tolerances:
     inertia_unfelt: float = 1e-4
     moves: float = 1e-3
     joint_limit: float = 1e-9
+    density: float = 22_600.0
+    slender: float = 50.0
+    narrow: float = 0.11
+    overload: float = 200.0
     branch_tie: float = 1e-3
     seam: float = 1e-4
     rate_jump: float = 1e-4

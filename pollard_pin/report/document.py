@@ -11,6 +11,7 @@ import numpy as np
 from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.dynamics.inverse import inverse_dynamics
 from pollard_pin.dynamics.three_motors import three_torques
+from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
@@ -29,7 +30,7 @@ from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report import pace
-from thesis_pin.report.info import assumptions
+from thesis_pin.report.info import assumptions, odd_sizes
 from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
 
@@ -76,7 +77,7 @@ class TrajectoryReport(TrajectoryNumbers):
                     continue
                 one["name"] = f"inertia of {one['link']}"
             result.append(one)
-        return result
+        return [*result, *odd_sizes(implausible(self.robot.specification))]
 
     @property
     def parameters(self) -> dict[str, object]:
@@ -155,6 +156,7 @@ class TrajectoryReport(TrajectoryNumbers):
         summary: dict[str, object] = {
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
+            "implausible": implausible(self.robot.specification),
             "doubts": self.doubts(),
             **self.actuators.document(),
             "tool_speed": {

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from scout_pin.implausible import implausible
 from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
-from scout_pin.report.implausible import implausible
 from scout_pin.report.tables import joints_table
 from scout_pin.report.verdict import digs, soles_collide
 from scout_pin.report.view import gait_scene

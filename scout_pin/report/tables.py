@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.implausible import implausible
 from scout_pin.kinematics.branches import BRANCHES, knee
 from scout_pin.kinematics.inverse import LegSolutions
-from scout_pin.report.implausible import implausible
 from scout_pin.report.servos import servo_limits
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.report import branches

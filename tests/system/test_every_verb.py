@@ -23,6 +23,7 @@ SEEN = {
     "urdf": {"--out"},
     "audit": {"--html"},
     "convert": set(),
+    "size": {"--out"},
     "ik": set(),
     "fk": set(),
     "info": set(),
