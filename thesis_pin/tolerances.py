@@ -88,6 +88,8 @@ class Tolerances:
             them is anyone's guess [rad].
         quaternion_length: Difference from 1 of a quaternion's length still taken as rounding
             of its four numbers, to two decimals [-].
+        same_curve: Difference of two splines through the same samples, and of their
+            derivatives, relative to the largest value [-].
         same_mode: Angles nearer than this are one assembly mode [rad].
         vanishing: Coefficient relative to the largest, or determinant over squared
             lengths, that is replaced before one divides by it [-], [m²].
@@ -152,6 +154,7 @@ class Tolerances:
     on_circle: float = 1e-2
     half_turn: float = 1e-6
     quaternion_length: float = 1e-2
+    same_curve: float = 1e-7
     same_mode: float = 1e-6
     vanishing: float = 1e-14
     time_unit: float = 1e-5
