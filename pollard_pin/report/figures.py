@@ -1,4 +1,4 @@
-"""Figures of a trajectory report: the thesis's 4.1 to 4.4 for any path, loop forces, margins, tool."""
+"""Figures of a trajectory report: 4.1 to 4.4 for any path, loop forces, margins, tool."""
 
 from __future__ import annotations
 
