@@ -122,6 +122,42 @@ def add_view(words: Words) -> None:
     add_json(words, "what is shown, and where")
 
 
+def add_convert(words: Words) -> None:
+    """The options of the verb ``convert``, besides its motion's."""
+    words.add_argument(
+        "--to",
+        metavar="FILE|-",
+        default="-",
+        help=".csv: a table, .toml: our own format, .yaml: ROS's JointTrajectory "
+        "(default: standard output)",
+    )
+    words.add_argument(
+        "--as",
+        dest="form",
+        choices=("poses", "joints", "toml", "joint-trajectory", "ticks"),
+        help="what is written (default: what FILE's ending says; of tables, poses)",
+    )
+    words.add_argument(
+        "--units",
+        default="",
+        metavar="UNITS",
+        help="of tables, as mm,deg,ms (default: SI; of m mm cm, rad deg, s ms us)",
+    )
+    words.add_argument(
+        "--samples",
+        type=count("--samples", 2),
+        metavar="N",
+        help="evenly spaced samples; more stand beside abrupt changes (default: the motion's own, "
+        "or 401)",
+    )
+    words.add_argument(
+        "--servos",
+        metavar="FILE",
+        help="TOML of how servos count, for ticks (default: 500 to 2500 µs for ±90°)",
+    )
+    add_json(words, "what was written")
+
+
 def add_audit(words: Words) -> None:
     """The options of the verb ``audit``."""
     words.add_argument(
