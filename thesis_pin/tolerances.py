@@ -73,6 +73,8 @@ class Tolerances:
             and meets the floor moving [-].
         scrape_way: Way over the floor below which a foot goes straight up and down [m].
         sole_gap: Distance at which two soles touch [m], as :attr:`clearance`.
+        nearer: Difference [m] by which one pair of soles must be nearer to be told from another:
+            where feet stand, all samples are alike but for rounding.
         instant: What counts as just before or after a change of a gait, relative to the
             time the gait or phase takes [-].
         path_end: How far beyond a path's ends a time still means them, relative to the
@@ -144,6 +146,7 @@ class Tolerances:
     scrape_share: float = 0.2
     scrape_way: float = 1e-3
     sole_gap: float = 1e-4
+    nearer: float = 1e-9
     instant: float = 1e-9
     path_end: float = 1e-9
     path_join: float = 1e-9
