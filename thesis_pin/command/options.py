@@ -45,6 +45,23 @@ def count(name: str, least: int, most: int = MOST) -> Callable[[str], int]:
     return read
 
 
+def wrench(text: str) -> tuple[str, tuple[float, ...]]:
+    """An argparse type: ``FRAME=fx,fy,fz``, three more numbers for a moment."""
+    frame, _, values = text.rpartition("=")
+    numbers = []
+    for value in values.split(","):
+        try:
+            numbers.append(float(value))
+        except ValueError:
+            numbers.append(math.nan)
+    if not frame or len(numbers) not in (3, 6) or not all(map(math.isfinite, numbers)):
+        raise argparse.ArgumentTypeError(
+            f"--external is {shown(text)}; allowed: FRAME=fx,fy,fz or FRAME=fx,fy,fz,mx,my,mz [N], "
+            "[N·m]"
+        )
+    return frame, (*numbers, 0.0, 0.0, 0.0)[:6]
+
+
 def add_robot(words: Words, another: str) -> None:
     """Which robot: ``another`` says what a specification may describe."""
     words.add_argument(
