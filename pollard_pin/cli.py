@@ -127,6 +127,7 @@ ROBOT = Robot(
     report="report.document:trajectory_report",
     page="report.page:trajectory_page",
     scene="report.view:path_scene",
+    movement="report.movement:path_movement",
     inverse_kinematics="model:Pollard.inverse_kinematics",
 )
 
@@ -144,11 +145,24 @@ COMMAND = Command(
             samples=2001,
             breaks="a motor exceeds its limits",
         ),
+        common.size_verb(
+            ROBOT,
+            "which motors of a list carry this path?",
+            "Motors of a list held against what a path asks of each joint: safety factor, RMS.",
+            "size examples/servos.csv --path examples/spray_arch.toml",
+            samples=2001,
+        ),
         common.view_verb(
             ROBOT,
             "watch the robot on a path in the browser",
             "Show the robot on a path with torques, ball-joint forces and margins, on 127.0.0.1.",
             "view --path examples/spray_arch.toml --html spray.html",
+        ),
+        common.convert_verb(
+            ROBOT,
+            "Write a path as a table of poses, motor angles or servo ticks, in our own format, "
+            "or for ROS.",
+            "convert --path examples/spray_arch.toml --as joint-trajectory --to arch.yaml",
         ),
         common.ik_verb(
             ROBOT,

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
-from thesis_pin.command.options import add_branch, count, number
+from thesis_pin.command.options import add_branch, add_json, count, number
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 _branch = partial(
@@ -53,12 +53,12 @@ def _which_gait(words: argparse.ArgumentParser) -> None:
 def _which_new(words: argparse.ArgumentParser) -> None:
     words.add_argument("file", metavar="FILE|-", help="what to write; - is standard output")
     words.add_argument(
-        "--gait",
+        "--motion",
         choices=("squat", "sway"),
         help="write a first gait for the robot of --specification, made from its neutral soles",
     )
     words.add_argument(
-        "--specification", metavar="FILE", help="the robot of --gait (default: the thesis's)"
+        "--specification", metavar="FILE", help="the robot of --motion (default: the thesis's)"
     )
     words.add_argument(
         "--example", metavar="NAME", help="write a shipped example, as walk.toml; any lists them"
@@ -71,8 +71,7 @@ def _which_urdf(words: argparse.ArgumentParser) -> None:
         "file", metavar="FILE", help="a URDF, MJCF or SDF, or example:NAME of example-robot-data"
     )
     words.add_argument(
-        "--out",
-        dest="toml",
+        "--to",
         metavar="FILE|-",
         default="-",
         help="where the specification goes (default: standard output)",
@@ -137,6 +136,7 @@ ROBOT = Robot(
     report="report.document:gait_report",
     page="report.page:gait_page",
     scene="report.view:gait_scene",
+    movement="report.movement:gait_movement",
     inverse_kinematics="model:Scout.leg_inverse_kinematics",
     still="verbs:still",
 )
@@ -154,11 +154,24 @@ COMMAND = Command(
             samples=401,
             breaks="the gait breaks a limit",
         ),
+        common.size_verb(
+            ROBOT,
+            "which servos of a list carry this gait?",
+            "Servos of a list held against what a gait asks of each joint: safety factor, RMS.",
+            "size examples/servos.csv --gait examples/walk.toml --time-unit 0.05",
+            samples=401,
+        ),
         common.view_verb(
             ROBOT,
             "watch a gait in the browser",
             "Show the robot along a gait with forces, ZMP and support, on 127.0.0.1.",
             "view --gait examples/walk.toml --html walk.html",
+        ),
+        common.convert_verb(
+            ROBOT,
+            "Write a gait as a table of poses, joint angles or servo ticks, in our own format, "
+            "or for ROS.",
+            "convert --gait examples/walk.toml --to walk_angles.csv --as joints --units deg,ms",
         ),
         common.ik_verb(
             ROBOT,
@@ -175,16 +188,16 @@ COMMAND = Command(
             "new my_biped.toml --force",
             "scout_pin.making.gaits:gait_text",
             "scout_pin.verbs:new",
-            (_which_new,),
+            (_which_new, partial(add_json, what="what was written")),
         ),
         Verb(
             "from-urdf",
             "a URDF of this kind as a specification",
             "Read a biped with leg axes z y z z z x, whatever its frames, into a specification.",
-            "from-urdf urdf/scout/scout.urdf --out my_scout.toml --force",
+            "from-urdf urdf/scout/scout.urdf --to my_scout.toml --force",
             "scout_pin.making.from_urdf:from_urdf",
             "scout_pin.verbs:from_urdf",
-            (_which_urdf,),
+            (_which_urdf, partial(add_json, what="joints, signs and notes")),
         ),
         common.urdf_verb(
             ROBOT,

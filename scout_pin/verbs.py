@@ -13,7 +13,7 @@ from scout_pin.implausible import implausible
 from scout_pin.model import Scout, load
 from scout_pin.specification import NEW_PATH, SIDES
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.results import Answer, put_new
+from thesis_pin.command.results import Answer, put, put_new
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
@@ -21,8 +21,10 @@ from thesis_pin.errors import BadInput
 from thesis_pin.model.loading import shipped_folder
 from thesis_pin.numeric.checks import choice
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # inverse kinematics alone needs none of them
+    from scout_pin.motion.gait import Gait
     from thesis_pin.pages.scene import Scene
+    from thesis_pin.report.exchange.movement import Movement
 
 
 def report(
@@ -33,17 +35,9 @@ def report(
 ) -> object:
     """The report on the gait that the arguments ask for."""
     from scout_pin.motion.cycles import repeat_gait
-    from scout_pin.motion.files import load_gait
     from scout_pin.report.document import gait_report
 
-    if arguments.gait is None and arguments.specification is not None:
-        say(
-            "warning: no --gait is given and the thesis's is taken, which was made for its own "
-            "robot; scout-pin new FILE --gait sway makes one for this robot"
-        )
-    gait = load_gait(arguments.gait or "thesis", arguments.interpolation, robot=robot)
-    if arguments.cycle:
-        gait = replace(gait, cycle=True)
+    gait = _gait(arguments, robot)
     one = gait.end - gait.start
     if arguments.repeat > 1:
         gait = repeat_gait(gait, arguments.repeat)
@@ -68,6 +62,32 @@ def still(arguments: argparse.Namespace, robot: Scout) -> Scene | None:
     return neutral_scene(robot)
 
 
+def motion(arguments: argparse.Namespace, robot: Scout) -> Movement:
+    """The gait that the arguments ask for, to be written down."""
+    from scout_pin.report.movement import gait_movement
+
+    return gait_movement(
+        robot,
+        _gait(arguments, robot),
+        samples=arguments.samples,
+        time_unit=arguments.time_unit,
+        branch=arguments.branch,
+    )
+
+
+def _gait(arguments: argparse.Namespace, robot: Scout) -> Gait:
+    """The gait that the arguments ask for, once."""
+    from scout_pin.motion.files import load_gait
+
+    if arguments.gait is None and arguments.specification is not None:
+        say(
+            "warning: no --gait is given and the thesis's is taken, which was made for its own "
+            "robot; scout-pin new FILE --motion sway makes one for this robot"
+        )
+    gait = load_gait(arguments.gait or "thesis", arguments.interpolation, robot=robot)
+    return replace(gait, cycle=True) if arguments.cycle else gait
+
+
 def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:
     """The branches of the foot pose that the arguments ask for."""
     from scout_pin.report.tables import ik_document, solutions_table
@@ -89,31 +109,38 @@ def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:
 
 def new(arguments: argparse.Namespace) -> ExitCode:
     """Write a specification to begin with, a first gait for one, or a shipped example."""
-    if arguments.gait is not None and arguments.example is not None:
-        raise BadInput("--gait and --example are two files", remedy="Write one at a time")
-    if arguments.gait is not None:
-        from scout_pin.making.gaits import gait_text
+    kind, name = arguments.motion or "specification", None
+    if arguments.motion and arguments.example:
+        raise BadInput("--motion and --example are two files", remedy="Write one at a time")
+    with Bar("making it"):
+        from thesis_pin.report.writers import json_bytes
 
-        with warned():
-            robot = load(arguments.specification)
-        content = gait_text(robot, arguments.gait).encode()
-    elif arguments.example is not None:
-        folder = shipped_folder("examples")
-        names = sorted(path.name for path in folder.iterdir() if path.is_file())
-        content = (folder / choice("example", arguments.example, names)).read_bytes()
-    else:
-        content = NEW_PATH.read_bytes()
+        if arguments.motion is not None:
+            from scout_pin.making.gaits import gait_text
+
+            with warned():
+                robot = load(arguments.specification)
+            name, content = robot.specification.name, gait_text(robot, arguments.motion).encode()
+        elif arguments.example is not None:
+            folder, kind = shipped_folder("examples"), "example"
+            names = sorted(path.name for path in folder.iterdir() if path.is_file())
+            content = (folder / choice("example", arguments.example, names)).read_bytes()
+        else:
+            content = NEW_PATH.read_bytes()
     put_new(arguments.file, content, replace=arguments.force)
+    if arguments.json:
+        document = {"schema": "scout-pin/new", "version": 1, "kind": kind, "robot": name}
+        put(arguments.json, json_bytes(document | {"file": arguments.file}))
     return ExitCode.DONE
 
 
 def from_urdf(arguments: argparse.Namespace) -> ExitCode:
     """Read a robot's description into a specification."""
-    from scout_pin.making.from_urdf import from_urdf as translated
-    from scout_pin.making.text import toml
-    from scout_pin.specification import JOINT_NAMES
-
     with Bar("reading the axes"):
+        from scout_pin.making.from_urdf import document, text
+        from scout_pin.making.from_urdf import from_urdf as translated
+        from thesis_pin.report.writers import json_bytes
+
         found = translated(
             arguments.file,
             left=arguments.left,
@@ -121,12 +148,12 @@ def from_urdf(arguments: argparse.Namespace) -> ExitCode:
             servo=arguments.servo,
             friction=arguments.friction,
         )
-        names = zip(JOINT_NAMES, found.joints, found.signs, strict=True)
-        joints = ", ".join(f"{mine} is {'−' if s < 0 else ''}{file}" for mine, file, s in names)
-        text = toml(found.specification, [*found.notes, f"Joints: {joints}."])
+        content = text(found).encode()
     for note in found.notes:
         say(f"note: {note}")
     for odd in implausible(found.specification):
         say(f"warning: {odd}")
-    put_new(arguments.toml, text.encode(), replace=arguments.force)
+    put_new(arguments.to, content, replace=arguments.force)
+    if arguments.json:
+        put(arguments.json, json_bytes(document(found) | {"file": arguments.to}))
     return ExitCode.DONE

@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from scout_pin.implausible import implausible
 from scout_pin.kinematics.neutral import tilts
 from scout_pin.making.axes import TINY, LegAxes, leg_axes, torso_frame
 from scout_pin.making.chains import Turn, find_chains
 from scout_pin.making.soles import Sole, find_sole
+from scout_pin.making.text import toml
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from thesis_pin.errors import ModelError
 from thesis_pin.model.formats.reading import read
@@ -300,4 +302,24 @@ def _name(text: str) -> str:
     return letters if letters[:1].isalpha() else f"biped_{letters}"
 
 
-__all__ = ["JOINT_NAMES", "Translation", "from_urdf"]
+def text(found: Translation) -> str:
+    """The specification as TOML, with what is to be known of it at its top."""
+    names = zip(JOINT_NAMES, found.joints, found.signs, strict=True)
+    joints = ", ".join(f"{mine} is {'−' if sign < 0 else ''}{file}" for mine, file, sign in names)
+    return toml(found.specification, [*found.notes, f"Joints: {joints}."])
+
+
+def document(found: Translation) -> dict[str, object]:
+    """What was read, JSON-ready."""
+    return {
+        "schema": "scout-pin/from-urdf",
+        "version": 1,
+        "robot": found.specification.name,
+        "joints": [
+            {"name": mine, "in_file": file, "sign": int(sign)}
+            for mine, file, sign in zip(JOINT_NAMES, found.joints, found.signs, strict=True)
+        ],
+        "torso": found.torso,
+        "notes": list(found.notes),
+        "implausible": implausible(found.specification),
+    }

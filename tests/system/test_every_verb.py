@@ -22,9 +22,13 @@ SEEN = {
     "workspace": {"--out"},
     "urdf": {"--out"},
     "audit": {"--html"},
+    "convert": set(),
+    "size": {"--out"},
     "ik": set(),
     "fk": set(),
-    "info": set(),
+    "info": {"--html"},
+    "new": set(),
+    "from-urdf": set(),
     "check": set(),
     "formats": set(),
     "torque": {"--out", "--html"},
@@ -39,7 +43,7 @@ SCHEMAS = {
     )
 }
 
-OWN_WORDS = {"--out", "--json", "--strict", "--specification", "--branch"}
+OWN_WORDS = {"--to", "--out", "--json", "--strict", "--specification", "--branch"}
 """Flags whose help says what this robot or verb writes or takes there."""
 
 

@@ -166,6 +166,9 @@ class Robot:
         makes_report: Report on the motion that the arguments ask for; see
             :class:`thesis_pin.command.verbs.MakeReport`.
         report: The public function behind it.
+        moves: The motion that the arguments ask for, to be written down, a
+            :class:`~thesis_pin.report.exchange.movement.Movement`.
+        movement: The public function behind it.
         page: The report as a page.
         scene: The report as a scene.
         solves: Inverse kinematics that the arguments ask for, an
@@ -178,6 +181,7 @@ class Robot:
         still: What to show where no motion is asked for: a function of the arguments and the
             robot that returns a scene, or None to show the usual motion; empty for that.
         urdf, files: Its URDF in one reading, and everything generated from it.
+        size: Servos or motors held against a report of the motion.
         thesis, audit: The thesis ready to be audited, and the function that does it.
     """
 
@@ -188,7 +192,9 @@ class Robot:
     page: str
     scene: str
     inverse_kinematics: str
+    movement: str
     makes_report: str = "verbs:report"
+    moves: str = "verbs:motion"
     solves: str = "verbs:ik"
     figures: str = "report.figures:figures"
     table: str = "report.tables:summary"
@@ -199,6 +205,7 @@ class Robot:
     still: str = ""
     urdf: str = "urdf:urdf"
     files: str = "urdf:files"
+    size: str = "study.size:size"
     audit: str = "thesis.audit:audit"
     thesis: str = "thesis.audit:THESIS"
 

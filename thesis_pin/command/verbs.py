@@ -7,15 +7,28 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Robot, found
-from thesis_pin.command.results import Answer, Report, deliver, give, put, put_folder, said
+from thesis_pin.command.results import (
+    Answer,
+    Report,
+    deliver,
+    give,
+    put,
+    put_folder,
+    said,
+    write_results,
+)
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
+from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
+    from thesis_pin.report.exchange.movement import Movement
+    from thesis_pin.sizing.document import Sizing
 
 
 class MakeReport(Protocol):
@@ -93,6 +106,63 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         ready=ready,
     )
     return ExitCode.DONE
+
+
+def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Write a motion in another form."""
+    with Bar("working out the motion"):
+        from thesis_pin.report.exchange.movement import content, form_of
+        from thesis_pin.report.exchange.ticks import USUAL, read_servos
+        from thesis_pin.report.writers import json_bytes
+        from thesis_pin.tables.writing import WrittenUnits
+
+        form = form_of(arguments.to, arguments.form)
+        units = WrittenUnits.parse(arguments.units)
+        if arguments.servos is not None and form != "ticks":
+            raise BadInput("--servos belongs to ticks", remedy="Add --as ticks")
+        if arguments.units and form == "joint-trajectory":
+            raise BadInput("a joint trajectory is in SI", remedy="Leave --units out")
+        loaded = _load(robot, arguments)
+        motion: Movement = _hook(robot, robot.moves)(arguments, loaded)
+        servos = USUAL
+        if arguments.servos is not None:
+            servos = read_servos(arguments.servos, motion.joints)
+        made = content(motion, form, units, servos)
+    put(arguments.to, made)
+    if arguments.json:
+        document = {
+            "schema": f"{robot.command}/convert",
+            "version": 1,
+            "robot": loaded.specification.name,
+            "file": arguments.to,
+            "form": form,
+            "samples": len(motion.time),
+            "duration": float(motion.time[-1] - motion.time[0]),
+            "joints": list(motion.joints),
+        }
+        put(arguments.json, json_bytes(document))
+    return ExitCode.DONE
+
+
+def size(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Hold lists of servos against a motion."""
+    from thesis_pin.report.writers import csv_bytes, json_bytes
+    from thesis_pin.sizing.catalogue import read_catalogue
+    from thesis_pin.sizing.tables import summary
+
+    catalogue = read_catalogue(arguments.servos, voltage=arguments.voltage)
+    files: dict[str, bytes] = {}
+    with Bar("working out the motion") as bar:
+        report = _report(robot, arguments, lambda _: arguments.samples, bar)
+        found: Sizing = _hook(robot, robot.size)(report, catalogue, arguments.factor)
+        wanted = arguments.json or arguments.out
+        content = json_bytes(found.document(robot.command)) if wanted else b""
+        if arguments.out:
+            files = {"report.json": content, "sizes.csv": csv_bytes(found.columns())}
+    write_results(arguments, files, content)
+    if free(arguments):
+        print_parts(summary(found))
+    return ExitCode.NO if arguments.strict and not found.yes else ExitCode.DONE
 
 
 def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:

@@ -295,7 +295,7 @@ def test_legs_whose_names_have_no_side_are_asked_for(tmp_path, rng):
     text = "\n".join(another.text()).replace("left_", "a_").replace("right_", "b_")
     path = tmp_path / "nameless.urdf"
     path.write_text(text)
-    with pytest.raises(ModelError, match="--left [ab]_hip_yaw_servo"):
+    with pytest.raises(ModelError, match=r"--left [ab]_hip_yaw_servo"):
         from_urdf(path)
     with pytest.raises(UnknownName, match="c_knee"):
         from_urdf(path, left="c_knee")

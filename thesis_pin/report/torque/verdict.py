@@ -28,6 +28,7 @@ def sentences(report: TorqueNumbers) -> list[str]:
         *_carried(report),
         *_efforts(report),
         *_ranges(report),
+        *_external(report),
         *_base(report),
         *_idle(report),
         *_shares(report),
@@ -81,6 +82,16 @@ def _ranges(report: TorqueNumbers) -> list[str]:
     ]
 
 
+def _external(report: TorqueNumbers) -> list[str]:
+    said = []
+    for frame, wrench in report.external.items():
+        force, moment = (", ".join(f"{x:.4g}" for x in part) for part in (wrench[:3], wrench[3:]))
+        said.append(
+            f"From outside ({force}) N and ({moment}) N·m act on frame {frame}, world axes."
+        )
+    return said
+
+
 def _base(report: TorqueNumbers) -> list[str]:
     base = report.dynamics.base
     if not base.size:
@@ -104,7 +115,11 @@ def _idle(report: TorqueNumbers) -> list[str]:
 def _shares(report: TorqueNumbers) -> list[str]:
     said = []
     if (doubt := float(report.dynamics.uncertainty.max())) > DOUBTFUL:
-        said.append(f"Near a singular pose the file's digits may move torques by {doubt:.0%}.")
+        digits = report.dynamics.digits
+        named = f"; nearly round in it: {', '.join(digits)}" if digits else ""
+        said.append(
+            f"Near a singular pose the file's digits may move torques by {doubt:.0%}{named}."
+        )
     if report.names and not report.dynamics.unique.all():
         said.append(
             "There are more motors than freedoms: they share the load with the least sum of "
