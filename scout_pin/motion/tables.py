@@ -97,7 +97,7 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
         TrajectoryError: Support changes more than ``LIMITS.phases`` times.
     """
     file, t = Path(samples.table.file), samples.time.values
-    phases, notes = phases_of(samples)
+    phases, notes, _ = phases_of(samples)
     curves = {
         body: tuple(_curve(t, samples.values(f"{body}_{c}"), method) for c in POSE_NAMES)
         for body in BODIES
@@ -112,8 +112,10 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
     )
 
 
-def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...]]:
-    """Contact phases, and what had to be mended; see :func:`scout_pin.motion.contact.changes`.
+def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...], np.ndarray]:
+    """Contact phases, what had to be mended, which feet stand at each row, ``(n, 2)``.
+
+    See :func:`scout_pin.motion.contact.changes`.
 
     Raises:
         TrajectoryError: There are more than ``LIMITS.phases``.
@@ -123,7 +125,7 @@ def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...]]
     feet = [
         np.stack([samples.values(f"{body}_{c}") for c in POSE_NAMES], axis=1) for body in BODIES[1:]
     ]
-    found, moved = changes(samples.time.values, standing, feet)
+    found, labels = changes(samples.time.values, standing, feet)
     phases = tuple(Phase(start=a, end=b, support=c) for a, b, c in found)  # type: ignore[arg-type]
     if len(phases) > LIMITS.phases:
         raise TrajectoryError(
@@ -132,10 +134,11 @@ def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...]]
             allowed=f"at most {LIMITS.phases:,} phases",
             remedy="A sensor's noise isn't a phase: filter the column first",
         )
-    return phases, tuple(
+    notes = tuple(
         f"{table.where(row)}: a foot is said to bear load beside its place; it counts as swinging"
-        for row in moved
+        for row in np.flatnonzero((labels != standing).any(axis=1)).tolist()
     )
+    return phases, notes, labels
 
 
 def _curve(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:

@@ -9,7 +9,8 @@ import numpy as np
 
 from scout_pin.dynamics.impact import Impact
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Gait, GaitMotion, RateJump
+from scout_pin.motion.gait import Gait, GaitMotion
+from scout_pin.motion.variants import RateJump
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics
