@@ -65,6 +65,9 @@ class Tolerances:
             found [-].
         unbalanced: Force or moment an explicit model may leave over: above rounding,
             below anything physical [N], [N·m].
+        determined: Scaled singular value below which motors don't determine passive rates
+            [rad]: loops close to 1e-15, so that a pose is known to 1e-15 / σ there, and
+            rates to 1e-15 / σ² [-].
         explicit_rank: Singular value of an explicit model's equations, relative to the
             largest, taken as zero [-].
     """
@@ -100,6 +103,7 @@ class Tolerances:
     vanishing: float = 1e-14
     time_unit: float = 1e-5
     unbalanced: float = 1e-8
+    determined: float = 1e-6
     explicit_rank: float = 1e-11
 
 

@@ -29,7 +29,6 @@ from thesis_pin.loops.system.idle import IdleGroup
 from thesis_pin.loops.system.rows import WELD
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.complements import complement
 
 Array = NDArray[np.float64]
 
@@ -180,9 +179,10 @@ def mobility(robot: ClosedRobot, q: ArrayLike, *, precision: float | None = None
     q = vector("q", q, model.nq)
     survey, scale = surveyed(robot, q, precision), robot.scale
     matrix = scale.rows[:, None] * jacobian(robot, q) * scale.columns
-    _, values, rows = np.linalg.svd(matrix, full_matrices=False)
+    parts = robot.system.parts()
+    _, values, rows = parts.svd(matrix)
     rank = int((values > 10 * survey.noise).sum())
-    driven = np.linalg.svd(complement(rows[:rank])[robot.actuated], compute_uv=False)
+    driven = np.linalg.svd(parts.complement(rows[:rank])[robot.actuated], compute_uv=False)
     return Mobility(
         equations=robot.equations,
         independent=rank,

@@ -95,9 +95,9 @@ def assembly(
     best: Assembly | None = None
     starts = list(_starts(robot, pose))
     nearest: list[tuple[float, str, Array]] = []
-    data, every = robot.model.createData(), np.arange(robot.model.nv, dtype=np.intp)
+    data = robot.model.createData()
     for start, q in starts:
-        settled, reason = close_one(robot, data, q, every, _NEWTON, precision, _PATIENCE)
+        settled, reason = close_one(robot, data, q, _NEWTON, precision, _PATIENCE)
         if reason:
             size = float(np.abs(robot.scale.rows * residual(robot, settled.q)).max())
             nearest.append((size, start, in_range(robot, settled.q)))

@@ -12,7 +12,7 @@ from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.surveying import surveyed
 from thesis_pin.loops.system.gaps import describe_gap, split_gap
-from thesis_pin.loops.system.newton import WIDE, Settled, settle
+from thesis_pin.loops.system.newton import WIDE, Settled, Stack, settle
 from thesis_pin.loops.system.survey import Survey
 from thesis_pin.numeric.arrays import finite_array, together
 from thesis_pin.numeric.checks import instance, whole
@@ -20,6 +20,9 @@ from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
+
+_CHUNK = 1024  # configurations closed at once, so that memory stays bounded
+_CLOSED = 1e-12  # scaled gap that finer steps needn't make smaller [rad]
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,13 +107,14 @@ def close_each(
     if not len(flat[0]):
         raise BadInput("the stack is empty", allowed="at least one sample")
     data = model.createData()
-    q, reasons = np.empty((len(flat[0]), model.nq)), []
+    placed = flat[0] if motors is None else place_motors(robot, *flat)
+    q, reasons = np.empty_like(placed), list[str]()
     gaps = np.empty((len(q), len(robot.loops), 2))
-    for k, start in enumerate(flat[0]):
-        placed = start if motors is None else place_motors(robot, start, flat[1][k])
-        settled, reason = close_one(robot, data, placed, movable, iterations, precision)
-        q[k], gaps[k] = settled.q, loop_gaps(robot, settled.gap)
-        reasons.append(reason)
+    for first in range(0, len(q), _CHUNK):
+        some = slice(first, first + _CHUNK)
+        settled, why = close_stack(robot, data, placed[some], movable, iterations, precision)
+        q[some], gaps[some] = settled.q, loop_gaps(robot, settled.gap)
+        reasons += why
     closed = np.array([not reason for reason in reasons]).reshape(stack)
     return Closing(
         q.reshape(*stack, -1), closed, gaps.reshape(*stack, *gaps.shape[1:]), tuple(reasons)
@@ -121,44 +125,91 @@ def close_one(
     robot: ClosedRobot,
     data: pin.Data,
     q: Array,
-    movable: Places,
     iterations: int,
     precision: float | None,
     patience: int | None = None,
 ) -> tuple[Settled, str]:
-    """Where steps from q end, and why that isn't closed; empty if it is.
+    """:func:`close_stack` of one configuration ``(nq,)`` of which every joint may move."""
+    every = np.arange(robot.model.nv, dtype=np.intp)
+    found, reasons = close_stack(robot, data, q[None], every, iterations, precision, patience)
+    return found.one(0), reasons[0]
+
+
+def close_stack(
+    robot: ClosedRobot,
+    data: pin.Data,
+    q: Array,
+    movable: Places,
+    iterations: int,
+    precision: float | None,
+    patience: int | None = None,
+) -> tuple[Stack, list[str]]:
+    """Where steps from each of q ``(n, nq)`` end, and why that isn't closed; empty if it is.
 
     With patience (see :func:`settle`) a wide gap from which a survey would take the same
     steps again is left open at once.
     """
     equations, scale = robot.system, robot.scale
     settled = settle(equations, scale, data, q, movable, iterations=iterations, patience=patience)
-    near = np.abs(settled.gap).max(initial=0.0) <= TOLERANCES.loop_closure
-    surveyable = precision is not None or robot.surveys or settled.scaled <= WIDE
-    if patience is not None and not near and not surveyable:
-        return settled, _stays_open(robot, settled)
-    try:
-        survey = surveyed(robot, settled.q if near else q, precision)
-    except Unreachable as error:
-        if not near:
-            return settled, f"{error.what}, at the least, after {settled.iterations} Newton steps"
-        raise
+    reasons = [""] * len(q)
+    near = np.abs(settled.gap).max(axis=1, initial=0.0) <= TOLERANCES.loop_closure
+    hopeless = ~near & (settled.scaled > WIDE)
+    if patience is None or precision is not None or robot.surveys:
+        hopeless[:] = False
+    survey = None
+    for k in np.argsort(~near, kind="stable"):  # where the loops are closed is their assembly
+        if not hopeless[k]:
+            try:
+                survey = surveyed(robot, settled.q[k] if near[k] else q[k], precision)
+                break
+            except Unreachable as error:
+                if near[k]:
+                    raise
+                steps = settled.iterations[k]
+                reasons[k] = f"{error.what}, at the least, after {steps} Newton steps"
+    if survey is not None:
+        _finer(robot, data, survey, settled, q, movable, iterations)
+    for k in range(len(q)):
+        if not reasons[k] and not (survey and is_closed(robot, survey, settled.gap[k])):
+            reasons[k] = (
+                f"the loops stay open after {settled.iterations[k]} Newton steps: "
+                f"{describe_gap(equations, settled.gap[k])}"
+            )
+    return settled, reasons
+
+
+def _finer(
+    robot: ClosedRobot,
+    data: pin.Data,
+    survey: Survey,
+    settled: Stack,
+    q: Array,
+    movable: Places,
+    iterations: int,
+) -> None:
+    """Go on, from where the steps ended and from the start, with all that is no noise."""
     rank = survey.rank if len(movable) == robot.model.nv else survey.passive_rank
     for start in (settled.q, q):
-        if settled.scaled <= 1e-12 or (start is q and is_closed(robot, survey, settled.gap)):
-            break
-        cut = 10 * survey.noise
-        finer = settle(equations, scale, data, start, movable, cut, iterations, rank)
-        if finer.scaled < settled.scaled or (start is not q and finer.converged):
-            settled = finer
-    if is_closed(robot, survey, settled.gap):
-        return settled, ""
-    return settled, _stays_open(robot, settled)
-
-
-def _stays_open(robot: ClosedRobot, settled: Settled) -> str:
-    reason = describe_gap(robot.system, settled.gap)
-    return f"the loops stay open after {settled.iterations} Newton steps: {reason}"
+        todo = settled.scaled > _CLOSED
+        if start is q:
+            todo &= [not is_closed(robot, survey, gap) for gap in settled.gap]
+        if not todo.any():
+            return
+        places = np.flatnonzero(todo)
+        found = settle(
+            robot.system,
+            robot.scale,
+            data,
+            start[places],
+            movable,
+            10 * survey.noise,
+            iterations,
+            rank,
+        )
+        better = found.scaled < settled.scaled[places]
+        if start is not q:
+            better |= found.converged
+        settled.replace(places, found, better)
 
 
 def is_closed(robot: ClosedRobot, survey: Survey, gap: Array) -> bool:
@@ -186,13 +237,13 @@ def loop_gaps(robot: ClosedRobot, gap: Array) -> Array:
 
 
 def place_motors(robot: ClosedRobot, q: Array, positions: Array) -> Array:
-    """A configuration ``(nq,)`` with its motors turned to positions ``(motors,)``."""
+    """Configurations ``(n, nq)`` with their motors turned to positions ``(n, motors)``."""
     q = q.copy()
-    for place, joint_v, position in zip(robot.actuated_q, robot.actuated, positions, strict=True):
+    for k, (place, joint_v) in enumerate(zip(robot.actuated_q, robot.actuated, strict=True)):
         if robot.turning[joint_v]:
-            q[place : place + 2] = np.cos(position), np.sin(position)
+            q[:, place], q[:, place + 1] = np.cos(positions[:, k]), np.sin(positions[:, k])
         else:
-            q[place] = position
+            q[:, place] = positions[:, k]
     return q
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.errors import BadInput, SingularPose, ThesisPinError, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.loops.configurations.closing import close_one, place_motors
+from thesis_pin.loops.configurations.chaining import MOST, chained, place
 from thesis_pin.loops.configurations.rates import passive_rates
 from thesis_pin.loops.configurations.surveying import surveyed
 from thesis_pin.numeric.arrays import finite_array, vector
@@ -120,31 +120,38 @@ def _followed(
     current = vector("guess", guess, model.nq).copy()
     flying = _base(robot, base, len(times), current)
     q, (v, a) = np.empty((len(times), model.nq)), np.zeros((2, len(times), model.nv))
-    reasons, data = [], model.createData()
-    for k in range(len(times)):
-        if len(robot.base):
-            current[:7] = flying[0][k]
-            v[k, robot.base], a[k, robot.base] = flying[1][k], flying[2][k]
-        v[k, robot.actuated], a[k, robot.actuated] = columns[1][k], columns[2][k]
-        placed = place_motors(robot, current, columns[0][k])
-        if not (robot.equations or len(robot.passive)):  # a tree of motors: nothing to close
-            q[k] = placed
-            reasons.append("")
-            continue
+    if len(robot.base):
+        v[:, robot.base], a[:, robot.base] = flying[1:]
+    v[:, robot.actuated], a[:, robot.actuated] = columns[1], columns[2]
+    reasons, data = [""] * len(times), model.createData()
+    if not (robot.equations or len(robot.passive)):  # a tree of motors: nothing to close
+        q[:] = place(robot, np.tile(current, (len(times), 1)), columns[0], flying[0])
+        return Following(JointTrajectory(times, q, v, a), np.ones(len(times), bool), tuple(reasons))
+    k, many = 0, 1  # the survey is made at the first sample
+    while k < len(times):
+        some = slice(k, k + many)
         try:
-            settled, reason = close_one(robot, data, placed, robot.passive, 60, precision)
-            q[k] = settled.q
+            closed, reason = chained(
+                robot, data, current, columns[0][some], flying[0][some], precision
+            )
+            done = slice(k, k + len(closed))
+            q[done] = closed
             if reason:
                 raise Unreachable(reason)
-            survey = surveyed(robot, settled.q, precision)
-            passive_rates(robot, survey, data, q[k], v[k], a[k])
-            current, reason = q[k].copy(), ""
+            survey = surveyed(robot, closed[0], precision)
+            errors = passive_rates(robot, survey, data, closed, v[done], a[done])
+            good = next((j for j, error in enumerate(errors) if error), len(closed))
+            if good:
+                current, k = closed[good - 1], k + good
+            if good < len(closed):
+                raise errors[good] or SingularPose("")
+            many = 1 if survey.idle else min(max(4 * good, many), MOST)
         except ThesisPinError as error:
             if strict:
                 raise _at(error, k) from None
             v[k] = a[k] = np.nan
-            reason = str(error)
-        reasons.append(reason)
+            reasons[k] = str(error)
+            k, many = k + 1, 1
     valid = np.array([not reason for reason in reasons])
     return Following(JointTrajectory(times, q, v, a), valid, tuple(reasons))
 

@@ -16,51 +16,59 @@ Array = NDArray[np.float64]
 
 def passive_rates(
     robot: ClosedRobot, survey: Survey, data: pin.Data, q: Array, v: Array, a: Array
-) -> None:
-    """Fill in the passive joints of v and a ``(nv,)`` at one closed configuration.
+) -> list[SingularPose | None]:
+    """Fill in the passive joints of v and a ``(n, nv)`` at closed configurations ``(n, nq)``.
 
     Motions that no motor holds stay at rest.
 
-    Raises:
-        SingularPose: The motors don't determine them, or can't move as asked.
+    Returns:
+        For each, why the motors don't determine them or can't move as asked; None if they do.
     """
+    found: list[SingularPose | None] = [None] * len(q)
     heavy = [group for group in survey.idle if not group.light]
     if heavy:
         # A ball joint that nothing holds is three groups of one name.
         names = "; ".join(dict.fromkeys(", ".join(group.joints[:6]) for group in heavy))
-        raise SingularPose(
-            f"the motors don't determine the other joints: {names} move while they stand still"
-        )
+        what = f"the motors don't determine the other joints: {names} move while they stand still"
+        return [SingularPose(what) for _ in found]
     equations, scale, passive = robot.system, robot.scale, robot.passive
     columns = scale.columns[passive]
-    v[passive] = a[passive] = 0.0
-    poses = equations.poses(data, q[None])
-    raw = equations.jacobian(poses)[0]
-    matrix = scale.rows[:, None] * raw
-    left, values, right = np.linalg.svd(matrix[:, passive] * columns, full_matrices=False)
-    strong = values > 10 * survey.noise
-    if strong.sum() < survey.passive_rank:
-        raise SingularPose(
-            "the motors don't determine the other joints here",
-            remedy="Keep away from poses where the mechanism can move by itself",
+    v[:, passive] = a[:, passive] = 0.0
+    poses = equations.poses(data, q)
+    matrices = scale.rows[:, None] * equations.jacobian(poses)
+    inverse, kept = equations.parts(passive).pseudo_inverses(
+        matrices[:, :, passive] * columns, max(10 * survey.noise, TOLERANCES.determined)
+    )
+    inverse = -columns[:, None] * inverse
+    v[:, passive] = _times(inverse, _times(matrices, v))
+    rates = _times(matrices, v)
+    known = scale.rows * equations.drift(equations.poses(data, q, v), v) + _times(matrices, a)
+    a[:, passive] = _times(inverse, known)
+    pushes = known + _times(matrices[:, :, passive], a[:, passive])
+    speed, push = np.abs(v).max(axis=1, initial=0.0), np.abs(a).max(axis=1, initial=0.0)
+    limit = max(TOLERANCES.loop_motion, survey.threshold)
+    for k in range(len(q)):
+        if kept[k] < survey.passive_rank:
+            found[k] = SingularPose(
+                "the motors don't determine the other joints here",
+                remedy="Keep away from poses where the mechanism can move by itself",
+            )
+            continue
+        asked = (
+            ("rates", rates[k], limit * (1.0 + speed[k])),
+            ("accelerations", pushes[k], limit * (1.0 + speed[k] ** 2 + push[k])),
         )
-    inverse = columns[:, None] * (right[strong].T / values[strong]) @ left[:, strong].T
-    v[passive] = -inverse @ (matrix @ v)
-    refuse_forbidden("rates", survey, matrix @ v, 1.0 + float(np.abs(v).max(initial=0.0)))
-    moving = equations.poses(data, q[None], v[None])
-    known = scale.rows * equations.drift(moving, v[None])[0] + matrix @ a
-    a[passive] = -inverse @ known
-    left_over = known + matrix[:, passive] @ a[passive]
-    largest = 1.0 + float(np.abs(v).max(initial=0.0) ** 2) + float(np.abs(a).max(initial=0.0))
-    refuse_forbidden("accelerations", survey, left_over, largest)
+        for what, opening, allowed in asked:
+            worst = float(np.abs(opening).max(initial=0.0))
+            if worst > allowed and not found[k]:
+                found[k] = SingularPose(
+                    f"the loops forbid the motors' {what}: they would open by {worst:.2e} of "
+                    "their size",
+                    allowed=f"{allowed:.1e}",
+                )
+    return found
 
 
-def refuse_forbidden(what: str, survey: Survey, opening: Array, scale: float) -> None:
-    """Raise SingularPose where a motion opens the loops by more than rounding does."""
-    worst = float(np.abs(opening).max(initial=0.0))
-    limit = max(TOLERANCES.loop_motion, survey.threshold) * scale
-    if worst > limit:
-        raise SingularPose(
-            f"the loops forbid the motors' {what}: they would open by {worst:.2e} of their size",
-            allowed=f"{limit:.1e}",
-        )
+def _times(matrices: Array, vectors: Array) -> Array:
+    """Products of stacks, ``(n, m, k)`` and ``(n, k)`` → ``(n, m)``."""
+    return np.asarray((matrices @ vectors[:, :, None])[:, :, 0])

@@ -34,7 +34,6 @@ from thesis_pin.loops.system.rows import POINT, WELD
 from thesis_pin.loops.system.survey import Survey
 from thesis_pin.numeric.arrays import finite_array, together, vector
 from thesis_pin.numeric.checks import function, instance, real
-from thesis_pin.numeric.complements import complement
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 Array = NDArray[np.float64]
@@ -159,7 +158,8 @@ class ForwardDynamics:
             raise SingularPose("the robot moves only infinitesimally: no acceleration is its own")
         poses = robot.system.poses(data, q[None], v[None])
         matrix = scale.rows[:, None] * robot.system.jacobian(poses)[0] * scale.columns
-        left, values, right = np.linalg.svd(matrix, full_matrices=False)
+        parts = robot.system.parts()
+        left, values, right = parts.svd(matrix)
         rank = survey.rank
         next_one = values[rank] if rank < len(values) else 0.0
         if rank and values[rank - 1] < 10 * max(survey.noise, next_one):
@@ -169,7 +169,7 @@ class ForwardDynamics:
             )
         known = left[:, :rank].T @ (scale.rows * robot.system.drift(poses, v[None])[0])
         opened = -scale.columns * (right[:rank].T @ (known / values[:rank]))
-        allowed = scale.columns[:, None] * complement(right[:rank])
+        allowed = scale.columns[:, None] * parts.complement(right[:rank])
         mass = pin.crba(robot.model, data, q)
         return allowed, opened, np.triu(mass) + np.triu(mass, 1).T
 
@@ -254,7 +254,7 @@ def _closed_survey(robot: ClosedRobot, q: Array, precision: float | None) -> Sur
 
 def _closed_again(dynamics: ForwardDynamics, survey: Survey, q: Array, time: float) -> Array:
     robot, every = dynamics.robot, np.arange(dynamics.robot.model.nv, dtype=np.intp)
-    found = settle(robot.system, robot.scale, dynamics.data, q, every, survey.cut, 20)
+    found = settle(robot.system, robot.scale, dynamics.data, q[None], every, survey.cut, 20).one(0)
     if not is_closed(robot, survey, found.gap):
         raise Unreachable(
             f"a step left the loops open: {describe_gap(robot.system, found.gap)}",

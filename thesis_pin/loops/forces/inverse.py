@@ -76,7 +76,7 @@ class InverseWork:
         robot, passive, where = self.robot, self.robot.passive, f"sample {first + k}"
         scaled = robot.scale.rows[:, None] * matrices[k] * robot.scale.columns
         try:
-            refuse_singular(self.survey, scaled, scaled[:, passive], where)
+            refuse_singular(robot, self.survey, scaled, where)
             return self.survey.rank
         except SingularPose as error:
             other = self._another(error, poses.q[k], scaled, where)
@@ -100,12 +100,12 @@ class InverseWork:
             if not isinstance(error, Contradiction):
                 raise error
             other = surveyed(self.robot, q, self.precision, again=True)
-            refuse_singular(other, scaled, scaled[:, self.robot.passive], where)
+            refuse_singular(self.robot, other, scaled, where)
             return other
         except BadInput:
             if self.check:
                 raise error from None
-        values = np.linalg.svd(scaled, compute_uv=False)
+        values = self.robot.system.parts().values(scaled)
         rank = int((values > max(CUT, 10 * self.survey.noise)).sum())
         return replace(self.survey, rank=rank, passive_rank=-1, idle=())
 
@@ -130,7 +130,7 @@ class InverseWork:
         if not some.size or not survey.rank:
             return result
         scaled = scale.rows[:, None] * matrices[some] * scale.columns
-        values, motions = weakest_motion(survey, scaled, robot.passive)
+        values, motions = weakest_motion(robot, survey, scaled)
         motors = len(robot.actuators)
         largest = np.abs(solved.driven[some, :motors]).max(axis=1, initial=0.0)
         largest = np.maximum(largest, 1e-3 * np.abs(tau[some]).max(axis=1))

@@ -24,20 +24,21 @@ class Contradiction(SingularPose):
     """A pose has another number of independent equations than its assembly."""
 
 
-def refuse_singular(survey: Survey, matrix: Array, passive: Array, where: str) -> None:
+def refuse_singular(robot: ClosedRobot, survey: Survey, matrix: Array, where: str) -> None:
     """Refuse a pose at which the equations or the motors have lost a direction.
 
     Args:
+        robot: The robot.
         survey: Of the assembly.
         matrix: Scaled Jacobian, shape ``(equations, nv)``.
-        passive: Its passive columns.
         where: Which sample.
 
     Raises:
         Contradiction: The pose seems to be of another assembly.
         SingularPose: It is singular.
     """
-    values = np.append(np.linalg.svd(matrix, compute_uv=False), 0.0)
+    equations, passive = robot.system, robot.passive
+    values = np.append(equations.parts().values(matrix), 0.0)
     rank, noise = survey.rank, survey.noise
     last = float(values[rank - 1]) if rank else np.inf
     following = float(values[rank])
@@ -55,7 +56,7 @@ def refuse_singular(survey: Survey, matrix: Array, passive: Array, where: str) -
             where=where,
             remedy="Keep away from this pose",
         )
-    inner = np.linalg.svd(passive, compute_uv=False)
+    inner = equations.parts(passive).values(matrix[:, passive])
     count = survey.passive_rank
     if count and inner[count - 1] < 10 * noise:
         raise SingularPose(
@@ -65,21 +66,20 @@ def refuse_singular(survey: Survey, matrix: Array, passive: Array, where: str) -
         )
 
 
-def weakest_motion(survey: Survey, scaled: Array, passive: Array) -> tuple[Array, Array]:
+def weakest_motion(robot: ClosedRobot, survey: Survey, scaled: Array) -> tuple[Array, Array]:
     """Weakest counting singular value and its motion, scaled: ``(n,)`` and ``(n, nv)``.
 
     Args:
+        robot: The robot.
         survey: Of the assembly.
         scaled: Scaled Jacobians, shape ``(n, equations, nv)``.
-        passive: Places of the passive velocities.
     """
     directions = np.zeros((len(scaled), scaled.shape[2]))
+    held, equations = np.arange(scaled.shape[2]), robot.system
     if survey.passive_rank == survey.rank:
-        _, values, right = np.linalg.svd(scaled[:, :, passive], full_matrices=False)
-        directions[:, passive] = right[:, survey.rank - 1]
-    else:
-        _, values, right = np.linalg.svd(scaled, full_matrices=False)
-        directions[:] = right[:, survey.rank - 1]
+        held = robot.passive
+    _, values, right = equations.parts(held).svd(scaled[:, :, held])
+    directions[:, held] = right[:, survey.rank - 1]
     return values[:, survey.rank - 1], directions
 
 

@@ -14,6 +14,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from thesis_pin.loops.system.parts import Parts
 from thesis_pin.loops.system.rows import Loop
 from thesis_pin.model.mechanism.supplement import Coupling
 from thesis_pin.numeric.arrays import skew
@@ -38,6 +39,13 @@ class Poses:
     rates: Array | None
     turns: Array
     points: Array
+
+    def at(self, some: NDArray[np.bool_]) -> Poses:
+        """Those of some samples ``(n,)``."""
+        if some.all():
+            return self
+        rates = None if self.rates is None else self.rates[some]
+        return Poses(self.q[some], self.columns[some], rates, self.turns[some], self.points[some])
 
 
 class Equations:
@@ -70,6 +78,20 @@ class Equations:
         self.factors, self.constants = self._coupled()
         self.size = self._picked.size + len(self.couplings)
         """Number of equations; some may depend on others."""
+        self._parts: dict[bytes, Parts] = {}
+
+    def parts(self, columns: NDArray[np.intp] | None = None) -> Parts:
+        """Parts of the Jacobian, or of the columns of it that belong to some velocities."""
+        if columns is None:
+            columns = np.arange(self.model.nv, dtype=np.intp)
+        key = columns.tobytes()
+        if key not in self._parts:
+            touches = np.zeros((self.size, self.model.nv), dtype=bool)
+            for rows, signs in zip(self.rows, self.signs, strict=True):
+                touches[rows] = signs != 0
+            touches[self._picked.size :] = self.factors != 0
+            self._parts[key] = Parts(touches[:, columns])
+        return self._parts[key]
 
     def _layout(self) -> tuple[NDArray[np.intp], list[tuple[int, int, Loop]], list[slice]]:
         """Where each equation is found among the twists, those that aren't, rows by loop."""

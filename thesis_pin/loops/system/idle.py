@@ -13,6 +13,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.loops.system.equations import Equations
+from thesis_pin.loops.system.parts import connected
 from thesis_pin.loops.system.scale import Scale
 
 Array = NDArray[np.float64]
@@ -96,20 +97,3 @@ def joint_names(model: pin.Model) -> list[str]:
         for name, joint in zip(list(model.names)[1:], list(model.joints)[1:], strict=True)
         for _ in range(joint.nv)
     ]
-
-
-def connected(touch: NDArray[np.bool_]) -> list[Places]:
-    """Members of the connected parts of a symmetric relation ``(n, n)``; loners that don't
-    touch themselves are left out."""
-    waiting = set(np.flatnonzero(np.diag(touch)).tolist())
-    parts = []
-    while waiting:
-        part, edge = set(), [min(waiting)]
-        while edge:
-            one = edge.pop()
-            if one not in part:
-                part.add(one)
-                edge += np.flatnonzero(touch[one]).tolist()
-        waiting -= part
-        parts.append(np.array(sorted(part), dtype=np.intp))
-    return parts

@@ -7,7 +7,7 @@ walk; steps cut at a singular value never see them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
@@ -34,7 +34,7 @@ _VANISHED = 1e-8  # a step that short ends the search once steps stop shrinking 
 
 @dataclass(frozen=True, eq=False)
 class Settled:
-    """Where the steps ended.
+    """Where the steps of one configuration ended.
 
     Attributes:
         q: Where the steps vanished, else where the gap was smallest, shape ``(nq,)``.
@@ -56,6 +56,37 @@ class Settled:
         return self.step < _VANISHED
 
 
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """The same of a stack: see :class:`Settled`, every attribute with an axis ``n`` before."""
+
+    q: Array
+    gap: Array
+    scaled: Array
+    step: Array
+    iterations: NDArray[np.int_]
+
+    @property
+    def converged(self) -> NDArray[np.bool_]:
+        """Where the steps vanished, shape ``(n,)``."""
+        return np.asarray(self.step < _VANISHED)
+
+    def one(self, k: int) -> Settled:
+        """One of them."""
+        return Settled(
+            self.q[k],
+            self.gap[k],
+            float(self.scaled[k]),
+            float(self.step[k]),
+            int(self.iterations[k]),
+        )
+
+    def replace(self, places: NDArray[np.intp], other: Stack, chosen: NDArray[np.bool_]) -> None:
+        """Take those of another stack at places ``(k,)`` that are chosen ``(k,)``."""
+        for name, array in vars(self).items():
+            array[places[chosen]] = getattr(other, name)[chosen]
+
+
 def settle(
     equations: Equations,
     scale: Scale,
@@ -66,14 +97,14 @@ def settle(
     iterations: int = 60,
     rank: int | None = None,
     patience: int | None = None,
-) -> Settled:
-    """Steps of some joints from q until they vanish.
+) -> Stack:
+    """Steps of some joints from each of a stack of configurations until they vanish.
 
     Args:
         equations: The robot's equations.
         scale: Their scales.
         data: Pinocchio's data, overwritten.
-        q: Configuration to start from, shape ``(nq,)``.
+        q: Configurations to start from, shape ``(n, nq)``.
         movable: Places of the velocities that may move.
         cut: Scaled singular values up to which directions are left out.
         iterations: Most steps.
@@ -81,38 +112,56 @@ def settle(
             configurations dependent equations may look real.
         patience: Steps without a smaller gap after which a wide one is left open; None: all.
     """
-    model, columns = equations.model, scale.columns[movable]
-    best, taken, last = Settled(q, np.zeros(equations.size), np.inf, np.inf, 0), 0, np.inf
-    mark, marked = np.inf, 0
+    model, columns, count = equations.model, scale.columns[movable], len(q)
+    parts = equations.parts(movable)
+    best = Stack(
+        q.copy(),
+        np.zeros((count, equations.size)),
+        np.full(count, np.inf),
+        np.full(count, np.inf),
+        np.zeros(count, dtype=int),
+    )
+    on, q = np.arange(count), q.copy()  # those under way, and where they are
+    last, mark, marked = np.full(count, np.inf), np.full(count, np.inf), np.zeros(count, dtype=int)
+    taken = 0
     while True:
-        poses = equations.poses(data, q[None])
-        gap = equations.gap(poses)[0]
-        size = float(np.abs(gap * scale.rows).max(initial=0.0))
+        poses = equations.poses(data, q)
+        gap = equations.gap(poses)
+        size = np.abs(gap * scale.rows).max(axis=1, initial=0.0)
         # Once steps vanish the last pose is the best: the gap left over is the file's rounding,
         # in which the rest of the way doesn't show.
-        if size < best.scaled or last < _VANISHED:
-            best = Settled(q, gap, size, last, taken)
-        if size < _GAIN * mark:
-            mark, marked = size, taken
-        elif patience is not None and taken - marked >= patience and best.scaled > WIDE:
-            return replace(best, step=last)
-        if size == 0.0 or not movable.size:
-            return replace(best, step=0.0)
-        closed = last < _VANISHED and size <= _ROUNDING
-        if closed or last < _ROUNDING or taken == iterations:
-            return replace(best, step=last)
-        matrix = scale.rows[:, None] * equations.jacobian(poses)[0][:, movable] * columns
-        left, values, right = np.linalg.svd(matrix, full_matrices=False)
-        strong = values > cut
-        if rank is not None:
-            strong[rank:] = False
-        part = (left.T @ (scale.rows * gap))[strong] / values[strong]
-        scaled_step = -(part @ right[strong])
-        length = float(np.linalg.norm(scaled_step))
+        better = (size < best.scaled[on]) | (last < _VANISHED)
+        here = Stack(q, gap, size, last, np.full(len(on), taken))
+        best.replace(on, here, better)
+        shrunk = size < _GAIN * mark
+        mark, marked = np.where(shrunk, size, mark), np.where(shrunk, taken, marked)
+        exact = (size == 0.0) | (not movable.size)
+        done = exact | (last < _ROUNDING) | ((last < _VANISHED) & (size <= _ROUNDING))
+        if patience is not None:
+            done |= (taken - marked >= patience) & (best.scaled[on] > WIDE)
+        done |= taken == iterations
+        best.step[on[done]] = np.where(exact, 0.0, last)[done]
+        going = ~done
+        if not going.any():
+            return best
+        raw = equations.jacobian(poses.at(going))[:, :, movable]
+        matrices = scale.rows[:, None] * raw * columns
+        inverse, _ = parts.pseudo_inverses(matrices, cut, rank)
+        steps = -(inverse @ (scale.rows * gap[going])[:, :, None])[:, :, 0]
+        length = np.sqrt((steps**2).sum(axis=1))
         # Quadratic convergence ends in rounding: stop when a step no longer helps.
-        if length >= last and last < _VANISHED:
-            return replace(best, step=last)
-        last = length
-        step = np.zeros(model.nv)
-        step[movable] = columns * scaled_step * min(1.0, _LONGEST / max(length, 1e-300))
-        q, taken = pin.integrate(model, q, step), taken + 1
+        on, q, mark, marked = on[going], q[going], mark[going], marked[going]
+        ended = (length >= last[going]) & (last[going] < _VANISHED)
+        best.step[on[ended]] = last[going][ended]
+        last, taken = length, taken + 1
+        moves = np.zeros((len(on), model.nv))
+        moves[:, movable] = (
+            columns * steps * np.minimum(1.0, _LONGEST / np.maximum(length, 1e-300))[:, None]
+        )
+        if ended.any():
+            going = ~ended
+            on, q, moves = on[going], q[going], moves[going]
+            last, mark, marked = last[going], mark[going], marked[going]
+            if not len(on):
+                return best
+        q = np.array([pin.integrate(model, *both) for both in zip(q, moves, strict=True)])

@@ -16,14 +16,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.loops.system.parts import SINGULAR, inverted
 from thesis_pin.loops.system.scale import Scale
 from thesis_pin.loops.system.survey import Block, Survey
 from thesis_pin.numeric.complements import complement
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
-
-_SINGULAR = 1e-13  # smallest diagonal entry of R that is still inverted
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,23 +114,14 @@ def _part(
     """Multipliers, motion per motion of the driven joints, weakest value, forbidden motion."""
     size, columns = part.shape[-2:]
     if block.rank in (size, columns):
-        wide = block.rank < columns
-        basis, triangle = np.linalg.qr(np.swapaxes(part, -1, -2) if wide else part)
-        broken = np.abs(np.diagonal(triangle, axis1=-2, axis2=-1)).min(axis=-1) < _SINGULAR
-        if broken.any():
-            triangle[broken] = np.eye(block.rank)
-        inverse = np.linalg.inv(triangle)
-        weakest = np.where(broken, 0.0, 1.0 / np.linalg.norm(inverse, axis=(-2, -1)))
-        if wide:  # part.T = basis @ triangle
-            pseudo = basis @ np.swapaxes(inverse, -1, -2)
-        else:
-            pseudo = inverse @ np.swapaxes(basis, -1, -2)
-        reached = basis if block.rank < size else None
+        found = inverted(part)
+        pseudo, weakest = found.pseudo, found.weakest
+        reached = found.basis if block.rank < size else None
     else:
         left, values, right = np.linalg.svd(part, full_matrices=False)
         left, right = left[..., : block.rank], right[..., : block.rank, :]
         weakest = values[..., block.rank - 1] if block.rank else np.full(part.shape[:-2], np.inf)
-        inverse = 1.0 / np.maximum(values[..., None, : block.rank], _SINGULAR)
+        inverse = 1.0 / np.maximum(values[..., None, : block.rank], SINGULAR)
         pseudo = (np.swapaxes(right, -1, -2) * inverse) @ np.swapaxes(left, -1, -2)
         reached = left
     multipliers = (load[..., None, :] @ pseudo)[..., 0, :]
@@ -164,7 +154,7 @@ def _by_rank(
     rest = load.copy()
     rest[:, driven] -= shares
     along = (basis[:, :rank] @ rest[..., None])[..., 0]
-    along /= np.maximum(values[:, :rank], _SINGULAR)
+    along /= np.maximum(values[:, :rank], SINGULAR)
     multipliers = (left[:, :, :rank] @ along[..., None])[..., 0]
     weakest = values[:, rank - 1] if rank else np.full(count, np.inf)
     return shares, multipliers, weakest, condition

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from thesis_pin.errors import Undecidable, Unreachable
 from thesis_pin.loops.system.equations import Equations
 from thesis_pin.loops.system.gaps import describe_gap
-from thesis_pin.loops.system.idle import IdleGroup, connected, idle_groups
+from thesis_pin.loops.system.idle import IdleGroup, idle_groups
 from thesis_pin.loops.system.newton import CUT, Settled, settle
 from thesis_pin.loops.system.scale import Scale
 from thesis_pin.tolerances import TOLERANCES
@@ -122,7 +122,7 @@ def survey(
     """
     cut = CUT if precision is None else max(precision, 0.1 * FLOOR)
     walk = _Walk(equations, scale, q, cut)
-    values = np.array([np.linalg.svd(matrix, compute_uv=False) for matrix in walk.matrices])
+    values = equations.parts().values(walk.matrices)
     high, middle = values.max(axis=0), np.median(values, axis=0)
     rank = int((high > cut).sum())
     shown = max(float(high[rank:].max(initial=0.0)), FLOOR)
@@ -151,7 +151,7 @@ def survey(
         )
     blocks = _blocks(equations, walk.matrices, passive, cut)
     held = walk.matrices[:, :, passive]
-    inner = np.array([np.linalg.svd(m, compute_uv=False) for m in held])
+    inner = equations.parts(passive).values(held)
     passive_rank = int((inner.max(axis=0, initial=0.0) > cut).sum())
     steady = int(np.argmax(inner[:, passive_rank - 1])) if passive_rank else 0
     idle = idle_groups(
@@ -206,9 +206,10 @@ class _Walk:
         self.matrices: Array = np.array(matrices)
 
     def _closed(self, q: Array, iterations: int = 60, rank: int | None = None) -> Settled:
-        found = settle(
-            self.equations, self.scale, self.data, q, self.every, self.cut, iterations, rank
+        stack = settle(
+            self.equations, self.scale, self.data, q[None], self.every, self.cut, iterations, rank
         )
+        found = stack.one(0)
         if rank is not None and found.scaled > self.widest:  # the step began at a singular pose
             return self._closed(q, iterations)
         return found
@@ -221,7 +222,7 @@ class _Walk:
     def _direction(self, matrix: Array, generator: np.random.Generator) -> tuple[Array | None, int]:
         """A random unit step along the motions that the loops leave, if any, and the rank."""
         touched = np.abs(matrix).max(axis=0, initial=0.0) > 0
-        _, values, right = np.linalg.svd(matrix, full_matrices=False)
+        _, values, right = self.equations.parts().svd(matrix)
         held = right[values > self.cut]
         # Joints of no loop would only dilute the step.
         step = np.where(touched, generator.normal(size=matrix.shape[1]), 0.0)
@@ -233,25 +234,18 @@ class _Walk:
 def _blocks(
     equations: Equations, matrices: Array, passive: Places, cut: float
 ) -> tuple[Block, ...]:
-    groups = [np.arange(rows.start, rows.stop) for rows in equations.rows]
-    first = equations.size - len(equations.couplings)
-    groups += [np.array([row]) for row in range(first, equations.size)]
-    if not groups:
-        return ()
-    pattern = np.concatenate([equations.signs, equations.factors])[:, passive] != 0
     blocks = []
-    for members in connected((pattern[:, None] & pattern).any(axis=-1)):
-        rows = np.concatenate([groups[k] for k in members]).astype(np.intp)
-        columns = passive[pattern[members].any(axis=0)]
+    for rows, places in equations.parts(passive).each:
+        columns = passive[places]
         parts = matrices[:, rows][:, :, columns]
-        values = np.array([np.linalg.svd(part, compute_uv=False) for part in parts])
+        values = np.linalg.svd(parts, compute_uv=False)
         blocks.append(Block(rows, columns, int((values.max(axis=0) > cut).sum())))
     return tuple(blocks)
 
 
 def _weak_loops(equations: Equations, matrices: Array, weak: slice) -> tuple[str, ...]:
     """Names of the loops and couplings that the weak singular vectors are made of."""
-    left = np.array([np.linalg.svd(matrix, full_matrices=False)[0][:, weak] for matrix in matrices])
+    left = equations.parts().svd(matrices)[0][:, :, weak]
     shares = (left**2).sum(axis=-1).mean(axis=0)
     named = [
         (float(shares[rows].sum()), loop.name)
