@@ -8,10 +8,12 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.dynamics.impact import Impact
+from scout_pin.dynamics.variants import Drawn
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.variants import RateJump
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
+from scout_pin.report.uncertainty.headlines import Headlines, Worked, headlines
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks, intervals
@@ -34,6 +36,7 @@ class GaitNumbers:
         zmp: Zero-moment point by (6.1) [m], shape ``(n, 2)``.
         margin: Signed distance of the ZMP inside the support polygon [m], ``(n,)``.
         impacts: Touchdowns.
+        drawn: What samples of finite resolution leave open; None if the gait is exact.
     """
 
     robot: Scout
@@ -47,6 +50,15 @@ class GaitNumbers:
     zmp: np.ndarray
     margin: np.ndarray
     impacts: tuple[Impact, ...]
+    drawn: Drawn | None = None
+
+    @cached_property
+    def headlines(self) -> Headlines | None:
+        """Intervals of the numbers that count; None if the gait is exact."""
+        if self.drawn is None or self.gait.variants is None:
+            return None
+        worked = Worked(self.robot, self.motion, self.joints, self.dynamics, self.margin)
+        return headlines(worked, self.drawn, self.gait.variants)
 
     @cached_property
     def actuators(self) -> ActuatorSummary:

@@ -16,11 +16,21 @@ def servos_carry(numbers: GaitNumbers) -> bool:
 def can_walk(numbers: GaitNumbers) -> bool:
     """Whether the floor can supply every wrench, feet swing clear and no rate jumps."""
     return bool(
-        (numbers.margin > 0).all()
-        and numbers.dynamics.admissible.all()
-        and numbers.clearance >= -TOLERANCES.clearance
-        and not numbers.rate_jumps
+        (numbers.margin > 0).all() and numbers.dynamics.admissible.all() and feet_and_rates(numbers)
     )
+
+
+def feet_and_rates(numbers: GaitNumbers) -> bool:
+    """Whether feet swing clear and no rate jumps: all but what the floor has to supply."""
+    return not _digs(numbers) and not numbers.rate_jumps
+
+
+def _digs(numbers: GaitNumbers) -> bool:
+    """Whether a swinging sole goes into the floor, by more than its samples leave open."""
+    lowest = numbers.clearance
+    if numbers.headlines is not None and numbers.headlines.lowest is not None:
+        lowest = numbers.headlines.lowest.high
+    return lowest < -TOLERANCES.clearance
 
 
 def within_limits(numbers: GaitNumbers) -> bool:
@@ -107,7 +117,7 @@ def _servos(numbers: GaitNumbers) -> list[str]:
 
 
 def _swing(numbers: GaitNumbers) -> list[str]:
-    if numbers.clearance < -TOLERANCES.clearance:
+    if _digs(numbers):
         return [f"A swinging sole goes {-numbers.clearance * 1e3:.1f} mm into the floor."]
     return []
 
