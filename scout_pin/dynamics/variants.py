@@ -6,7 +6,7 @@ itself is, all of them in one stack.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TypeVar
@@ -189,19 +189,35 @@ def lowest_corners(robot: Scout, motion: GaitMotion) -> Array:
 def _stack(variants: Variants, own: GaitMotion, unit: float) -> GaitMotion:
     """Motions of all variants but the gait's own, one after the other."""
     count = variants.count - 1
-    bodies = []
+    values = {}
     for name in BODIES:
         found = np.zeros((3, 6, count, len(own.t)))
         for k, curve in enumerate(variants.curves[name]):
             for order in range(min(3, len(curve.c))):
                 found[order, k] = curve(own.t, order)[:, 1:].T / unit**order
-        values, rates, second = found.reshape(3, 6, -1)
-        turns = euler_placement("xyz", values[3:].T, rates[3:].T, second[3:].T)
+        values[name] = found.reshape(3, 6, -1)
+    return stacked(values, np.tile(own.t, count), np.tile(own.support, (count, 1)), unit)
+
+
+def stacked(
+    values: Mapping[str, Array], t: Array, support: NDArray[np.bool_], unit: float
+) -> GaitMotion:
+    """A motion from coordinates with their rates and accelerations.
+
+    Args:
+        values: Of each body, per second, shape ``(3, 6, n)``.
+        t: Times in the gait's unit, ``(n,)``.
+        support: Feet in support, ``(n, 2)``.
+        unit: Seconds in that unit.
+    """
+    bodies = []
+    for name in BODIES:
+        found, rates, second = values[name]
+        turns = euler_placement("xyz", found[3:].T, rates[3:].T, second[3:].T)
         rotation, omega, alpha = turns
-        place, velocity, acceleration = (part[:3].copy().T for part in (values, rates, second))
+        place, velocity, acceleration = (part[:3].copy().T for part in (found, rates, second))
         bodies.append(BodyMotion(rotation, place, velocity, acceleration, omega, alpha))
-    time, t = np.tile(own.time, count), np.tile(own.t, count)
-    return GaitMotion(time, t, np.tile(own.support, (count, 1)), *bodies)
+    return GaitMotion(t * unit, t, support, *bodies)
 
 
 def _rows(numbers: Sequence[int], count: int) -> NDArray[np.intp]:

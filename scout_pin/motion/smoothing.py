@@ -28,7 +28,7 @@ from thesis_pin.smoothing.curve import (
     rest,
     smooth_curve,
 )
-from thesis_pin.smoothing.noise import interpolation_error, still, white_noise
+from thesis_pin.smoothing.noise import acceleration_noise, sample_noise, still, white_noise
 from thesis_pin.smoothing.outliers import outliers
 from thesis_pin.smoothing.stated import Stated
 from thesis_pin.tables.table import Column
@@ -81,7 +81,7 @@ def _warning(samples: GaitSamples, quanta: dict[str, float], time_unit: float) -
 def errors(
     samples: GaitSamples, quanta: dict[str, float], time_unit: float = 1.0
 ) -> Iterator[tuple[str, float, float]]:
-    """By how much a curve through every sample would be wrong, and may be.
+    """By how much curves through every sample would be wrong, and may be.
 
     Args:
         samples: The samples.
@@ -92,11 +92,14 @@ def errors(
         A column's name, the error of its second derivative [m/s²] or [rad/s²], the limit.
     """
     time = samples.time.values
+    step = float(np.diff(time).min()) * time_unit
     for name, column in samples.poses.items():
         if np.ptp(column.values) > 0:
-            error = interpolation_error(time, column.values, quanta[name], samples.time.quantum)
+            sigma = sample_noise(time, column.values, quanta[name], samples.time.quantum)
             limit = TOLERANCES.exact_turn if _turns(name) else TOLERANCES.exact_move
-            yield name, error / time_unit**2, limit
+            # Where a joint rests, the sign of a wrong rate would count as friction's.
+            rate = acceleration_noise(TOLERANCES.exact_rate, 1.0) / step
+            yield name, acceleration_noise(sigma, step), min(limit, rate)
 
 
 def _quanta(samples: GaitSamples, how: Stated) -> dict[str, float]:

@@ -22,7 +22,7 @@ def can_walk(numbers: GaitNumbers) -> bool | None:
         return found
     if falls(held) or not verdict.feet_and_rates(numbers):
         return False
-    return None if _few_draws(numbers) or not stands(held) else found
+    return None if few_draws(numbers) or not stands(held) else found
 
 
 def servos_carry(numbers: GaitNumbers) -> bool | None:
@@ -33,7 +33,7 @@ def servos_carry(numbers: GaitNumbers) -> bool | None:
     sides = [use.side(1.0) for use in held.servo_use]
     if 1 in sides:
         return False
-    return True if all(side < 0 for side in sides) and not _few_draws(numbers) else None
+    return True if all(side < 0 for side in sides) and not few_draws(numbers) else None
 
 
 def within_limits(numbers: GaitNumbers) -> bool | None:
@@ -62,7 +62,8 @@ def stands(held: Headlines) -> bool:
     )
 
 
-def _few_draws(numbers: GaitNumbers) -> bool:
+def few_draws(numbers: GaitNumbers) -> bool:
+    """Whether most motions that the samples leave open can't be worked out."""
     drawn = numbers.drawn
     if drawn is None:
         return False

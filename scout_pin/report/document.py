@@ -16,8 +16,10 @@ from scout_pin.kinematics.solutions import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
-from scout_pin.report import verdict
+from scout_pin.report import decision
 from scout_pin.report.numbers import GaitNumbers
+from scout_pin.report.reason import reason, sentences
+from scout_pin.report.uncertainty.document import uncertainty
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.checks import function, instance
@@ -35,23 +37,31 @@ class GaitReport(GaitNumbers):
     """Everything known of a gait on a robot: its numbers, its verdict, its documents."""
 
     @property
-    def servos_carry(self) -> bool:
-        """Whether every joint stays under its servo's torque-speed line."""
-        return verdict.servos_carry(self)
+    def servos_carry(self) -> bool | None:
+        """Whether every joint stays under its servo's line; None where samples can't say."""
+        return decision.servos_carry(self)
 
     @property
-    def can_walk(self) -> bool:
-        """Whether the floor can supply every wrench, feet swing clear and no rate jumps."""
-        return verdict.can_walk(self)
+    def can_walk(self) -> bool | None:
+        """Whether the floor can supply every wrench, feet swing clear and no rate jumps.
+
+        None where the gait's samples don't carry an answer.
+        """
+        return decision.can_walk(self)
 
     @property
-    def within_limits(self) -> bool:
-        """Walkable and carried by the servos."""
-        return verdict.within_limits(self)
+    def within_limits(self) -> bool | None:
+        """Walkable and carried by the servos; None where the gait's samples can't say."""
+        return decision.within_limits(self)
 
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
-        return verdict.sentences(self)
+        return sentences(self)
+
+    @property
+    def reason(self) -> str | None:
+        """Why the gait's samples carry no verdict; None if they do, or it is exact."""
+        return reason(self)
 
     def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open, with their reasons."""
@@ -96,6 +106,7 @@ class GaitReport(GaitNumbers):
             "assumptions": self.assumptions(),
             "notes": list(self.gait.notes),
             "summary": self.summary(),
+            "uncertainty": uncertainty(self.headlines, self.drawn, self.gait.variants),
         }
 
     def columns(self) -> dict[str, np.ndarray | list[str]]:
@@ -129,7 +140,8 @@ class GaitReport(GaitNumbers):
             "within_limits": self.within_limits,
             "can_walk": self.can_walk,
             "servos_carry": self.servos_carry,
-            "verdict": self.verdict(),
+            "verdict": None if self.within_limits is None else self.verdict(),
+            "reason": self.reason,
             "peak_torque": a.peak_torque,
             "rms_torque": a.rms_torque,
             "peak_speed": a.peak_speed,

@@ -38,11 +38,17 @@ def within_limits(numbers: GaitNumbers) -> bool:
     return can_walk(numbers) and servos_carry(numbers)
 
 
-def sentences(numbers: GaitNumbers) -> list[str]:
-    """The verdict, most important first: walking, contact, servos, swing feet."""
+def sentences(numbers: GaitNumbers, *, walking: bool = True, servos: bool = True) -> list[str]:
+    """The verdict, most important first: walking, contact, servos, swing feet.
+
+    Args:
+        numbers: What it is about.
+        walking: Whether to say if the floor can supply what the gait needs.
+        servos: Whether to say if the servos can carry it.
+    """
     return [
-        *_walking(numbers),
-        *_servos(numbers),
+        *(_walking(numbers) if walking else ()),
+        *(_servos(numbers) if servos else ()),
         *_swing(numbers),
         *_smooth(numbers),
     ]

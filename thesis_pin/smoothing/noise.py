@@ -120,10 +120,8 @@ def still(values: Array, quantum: float, noise: float = 0.0) -> Still | None:
     return Still(middle, averaged if spread > quantum else max(averaged, rounding))
 
 
-def interpolation_error(
-    time: Array, values: Array, quantum: float, time_quantum: float = 0.0
-) -> float:
-    """Error of second derivatives by a spline through samples, as far as they show it.
+def sample_noise(time: Array, values: Array, quantum: float, time_quantum: float = 0.0) -> float:
+    """Noise of samples as far as they show it: rounding, what differences tell, uneven times.
 
     Args:
         time: Sample times, ascending, shape ``(n,)``.
@@ -131,9 +129,8 @@ def interpolation_error(
         quantum: Smallest step that their text resolves.
         time_quantum: The same of the times.
     """
-    steps = np.diff(time)
     sigma = max(quantum * ROUNDING, white_noise(values))
-    if time_quantum:
-        rate = float(np.quantile(np.abs(np.diff(values) / steps), 0.95))
-        sigma = math.hypot(sigma, rate * uneven(time, time_quantum))
-    return acceleration_noise(sigma, float(steps.min()))
+    if not time_quantum:
+        return sigma
+    rate = float(np.quantile(np.abs(np.diff(values) / np.diff(time)), 0.95))
+    return math.hypot(sigma, rate * uneven(time, time_quantum))
