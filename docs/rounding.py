@@ -8,7 +8,6 @@ it as CSV, and asks for a report. Rates, offsets and seeds are those of no const
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -107,14 +106,13 @@ class Cell:
 def stride(t: np.ndarray) -> np.ndarray:
     """A brisk stride of two steps in 1.6 s that never rests: 18 coordinates, ``(n, 18)``."""
     w = 2 * np.pi / 1.6
-    lead = t - 0.1
-    sway = np.sin(w * lead) - 0.12 * np.sin(3 * w * lead)
+    sway = np.sin(w * (t - 0.12)) + 0.1 * np.sin(3 * w * (t - 0.12))
     result = np.zeros((len(t), 18))
-    result[:, 0] = -0.038 * sway
-    result[:, 1] = 0.0375 * t - 0.008 + 0.003 * np.sin(2 * w * t + 0.5)
-    result[:, 2] = 0.209 + 0.005 * np.sin(2 * w * t - 1.0)
-    result[:, 3] = -0.22 + 0.015 * np.cos(2 * w * t)
-    result[:, 4] = -0.20 * sway
+    result[:, 0] = -0.05 * sway
+    result[:, 1] = 0.0375 * t - 0.0073 + 0.0027 * np.sin(2 * w * t - 1.4)
+    result[:, 2] = 0.209 + 0.0044 * np.sin(2 * w * t - 1.1)
+    result[:, 3] = -0.213 + 0.015 * np.cos(2 * w * t)
+    result[:, 4] = -0.125 * sway
     result[:, 5] = 0.1 * np.sin(w * t)
     for first, start in ((6, 1.025), (12, 0.225)):
         u = np.clip((t - start) / 0.575, 0.0, 1.0)

@@ -1,14 +1,19 @@
-"""The task coordinates of the spray tip, and the placements they mean."""
+"""The task coordinates of the spray tip, and the placements and motions they mean."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from thesis_pin.numeric.rotations import euler_rate_matrix, rotation
+from thesis_pin.errors import SingularPose
+from thesis_pin.numeric.arrays import wrap
+from thesis_pin.numeric.rotations import euler_placement, euler_rate_matrix, rotation
+from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
 POSE_NAMES = ("x", "y", "z", "psi", "theta", "phi")
 """Task coordinates of the thesis: spray tip [m] and angles [rad] (2.3)."""
+
+_ORDER = [4, 3, 5]  # the turns are about x, y, z in the order θ, ψ, φ; the coordinates ψ, θ, φ
 
 
 def pose_rotation(pose: np.ndarray) -> np.ndarray:
@@ -20,29 +25,75 @@ def pose_rotation(pose: np.ndarray) -> np.ndarray:
     return np.asarray(turns[0] @ turns[1] @ turns[2])
 
 
-def pose_from_placement(position: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    """Task coordinates of a placement of the tool, with cos ψ ≥ 0.
+def pose_from_placement(
+    position: np.ndarray, matrix: np.ndarray, near: np.ndarray | None = None
+) -> np.ndarray:
+    """Task coordinates of a placement of the tool.
 
     Args:
         position: Spray tip [m], shape ``(..., 3)``.
         matrix: Orientation, shape ``(..., 3, 3)``.
+        near: Angles ψ, θ, φ next to which those of the pose are to be, ``(..., 3)``:
+            (ψ, θ, φ) and (π − ψ, θ + π, φ + π) are one orientation. None takes
+            cos ψ ≥ 0 and angles in (−π, π].
 
     Returns:
-        Pose ``(..., 6)``; where cos ψ = 0 only θ ± φ is defined and φ = 0 is taken.
+        Pose ``(..., 6)``; where cos ψ = 0 only θ ± φ is defined, and φ = 0 or the θ of
+        ``near`` is taken.
     """
-    cosine = np.hypot(matrix[..., 0, 0], matrix[..., 0, 1])
-    lost = cosine < TOLERANCES.singular
-    theta = np.where(
-        lost,
-        np.arctan2(matrix[..., 2, 1], matrix[..., 1, 1]),
-        np.arctan2(-matrix[..., 1, 2], matrix[..., 2, 2]),
-    )
-    phi = np.where(lost, 0.0, np.arctan2(-matrix[..., 0, 1], matrix[..., 0, 0]))
-    angles = np.stack([np.arctan2(matrix[..., 0, 2], cosine), theta, phi], axis=-1)
-    return np.concatenate([position, angles], axis=-1)
+    m = np.moveaxis(matrix, (-2, -1), (0, 1))
+    lost = np.hypot(m[0, 0], m[0, 1]) < TOLERANCES.singular
+    theta = np.arctan2(-m[1, 2], m[2, 2])
+    if near is None:
+        theta = np.where(lost, np.arctan2(m[2, 1], m[1, 1]), theta)
+        return np.concatenate([position, _with_theta(m, theta)], axis=-1)
+    theta = np.where(lost, near[..., 1], theta)
+    one, other = _with_theta(m, theta), _with_theta(m, theta + np.pi)
+    far = np.abs(wrap(one - near)).sum(axis=-1) > np.abs(wrap(other - near)).sum(axis=-1)
+    angles = np.where(far[..., None], other, one)
+    return np.concatenate([position, near + wrap(angles - near)], axis=-1)
+
+
+def _with_theta(m: np.ndarray, theta: np.ndarray) -> np.ndarray:
+    """ψ, θ, φ of rotations, components first, with a θ that fits them, ``(..., 3)``."""
+    c, s = np.cos(theta), np.sin(theta)
+    psi = np.arctan2(m[0, 2], c * m[2, 2] - s * m[1, 2])
+    phi = np.arctan2(c * m[1, 0] + s * m[2, 0], c * m[1, 1] + s * m[2, 1])
+    return np.stack([psi, theta, phi], axis=-1)
 
 
 def angular_rate_matrix(pose: np.ndarray) -> np.ndarray:
     """E with ω = E (ψ̇, θ̇, φ̇) in the world frame: ``(..., 6)`` → ``(..., 3, 3)``."""
-    # The turns are about x, y, z in the order θ, ψ, φ; the coordinates are ψ, θ, φ.
-    return euler_rate_matrix("xyz", pose[..., [4, 3, 5]])[..., :, [1, 0, 2]]
+    return euler_rate_matrix("xyz", pose[..., _ORDER])[..., :, [1, 0, 2]]
+
+
+def tool_motion(pose: np.ndarray, rate: np.ndarray, acceleration: np.ndarray) -> BodyMotion:
+    """The tool's motion of poses and their derivatives, each ``(n, 6)``."""
+    turned = (x[..., _ORDER] for x in (pose, rate, acceleration))
+    turn, omega, alpha = euler_placement("xyz", *turned)
+    return BodyMotion(turn, pose[..., :3], rate[..., :3], acceleration[..., :3], omega, alpha)
+
+
+def pose_rates(pose: np.ndarray, tool: BodyMotion) -> tuple[np.ndarray, np.ndarray]:
+    """First and second derivatives of the poses of a motion of the tool, each ``(n, 6)``.
+
+    Raises:
+        SingularPose: cos ψ = 0 at some sample: θ and φ have no rates there.
+    """
+    lost = np.abs(np.cos(pose[:, 3])) < TOLERANCES.near_singular
+    if lost.any():
+        raise SingularPose(
+            "ψ is 90° up to turns: the angles ψ, θ, φ have no rates, though the tool has",
+            where=f"sample {int(np.argmax(lost))}",
+            remedy="Use the tool's velocity and angular velocity",
+        )
+    spread = angular_rate_matrix(pose)
+    first = np.linalg.solve(spread, tool.omega[..., None])[..., 0]
+    still = np.zeros_like(first)
+    order = [1, 0, 2]
+    bias = euler_placement("xyz", pose[:, _ORDER], first[:, order], still)[2]
+    second = np.linalg.solve(spread, (tool.alpha - bias)[..., None])[..., 0]
+    return (
+        np.concatenate([tool.velocity, first], axis=-1),
+        np.concatenate([tool.acceleration, second], axis=-1),
+    )

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
+from pollard_pin.specification import ACTUATOR_NAMES, ACTUATORS, JOINT_NAMES, Specification
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.urdf import number, numbers
 from thesis_pin.numeric.exact import cosine, sine
@@ -69,11 +69,11 @@ def mjcf(specification: Specification, anchors: np.ndarray, inertia: Reading = "
         f'site2="chain{i}_rod_tip" solref="{_STIFF}" solimp="{_HARD}"/>\n'
         for i in (1, 2)
     )
-    effort = number(specification.assumptions.joint_limits.effort)
+    efforts, _ = specification.assumptions.joint_limits.of_motors()
     motors = "".join(
         f'    <motor name="{name}" joint="{name}" ctrllimited="true" '
         f'ctrlrange="-{effort} {effort}"/>\n'
-        for name in ACTUATOR_NAMES
+        for name, effort in zip(ACTUATOR_NAMES, map(number, efforts), strict=True)
     )
     return (
         f'<mujoco model="{specification.name}">\n'
@@ -94,6 +94,8 @@ class _Writer:
     def __init__(self, specification: Specification, reading: Reading) -> None:
         self.specification, self.reading = specification, reading
         self.lower, self.upper = specification.assumptions.joint_limits.radians()
+        armature = zip(ACTUATORS, specification.motors.armature(), strict=True)
+        self.rotors = {k: f' armature="{number(value)}"' for k, value in armature if value}
 
     def body(
         self,
@@ -111,7 +113,7 @@ class _Writer:
         quaternion = (cosine(turn / 2), sine(turn / 2), 0.0, 0.0)
         hinges = "".join(
             f'{pad}  <joint name="{JOINT_NAMES[k]}" type="hinge" axis="{_AXES[axis]}" '
-            f'range="{number(self.lower[k])} {number(self.upper[k])}"/>\n'
+            f'range="{number(self.lower[k])} {number(self.upper[k])}"{self.rotors.get(k, "")}/>\n'
             for k, axis in joints
         )
         return (

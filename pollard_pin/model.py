@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import closures
-from pollard_pin.coordinates import pose_from_placement
+from pollard_pin.coordinates import pose_from_placement, tool_motion
 from pollard_pin.kinematics import forward, rates, singularity
 from pollard_pin.kinematics import inverse as kinematics
 from pollard_pin.kinematics.geometry import (
@@ -202,7 +202,7 @@ class Pollard(ClosedRobot):
     ) -> tuple[np.ndarray, np.ndarray]:
         shape = posture.shape
         still = np.zeros(6)
-        tool, first, second = (
+        pose, rate, acceleration = (
             spread(name, finite_array(name, value, 6), shape).reshape(-1, 6)
             for name, value in (
                 ("pose", pose),
@@ -210,7 +210,7 @@ class Pollard(ClosedRobot):
                 ("acceleration", still if acceleration is None else acceleration),
             )
         )
-        v, a = rates.motion_rates(posture, tool, first, second)
+        v, a = rates.motion_rates(posture, tool_motion(pose, rate, acceleration))
         return v.reshape(*shape, 12), a.reshape(*shape, 12)
 
     def rate_jacobian(self, q: ArrayLike) -> np.ndarray:

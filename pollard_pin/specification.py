@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeVar
 
 import numpy as np
 from pydantic import Field
@@ -80,6 +80,14 @@ LINK_NAMES = (*CHAIN_0_LINKS, *(f"chain{i}_{link}" for i in (1, 2) for link in S
 
 Sign = Literal[-1, 1]
 
+_Number = TypeVar("_Number")
+Six = tuple[_Number, _Number, _Number, _Number, _Number, _Number]
+
+
+def six(value: float | tuple[float, ...]) -> np.ndarray:
+    """One number for each motor, shape ``(6,)``."""
+    return np.array(np.broadcast_to(np.asarray(value, dtype=float), 6))
+
 
 class Link(Strict):
     """Mass [kg] and printed inertia matrix [kg·m²] of a body, in the axes of its joint frame.
@@ -144,12 +152,15 @@ class CentresOfGravity(Assumption):
 
 
 class JointLimits(Assumption):
-    """Travel [deg], effort [N·m] and speed [rad/s]: one number or twelve."""
+    """Travel [deg], one number or twelve; effort [N·m] and speed [rad/s], one number or six.
+
+    The six are the motors', in the order of :data:`ACTUATOR_NAMES`.
+    """
 
     lower_deg: float | Annotated[tuple[float, ...], Field(min_length=12, max_length=12)]
     upper_deg: float | Annotated[tuple[float, ...], Field(min_length=12, max_length=12)]
-    effort: Positive
-    velocity: Positive
+    effort: Positive | Six[Positive]
+    velocity: Positive | Six[Positive]
 
     def radians(self) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper limits [rad], each of shape ``(12,)``."""
@@ -157,6 +168,33 @@ class JointLimits(Assumption):
             np.radians(np.broadcast_to(np.asarray(self.lower_deg, dtype=float), 12)),
             np.radians(np.broadcast_to(np.asarray(self.upper_deg, dtype=float), 12)),
         )
+
+    def of_motors(self) -> tuple[np.ndarray, np.ndarray]:
+        """Greatest torque [N·m] and speed [rad/s] of each motor, each ``(6,)``."""
+        return six(self.effort), six(self.velocity)
+
+    def of_joint(self, number: int) -> tuple[float, float]:
+        """The same of a joint; a passive one has the largest of all, which bind nothing."""
+        effort, velocity = self.of_motors()
+        place = ACTUATORS.index(number) if number in ACTUATORS else None
+        if place is None:
+            return float(effort.max()), float(velocity.max())
+        return float(effort[place]), float(velocity[place])
+
+
+class Motors(Strict):
+    """Rotors of the motors, one number or six; the thesis gives none.
+
+    Each has ``rotor_inertia`` [kg·m²] about its own axis, and turns ``gear_ratio`` times as fast
+    as its joint.
+    """
+
+    rotor_inertia: NotNegative | Six[NotNegative] = 0.0
+    gear_ratio: Positive | Six[Positive] = 1.0
+
+    def armature(self) -> np.ndarray:
+        """Inertia of each rotor as its joint feels it, N² J [kg·m²], ``(6,)``."""
+        return np.asarray(six(self.gear_ratio) ** 2 * six(self.rotor_inertia))
 
 
 class ReplacedInertia(Assumption):
@@ -201,6 +239,7 @@ class Specification(Strict):
     chain_0: Chain0
     chain_1: SideChain
     chain_2: SideChain
+    motors: Motors = Motors()
     assumptions: Assumptions
 
     @classmethod

@@ -16,10 +16,11 @@ from pathlib import Path
 import numpy as np
 
 from pollard_pin.mjcf import mjcf
-from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification
+from pollard_pin.specification import ACTUATOR_NAMES, JOINT_NAMES, Specification, six
 from thesis_pin.files import write_files
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.urdf import bar, cylinder, inertial, joint, robot, sphere
+from thesis_pin.model.urdf import number as written
 from thesis_pin.numeric.exact import cosine, sine
 
 JOINT_AXES = ("y", "y", "z", "x", "z", "x", "z", "y", "z", "z", "y", "z")
@@ -59,6 +60,13 @@ def closure_file(specification: Specification) -> str:
     """The two ball joints and the motors, in the parallel-robots community's schema."""
     loops = [f"['{a}', '{b}']" for a, b in zip(ANCHOR_FRAMES, ROD_TIP_FRAMES, strict=True)]
     motors = ", ".join(f"'{name}'" for name in ACTUATOR_NAMES)
+    rotors = ""
+    if specification.motors.armature().any():
+        inertias, gears = specification.motors.rotor_inertia, specification.motors.gear_ratio
+        rotors = (
+            f"  rotor_inertia: [{', '.join(map(written, six(inertias)))}]\n"
+            f"  gear_ratio: [{', '.join(map(written, six(gears)))}]\n"
+        )
     return (
         f"# Generated from the specification {specification.name!r}. The URDF beside this file\n"
         "# is a tree; these pairs of frames coincide. Motors in the order of the torques.\n"
@@ -71,6 +79,7 @@ def closure_file(specification: Specification) -> str:
         "  format: 1\n"
         f"  robot: {specification.name}\n"
         "  names: ['ball joint 1', 'ball joint 2']\n"
+        f"{rotors}"
     )
 
 
@@ -105,7 +114,7 @@ class _Tree:
         xyz: tuple[float, float, float],
         turn: float = 0.0,
     ) -> str:
-        limits = self.specification.assumptions.joint_limits
+        effort, velocity = self.specification.assumptions.joint_limits.of_joint(number)
         return joint(
             JOINT_NAMES[number],
             parent,
@@ -113,7 +122,7 @@ class _Tree:
             xyz=xyz,
             rpy=(turn, 0.0, 0.0),
             axis=JOINT_AXES[number],
-            limits=(self.lower[number], self.upper[number], limits.effort, limits.velocity),
+            limits=(self.lower[number], self.upper[number], effort, velocity),
         )
 
     def link(self, name: str, shapes: list[str]) -> str:

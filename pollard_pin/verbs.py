@@ -25,7 +25,6 @@ def _branch(arguments: argparse.Namespace) -> Branch:
 
 def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPath:
     from pollard_pin.motion.curves import appendix_b
-    from pollard_pin.motion.files import load_path
 
     if arguments.path is None:
         return appendix_b(
@@ -40,6 +39,8 @@ def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPa
                 f"--{flag} belongs to appendix B's curve and --path gives another",
                 remedy="Write it into the path's file",
             )
+    from pollard_pin.motion.files import load_path
+
     return load_path(arguments.path)
 
 

@@ -104,6 +104,9 @@ class Scout(LoadedRobot):
         self.sole_frames = {side: frame_id(self.model, f"{side}_sole") for side in SIDES}
         self.lower, self.upper = specification.assumptions.joint_range.radians()
         self.stall_torque, self.no_load_speed = specification.servo_limits()
+        armature = np.array(self.model.armature)
+        armature[6:] += specification.armature()
+        self.model.armature = armature
         order = [self.model.joints[joint_id(self.model, name)].idx_v for name in JOINT_NAMES]
         if order != list(range(6, 18)):
             raise RuntimeError(f"Pinocchio reordered the joints: {order}")

@@ -32,6 +32,7 @@ from thesis_pin.model.specification import (
     read_toml,
 )
 from thesis_pin.numeric.checks import choice
+from thesis_pin.sizing.actuator import Actuator
 
 SCOUT_PATH = Path(__file__).parent / "specifications" / "scout.toml"
 """The thesis's robot."""
@@ -58,11 +59,17 @@ Twelve = Annotated[tuple[float, ...], Field(min_length=12, max_length=12)]
 
 
 class Servo(Strict):
-    """A servo's limits (B.1): they bound |τ|/stall_torque + |θ̇|/no_load_speed by 1."""
+    """A servo's limits (B.1): they bound |τ|/stall_torque + |θ̇|/no_load_speed by 1.
+
+    Its rotor, with ``rotor_inertia`` [kg·m²] about its own axis, turns ``gear_ratio`` times as
+    fast as the joint; the thesis gives none. Its mass is part of the links'.
+    """
 
     stall_torque: Positive
     no_load_speed: Positive
     size: tuple[Positive, Positive, Positive] = (38.8e-3, 19.8e-3, 36.0e-3)
+    rotor_inertia: NotNegative = 0.0
+    gear_ratio: Positive = 1.0
 
 
 class Link(Strict):
@@ -218,6 +225,28 @@ class Specification(Strict):
             np.array([servo.stall_torque for servo in servos]),
             np.array([servo.no_load_speed for servo in servos]),
         )
+
+    def actuator(self, servo: str) -> Actuator:
+        """A servo by its name, as any actuator."""
+        one = self.servos[choice("servo", servo, tuple(self.servos))]
+        return Actuator(
+            servo,
+            one.stall_torque,
+            one.no_load_speed,
+            size=one.size,
+            rotor_inertia=one.rotor_inertia,
+            gear_ratio=one.gear_ratio,
+        )
+
+    def driven_by(self, servo: str) -> tuple[str, ...]:
+        """Joints that a servo drives."""
+        servos = [name for side in SIDES for name in self.leg(side).servos]
+        return tuple(joint for joint, one in zip(JOINT_NAMES, servos, strict=True) if one == servo)
+
+    def armature(self) -> np.ndarray:
+        """Inertia of each joint's rotor as the joint feels it, N² J [kg·m²], ``(12,)``."""
+        servos = [name for side in SIDES for name in self.leg(side).servos]
+        return np.array([self.actuator(name).armature for name in servos])
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Servo names, joint ranges and physical inertias."""

@@ -21,7 +21,7 @@ def report(
     from scout_pin.motion.files import load_gait
     from scout_pin.report.document import gait_report
 
-    gait = load_gait(arguments.gait, arguments.interpolation)
+    gait = load_gait(arguments.gait, arguments.interpolation, robot=robot)
     unit = arguments.time_unit or gait.time_unit
     return gait_report(
         robot,

@@ -38,6 +38,9 @@ class Tolerances:
         stance_near: How far from its place a foot may be that a log's first or last row of
             a stance has standing: a switch under the sole closes that early [m].
         stance_near_tilt: The same of its angles [rad].
+        sole_misfit: How far from its place joint angles may put a standing sole: servos of 1°
+            and legs of 0.3 m make 5 mm; another robot, or degrees for radians, more [m].
+        sole_misfit_tilt: The same of its angles [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
         rate_jump: Jump of rate that counts as smooth [m/s], [rad/s]: spread over a servo's
@@ -51,6 +54,12 @@ class Tolerances:
             this time [s]; it is that of a landing at about 1 mm/s.
         clearance: Depth of a swinging sole's corner below the floor still taken as
             touching it [m]: floors aren't flatter.
+        scrape_height: Height below which a sole that moves over the floor scrapes [m]:
+            carpets, sagging servos and seams are that high.
+        scrape_share: Share of its way over the floor that a foot may make so low: it leaves
+            and meets the floor moving [-].
+        scrape_way: Way over the floor below which a foot goes straight up and down [m].
+        sole_gap: Distance at which two soles touch [m], as :attr:`clearance`.
         instant: What counts as just before or after a change of a gait, relative to the
             time the gait or phase takes [-].
         path_end: How far beyond a path's ends a time still means them, relative to the
@@ -60,6 +69,8 @@ class Tolerances:
         straight: Area that three points span, relative to the square of their largest
             distance from the first, below which they lie on a line [-].
         on_circle: How far rounding may throw a double root off the unit circle [-].
+        half_turn: How near to half a turn two rotations may be until the shorter way between
+            them is anyone's guess [rad].
         same_mode: Angles nearer than this are one assembly mode [rad].
         vanishing: Coefficient relative to the largest, or determinant over squared
             lengths, that is replaced before one divides by it [-], [m²].
@@ -72,6 +83,11 @@ class Tolerances:
             rates to 1e-15 / σ² [-].
         explicit_rank: Singular value of an explicit model's equations, relative to the
             largest, taken as zero [-].
+        power_density, torque_density: Greatest power and stall torque of an actuator for its
+            size that are taken for right [W/m³], [N·m/m³]; hobby servos have 0.02 to 0.6 W/cm³
+            and up to 0.15 N·m/cm³.
+        specific_power, specific_torque: The same for its mass [W/kg], [N·m/kg]; the best
+            have 400 W/kg and 80 N·m/kg.
     """
 
     rotation_orthogonality: float = 1e-9
@@ -89,6 +105,8 @@ class Tolerances:
     exact_rate: float = 1e-6
     stance_near: float = 1e-3
     stance_near_tilt: float = 1e-2
+    sole_misfit: float = 1e-2
+    sole_misfit_tilt: float = 1e-1
     joint_limit: float = 1e-9
     seam: float = 1e-4
     rate_jump: float = 1e-4
@@ -97,17 +115,26 @@ class Tolerances:
     wrench: float = 1e-7
     impulse: float = 1e-4
     clearance: float = 1e-4
+    scrape_height: float = 1e-3
+    scrape_share: float = 0.2
+    scrape_way: float = 1e-3
+    sole_gap: float = 1e-4
     instant: float = 1e-9
     path_end: float = 1e-9
     path_join: float = 1e-9
     straight: float = 1e-9
     on_circle: float = 1e-2
+    half_turn: float = 1e-6
     same_mode: float = 1e-6
     vanishing: float = 1e-14
     time_unit: float = 1e-5
     unbalanced: float = 1e-8
     determined: float = 1e-6
     explicit_rank: float = 1e-11
+    power_density: float = 1e6
+    torque_density: float = 3e5
+    specific_power: float = 600.0
+    specific_torque: float = 120.0
 
 
 TOLERANCES = Tolerances()

@@ -27,7 +27,7 @@ def joint_reactions(
         What the link before a joint does to the link after it: force [N], then moment
         about the joint's origin [N·m], in the axes of the link after it, shape
         ``(n, 12, 6)``. The component of the moment along the joint's axis is the motor
-        torque, zero in a passive joint.
+        torque but for what turns the motor's own rotor, zero in a passive joint.
     """
     model, data = robot.model, robot.model.createData()
     frames = []

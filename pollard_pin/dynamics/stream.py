@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pollard_pin.dynamics.inverse import PollardDynamics, inverse_dynamics
 from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.motion.trajectory import joint_trajectory
-from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.elementwise import BLOCK, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 
@@ -40,18 +41,22 @@ def torque_blocks(
     time: np.ndarray,
     *,
     branch: Branch | None = None,
+    reference: ArrayLike | None = None,
     size: int = BLOCK,
 ) -> Iterator[TorqueBlock]:
     """Sample a path, solve its joints and its torques, block by block.
 
     The numbers are those of :func:`pollard_pin.inverse_dynamics` on the whole. Singularities
-    of the actuation aren't looked for; the report does that.
+    of the actuation aren't looked for; the report does that. A joint that fits its limits only
+    if it starts a turn back has to be told so: nobody knows here what comes later.
 
     Args:
         robot: The robot.
         path: The path of the spray tip.
         time: Sample times in order [s], shape ``(n,)``.
         branch: Which solution; None for the default branch.
+        reference: Angles [rad] whose whole turns the first sample takes, ``(12,)``; None for
+            those that fit the first block.
         size: Samples a block.
 
     Yields:
@@ -60,13 +65,14 @@ def torque_blocks(
     Raises:
         Unreachable, SingularPose, TrajectoryError: The motion is impossible.
     """
-    time, last = finite_array("time", time, None), None
+    time = finite_array("time", time, None)
+    start = None if reference is None else vector("reference", reference, 12)
     for part in blocks(len(time), size):
         # The sample before comes along, so that no jump hides between two blocks.
-        before = int(last is not None)
+        before = int(part.start > 0)
         motion = path.at(time[part.start - before : part.stop])
-        solved = joint_trajectory(robot, motion, branch=branch, reference=last)
-        last = solved.q[-1]
+        solved = joint_trajectory(robot, motion, branch=branch, reference=start)
+        start = solved.q[-1]
         some = slice(before, None)
         motion, joints = motion.part(some), solved.part(some)
         yield TorqueBlock(part.start, motion, joints, inverse_dynamics(robot, motion, joints))

@@ -25,9 +25,10 @@ from numpy.typing import ArrayLike
 from pollard_pin.coordinates import pose_from_placement
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.screws import Posture
-from pollard_pin.specification import ACTUATORS
+from pollard_pin.specification import ACTUATORS, PASSIVE
 from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import finite_array, spread, wrap
+from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
 
 MODES = 8
@@ -113,6 +114,9 @@ def forward_kinematics(geometry: Geometry, motors: ArrayLike) -> Assemblies:
     angles[:, :, ACTUATORS] = np.where(exists[..., None], flat[:, None, :], np.nan)
     for i in (0, 1):
         angles[:, :, 7 + 3 * i : 9 + 3 * i] = _rod_joints(geometry, i, angles)
+    passive = list(PASSIVE)
+    low, high = geometry.lower[passive], geometry.upper[passive]
+    angles[:, :, passive] = fitted(angles[:, :, passive], low, high)
     posture = Posture.of(geometry, angles)
     pose = pose_from_placement(posture.tip, posture.tool_rotation)
     residual = np.linalg.norm(posture.opening, axis=-1).max(axis=-1)

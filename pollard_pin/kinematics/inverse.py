@@ -25,6 +25,7 @@ from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.solutions import Solutions
 from thesis_pin.numeric.arrays import finite_array, spread, wrap
 from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Number, blocks
+from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
 
 _TRIED = 720
@@ -75,6 +76,7 @@ def inverse_kinematics(
         angles[k], cosines[k] = _members(geometry, flat[k], branches, free[k])
     if (beyond := ~(np.abs(cosines).max(axis=-1) <= 1.0 + TOLERANCES.reach)).any():
         angles[beyond] = np.nan
+    angles = fitted(angles, geometry.lower, geometry.upper)
     shape: tuple[int, ...] = (*stack, len(branches))
     target = target[..., None, :]
     if squeeze and len(branches) == 1:
@@ -137,7 +139,8 @@ def _members(
     distance = np.abs(wrap(angles - free)).sum(axis=-1)
     distance[0] = -1.0  # the reference's own comes first
     closes = size <= 1.0 + TOLERANCES.reach
-    beyond = np.maximum(geometry.lower - angles, angles - geometry.upper).max(axis=-1)
+    inside = fitted(angles, geometry.lower, geometry.upper)
+    beyond = np.maximum(geometry.lower - inside, inside - geometry.upper).max(axis=-1)
     kept = closes & (beyond <= TOLERANCES.joint_limit)
     cost = np.where(closes, distance, 12 * np.pi + size)
     cost = np.where(kept.any(axis=0) & ~kept, np.inf, cost)

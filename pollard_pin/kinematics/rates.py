@@ -19,6 +19,7 @@ import numpy as np
 
 from pollard_pin.kinematics.screws import Posture
 from thesis_pin.errors import SingularPose
+from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.numeric.vectors import Vector, cross, dot, rows
 from thesis_pin.tolerances import TOLERANCES
 
@@ -65,9 +66,7 @@ def check_regular(posture: Posture, time: np.ndarray | None = None, first: int =
 
 def motion_rates(
     posture: Posture,
-    pose: np.ndarray,
-    rate: np.ndarray,
-    acceleration: np.ndarray,
+    tool: BodyMotion,
     time: np.ndarray | None = None,
     *,
     first: int = 0,
@@ -76,9 +75,7 @@ def motion_rates(
 
     Args:
         posture: Closed postures of n samples.
-        pose: Their poses (x, y, z, ψ, θ, φ), shape ``(n, 6)``.
-        rate: Time derivative of the poses, shape ``(n, 6)``.
-        acceleration: Their second time derivative, shape ``(n, 6)``.
+        tool: The tool's motion there; its position is that of the spray tip.
         time: Their times [s], for the message.
         first: Number of the first of them, for the message.
 
@@ -89,9 +86,12 @@ def motion_rates(
         SingularPose: Rates don't exist at some sample.
     """
     check_regular(posture, time, first)
-    p, dp, ddp = (rows(x) for x in (pose, rate, acceleration))
-    v = joint_rates(posture, *tool_twist(posture, p[3:5], dp))
-    a = joint_accelerations(posture, v, *tool_acceleration(posture, p[3:5], dp, ddp))
+    vectors = (tool.velocity, tool.acceleration, tool.omega, tool.alpha)
+    velocity, acceleration, omega, alpha = (rows(x) for x in vectors)
+    arm = posture.geometry.x_1918 * posture.tool_axes[0]
+    v = joint_rates(posture, velocity - cross(omega, arm), omega)
+    pull = cross(alpha, arm) + cross(omega, cross(omega, arm))
+    a = joint_accelerations(posture, v, acceleration - pull, alpha)
     return v.T, a.T
 
 
@@ -110,20 +110,6 @@ def tool_twist(posture: Posture, psi_theta: np.ndarray, rate: np.ndarray) -> tup
     omega = _scaled(rate[4], x) + _scaled(rate[3], y) + _scaled(rate[5], z)
     arm = posture.geometry.x_1918 * posture.tool_axes[0]
     return rate[:3] - cross(omega, arm), omega
-
-
-def tool_acceleration(
-    posture: Posture, psi_theta: np.ndarray, rate: np.ndarray, acceleration: np.ndarray
-) -> tuple[Vector, Vector]:
-    """Acceleration of the wrist centre [m/s²] and angular acceleration [rad/s²]."""
-    x, y, z = _euler_axes(psi_theta)
-    spin_x, spin_y = _scaled(rate[4], x), _scaled(rate[3], y)
-    omega = spin_x + spin_y + _scaled(rate[5], z)
-    alpha = _scaled(acceleration[4], x) + _scaled(acceleration[3], y)
-    alpha = alpha + _scaled(acceleration[5], z) + cross(spin_x, spin_y)
-    alpha = alpha + cross(spin_x + spin_y, _scaled(rate[5], z))
-    arm = posture.geometry.x_1918 * posture.tool_axes[0]
-    return acceleration[:3] - cross(alpha, arm) - cross(omega, cross(omega, arm)), alpha
 
 
 def _euler_axes(psi_theta: np.ndarray) -> tuple[Vector, Vector, Vector]:

@@ -1,4 +1,4 @@
-"""Curves to follow: appendix B's, lines, arcs, splines through poses, and several in a row.
+"""Curves to follow: appendix B's, lines, arcs, and several in a row.
 
 Source: Pollard thesis, appendix B.
 """
@@ -13,15 +13,21 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pollard_pin.motion.path import ToolPath, Triple, driven, timing_law
+from pollard_pin.coordinates import pose_rotation
+from pollard_pin.motion.orientation import named_alike, turn_between, turning
+from pollard_pin.motion.path import Sampled, ToolPath, driven, timing_law
 from pollard_pin.specification import Specification
 from thesis_pin.errors import TrajectoryError
-from thesis_pin.numeric.arrays import finite_array, vector
+from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance, shown
+from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
 _REACH = 60 * math.pi  # the parameter of appendix B runs from −60π to 60π
 _MM = 1e-3
+
+Points = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Points [m] over s and their first and second derivatives, each ``(n, 3)``."""
 
 
 def appendix_b(
@@ -64,7 +70,7 @@ def appendix_b(
     return ToolPath(
         "appendix B",
         seconds,
-        partial(driven, curve, law, seconds),
+        partial(driven, curve, partial(timing_law, law, seconds)),
         {
             "path": "appendix B",
             "placement": place.tolist(),
@@ -75,26 +81,35 @@ def appendix_b(
     )
 
 
-def _appendix_b_curve(origin: np.ndarray, s: np.ndarray) -> Triple:
+def _appendix_b_curve(origin: np.ndarray, s: np.ndarray) -> Sampled:
     u, span = _REACH * (2 * s - 1), 2 * _REACH
-    value, first, second = np.zeros((3, len(s), 6))
+    value, first, second = np.zeros((3, len(s), 3))
     value[:, 0], value[:, 1] = -0.001 * u**2, u
     value[:, 2] = 100 * np.sin(0.3 * u)
     first[:, 0], first[:, 1], first[:, 2] = -0.002 * u, 1.0, 30 * np.cos(0.3 * u)
     second[:, 0], second[:, 2] = -0.002, -9 * np.sin(0.3 * u)
-    return value * _MM + origin, first * (_MM * span), second * (_MM * span**2)
+    points = value * _MM + origin[:3], first * (_MM * span), second * (_MM * span**2)
+    rotation, *rates = turning(pose_rotation(origin), np.zeros(3), s)
+    return BodyMotion(rotation, *points, *rates), np.broadcast_to(origin[3:], (len(s), 3))
 
 
 def line(
     start: ArrayLike, end: ArrayLike, duration: float, timing: str = "rest-to-rest"
 ) -> ToolPath:
-    """A straight line between two poses (x, y, z, ψ, θ, φ)."""
+    """A straight line between two poses (x, y, z, ψ, θ, φ).
+
+    The tool turns about one axis, the shorter way.
+
+    Raises:
+        TrajectoryError: The orientations are half a turn apart, and the angles don't say which
+            way round.
+    """
     first, last = vector("start", start, 6), vector("end", end, 6)
-    return _single("line", partial(_line_curve, first, last), duration, timing)
+    return _single("line", partial(_line_curve, first[:3], last[:3]), first, last, duration, timing)
 
 
-def _line_curve(first: np.ndarray, last: np.ndarray, s: np.ndarray) -> Triple:
-    step = np.broadcast_to(last - first, (len(s), 6))
+def _line_curve(first: np.ndarray, last: np.ndarray, s: np.ndarray) -> Points:
+    step = np.broadcast_to(last - first, (len(s), 3))
     return first + s[:, None] * step, step, np.zeros_like(step)
 
 
@@ -105,7 +120,7 @@ def arc(
     duration: float,
     timing: str = "rest-to-rest",
 ) -> ToolPath:
-    """A circular arc.
+    """A circular arc; the tool turns about one axis, the shorter way.
 
     Args:
         start: First pose (x, y, z, ψ, θ, φ).
@@ -134,73 +149,58 @@ def arc(
     side = np.cross(normal, radius)
     gap = last[:3] - centre
     angle = math.atan2(float(gap @ side), float(gap @ radius)) % (2 * math.pi)
-    curve = partial(_arc_curve, first, last, centre, radius, side, angle)
-    return _single("arc", curve, duration, timing)
+    curve = partial(_arc_curve, centre, radius, side, angle)
+    return _single("arc", curve, first, last, duration, timing)
 
 
 def _arc_curve(
-    first: np.ndarray,
-    last: np.ndarray,
-    centre: np.ndarray,
-    radius: np.ndarray,
-    side: np.ndarray,
-    angle: float,
-    s: np.ndarray,
-) -> Triple:
-    value = first + s[:, None] * (last - first)
-    slope = np.broadcast_to(last - first, value.shape).copy()
-    bend = np.zeros_like(value)
+    centre: np.ndarray, radius: np.ndarray, side: np.ndarray, angle: float, s: np.ndarray
+) -> Points:
     c, sn = np.cos(angle * s)[:, None], np.sin(angle * s)[:, None]
-    value[:, :3] = centre + c * radius + sn * side
-    slope[:, :3] = angle * (c * side - sn * radius)
-    bend[:, :3] = -(angle**2) * (c * radius + sn * side)
-    return value, slope, bend
-
-
-def _single(
-    name: str, curve: Callable[[np.ndarray], Triple], duration: float, timing: str
-) -> ToolPath:
-    timing_law(timing, duration, np.zeros(1))
-    duration = float(duration)
-    return ToolPath(
-        name,
-        duration,
-        partial(driven, curve, timing, duration),
-        {"path": name, "duration": float(duration), "timing": timing},
+    return (
+        centre + c * radius + sn * side,
+        angle * (c * side - sn * radius),
+        -(angle**2) * (c * radius + sn * side),
     )
 
 
-def through(
-    time: ArrayLike, poses: ArrayLike, method: str = "cubic", *, name: str = "poses over time"
+def _single(
+    name: str,
+    points: Callable[[np.ndarray], Points],
+    first: np.ndarray,
+    last: np.ndarray,
+    duration: float,
+    timing: str,
 ) -> ToolPath:
-    """A spline through poses at given times, with its exact derivatives.
-
-    Args:
-        time: [s], strictly increasing, shape ``(n,)``; the path begins at its first.
-        poses: x, y, z [m], ψ, θ, φ [rad], shape ``(n, 6)``.
-        method: See :data:`thesis_pin.numeric.interpolation.METHODS`.
-        name: For reports.
-
-    Raises:
-        TrajectoryError: Too few poses or time not increasing.
-        UnknownName: No such method.
-    """
-    from thesis_pin.numeric.interpolation import interpolate
-
-    poses, time = finite_array("poses", poses, None, 6), finite_array("time", time, None)
-    if len(poses) != len(time):
-        raise TrajectoryError(f"{len(time)} times and {len(poses)} poses", allowed="as many")
-    begin = time[0] if len(time) else 0.0
-    curves = [interpolate(time - begin, column, method) for column in poses.T]
-    function = partial(_through, curves)
-    parameters = {"path": name, "nodes": len(time), "interpolation": method}
-    duration = float(time[-1] - begin)
-    return ToolPath(name, duration, function, {**parameters, "duration": duration})
+    timing_law(timing, duration, np.zeros(1))
+    duration, turn = float(duration), turn_between(first, last)
+    angles = named_alike(pose_rotation(np.stack([first, last])), first[3:])
+    curve = partial(_turning_curve, points, pose_rotation(first), turn, angles)
+    size = float(np.linalg.norm(turn))
+    written = float(np.abs(last - first)[3:].max())
+    note = (
+        f"a {name}'s angles are written {math.degrees(written):.4g}° apart, and the tool turns the "
+        f"shorter way, by {math.degrees(size):.4g}°"
+    )
+    return ToolPath(
+        name,
+        duration,
+        partial(driven, curve, partial(timing_law, timing, duration)),
+        {"path": name, "duration": duration, "timing": timing, "turn": size},
+        (note,) if written > math.pi + TOLERANCES.half_turn else (),
+    )
 
 
-def _through(curves: Sequence[Callable[[np.ndarray, int], np.ndarray]], at: np.ndarray) -> Triple:
-    rows = [np.stack([curve(at, order) for curve in curves], axis=-1) for order in (0, 1, 2)]
-    return rows[0], rows[1], rows[2]
+def _turning_curve(
+    points: Callable[[np.ndarray], Points],
+    rotation: np.ndarray,
+    turn: np.ndarray,
+    angles: np.ndarray,
+    s: np.ndarray,
+) -> Sampled:
+    near = angles[0] + s[:, None] * (angles[1] - angles[0])
+    turned, *rates = turning(rotation, turn, s)
+    return BodyMotion(turned, *points(s), *rates), near
 
 
 def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
@@ -218,11 +218,14 @@ def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
         instance("a segment", path, ToolPath, "line(), arc() or through()")
     for number, (before, after) in enumerate(itertools.pairwise(paths), start=1):
         end, start = before.at(before.duration), after.at(0.0)
-        for what, one, two in (
-            ("pose", end.pose, start.pose),
-            ("rate", end.rate, start.rate),
+        one, two = end.tool, start.tool
+        apart = float(np.linalg.norm(one.rotation - two.rotation)) / math.sqrt(8)
+        turned = 2 * math.asin(min(apart, 1.0))
+        for what, gaps in (
+            ("pose", (turned, one.position - two.position)),
+            ("rate", (one.velocity - two.velocity, one.omega - two.omega)),
         ):
-            jump = float(np.abs(one - two).max())
+            jump = max(float(np.abs(gap).max()) for gap in gaps)
             if jump > TOLERANCES.path_join:
                 raise TrajectoryError(
                     f"the {what} jumps by {jump:.3g} between segments {number} and {number + 1}",
@@ -231,14 +234,23 @@ def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
     ends = np.cumsum([path.duration for path in paths])
     function = partial(_joined, tuple(paths), ends)
     parameters = {"path": name, "segments": [path.parameters for path in paths]}
-    return ToolPath(name, float(ends[-1]), function, {**parameters, "duration": float(ends[-1])})
+    return ToolPath(
+        name,
+        float(ends[-1]),
+        function,
+        {**parameters, "duration": float(ends[-1])},
+        tuple(note for path in paths for note in path.notes),
+    )
 
 
-def _joined(paths: Sequence[ToolPath], ends: np.ndarray, at: np.ndarray) -> Triple:
+def _joined(paths: Sequence[ToolPath], ends: np.ndarray, at: np.ndarray) -> Sampled:
     which = np.minimum(np.searchsorted(ends, at, side="right"), len(paths) - 1)
-    rows = np.empty((3, len(at), 6))
+    rotation, vectors = np.empty((len(at), 3, 3)), np.empty((6, len(at), 3))
     for k, path in enumerate(paths):
         some = which == k
         local = np.clip(at[some] - (ends[k] - path.duration), 0.0, path.duration)
-        rows[:, some] = path.function(local)
-    return rows[0], rows[1], rows[2]
+        tool, near = path.function(local)
+        rotation[some] = tool.rotation
+        moved = (tool.position, tool.velocity, tool.acceleration, tool.omega, tool.alpha)
+        vectors[:, some] = (*moved, near)
+    return BodyMotion(rotation, *vectors[:5]), vectors[5]

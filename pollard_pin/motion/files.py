@@ -34,8 +34,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from pollard_pin.motion.curves import arc, joined, line, through
+from pollard_pin.motion.curves import arc, joined, line
 from pollard_pin.motion.path import Timing, ToolPath
+from pollard_pin.motion.samples import through
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.files import name_as_text
 from thesis_pin.model.specification import Key, Positive, Strict, Vector3, read_toml
@@ -156,7 +157,7 @@ def _segments(content: PathFile) -> list[ToolPath]:
             paths.append(arc(current, segment.via, end, *how))
         else:
             paths.append(line(current, end, *how))
-        current = end
+        current = paths[-1].at(segment.duration).pose[0]
     return paths
 
 
@@ -181,10 +182,8 @@ def read_csv(file: str | Path, method: str = "free") -> ToolPath:
     poses = [table.column(*columns[name], name).values for name in _POSE]
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} poses", where=table.file, allowed="at least 2")
-    # 179° and −179° are neighbours: an angle that wraps around doesn't turn back.
-    poses[3:] = [np.unwrap(angle) for angle in poses[3:]]
     path = through(time.values, np.stack(poses, 1), method, name=name_as_text(Path(file).name))
-    notes = list(table.dialect.notes)
+    notes = [*path.notes, *table.dialect.notes]
     if unused:
         notes.append(f"these columns mean nothing here and aren't used: {', '.join(unused)}")
     return replace(path, notes=tuple(notes))

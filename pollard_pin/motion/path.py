@@ -1,30 +1,36 @@
 """Paths of the spray tip: what a path is, and its timing.
 
-A path is a pose (x, y, z, ψ, θ, φ) over time with exact first and second
-derivatives. Geometry and timing are separate: a curve over s in [0, 1], and a law
-s(t). Orientations are interpolated in ψ, θ, φ themselves.
+A path is the tool's motion over time: position and orientation with exact first and
+second derivatives. Geometry and timing are separate: a curve over s in [0, 1], and a law
+s(t). Between given orientations the rotation itself is interpolated, the shorter way; the
+angles ψ, θ, φ only name it, so that where cos ψ = 0 nothing happens.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pollard_pin.coordinates import pose_from_placement, pose_rates, tool_motion
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples, blocks
+from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
 Timing = Literal["constant-rate", "rest-to-rest"]
 TIMINGS: tuple[str, ...] = get_args(Timing)
 
 Triple = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""A pose and its first and second derivatives, each ``(n, 6)``."""
+"""A number and its first and second derivatives, each ``(n,)``."""
+
+Sampled = tuple[BodyMotion, np.ndarray]
+"""The tool's motion at n times, and angles ψ, θ, φ next to which its own are named, ``(n, 3)``."""
 
 
 @dataclass(frozen=True)
@@ -33,53 +39,69 @@ class ToolMotion:
 
     Attributes:
         time: Sample times [s], shape ``(n,)``.
+        tool: Motion of the tool; its position is that of the spray tip.
         pose: x, y, z [m], ψ, θ, φ [rad], shape ``(n, 6)``.
-        rate: First time derivative, shape ``(n, 6)``.
-        acceleration: Second time derivative, shape ``(n, 6)``.
         path: Where the samples come from, to look closer where they are far apart.
     """
 
     time: np.ndarray
+    tool: BodyMotion
     pose: np.ndarray
-    rate: np.ndarray
-    acceleration: np.ndarray
     path: ToolPath | None = None
+
+    @classmethod
+    def of_coordinates(
+        cls, time: ArrayLike, pose: ArrayLike, rate: ArrayLike, acceleration: ArrayLike
+    ) -> ToolMotion:
+        """A motion from its coordinates (x, y, z, ψ, θ, φ).
+
+        Args:
+            time: [s], shape ``(n,)``.
+            pose: [m], [rad], shape ``(n, 6)``.
+            rate: First time derivative, same shape.
+            acceleration: Second time derivative, same shape.
+        """
+        time, pose = finite_array("time", time, None), finite_array("pose", pose, None, 6)
+        rate = finite_array("rate", rate, None, 6)
+        acceleration = finite_array("acceleration", acceleration, None, 6)
+        for name, value in (("pose", pose), ("rate", rate), ("acceleration", acceleration)):
+            if len(value) != len(time):
+                raise WrongShape(name, value.shape, f"({len(time)}, 6), as time")
+        return cls(time, tool_motion(pose, rate, acceleration), pose)
+
+    @property
+    def rate(self) -> np.ndarray:
+        """First time derivative of the pose, ``(n, 6)``; none where cos ψ = 0: SingularPose."""
+        return pose_rates(self.pose, self.tool)[0]
+
+    @property
+    def acceleration(self) -> np.ndarray:
+        """Second time derivative of the pose, ``(n, 6)``; see :attr:`rate`."""
+        return pose_rates(self.pose, self.tool)[1]
 
     def part(self, samples: Samples) -> ToolMotion:
         """Some samples; consecutive ones are views."""
         return ToolMotion(
-            self.time[samples],
-            self.pose[samples],
-            self.rate[samples],
-            self.acceleration[samples],
-            self.path,
+            self.time[samples], self.tool.part(samples), self.pose[samples], self.path
         )
 
 
 class LongMotion(ToolMotion):
-    """Very many samples of a path: rates and accelerations are worked out when asked for."""
+    """Very many samples of a path: the tool's motion is worked out when asked for."""
 
     def __init__(self, time: np.ndarray, pose: np.ndarray, path: ToolPath) -> None:
         for name, value in (("time", time), ("pose", pose), ("path", path)):
             object.__setattr__(self, name, value)
 
     @property
-    def rate(self) -> np.ndarray:
-        """First time derivative, shape ``(n, 6)``."""
-        return self._whole().rate
-
-    @property
-    def acceleration(self) -> np.ndarray:
-        """Second time derivative, shape ``(n, 6)``."""
-        return self._whole().acceleration
+    def tool(self) -> BodyMotion:
+        """Motion of the tool at all samples."""
+        return self._path.function(self.time)[0]
 
     def part(self, samples: Samples) -> ToolMotion:
         """Some samples."""
         time = self.time[samples]
-        return ToolMotion(time, *self._path.function(time), self._path)
-
-    def _whole(self) -> ToolMotion:
-        return ToolMotion(self.time, *self._path.function(self.time), self._path)
+        return ToolMotion(time, self._path.function(time)[0], self.pose[samples], self._path)
 
     @property
     def _path(self) -> ToolPath:
@@ -89,19 +111,19 @@ class LongMotion(ToolMotion):
 
 @dataclass(frozen=True)
 class ToolPath:
-    """A pose over time.
+    """The tool's motion over time.
 
     Attributes:
         name: For reports.
         duration: How long it takes [s].
-        function: Times ``(n,)`` → pose and derivatives, each ``(n, 6)``.
+        function: Times ``(n,)`` → the tool's motion, and angles next to which to name it.
         parameters: What it was made from, for reports.
-        notes: What was chosen when its file was read, in plain words.
+        notes: What was chosen for the user, in plain words.
     """
 
     name: str
     duration: float
-    function: Callable[[np.ndarray], Triple]
+    function: Callable[[np.ndarray], Sampled]
     parameters: dict[str, object]
     notes: tuple[str, ...] = ()
 
@@ -118,10 +140,11 @@ class ToolPath:
                 allowed=f"0 to {self.duration:g} s",
             )
         if len(time) < LONG:
-            return ToolMotion(time, *self.function(time), self)
+            tool, near = self.function(time)
+            return ToolMotion(time, tool, _named(tool, near), self)
         pose = np.empty((len(time), 6))
         for part in blocks(len(time)):
-            pose[part] = self.function(time[part])[0]
+            pose[part] = _named(*self.function(time[part]))
         return LongMotion(time, pose, self)
 
     def sample(self, count: int) -> ToolMotion:
@@ -160,18 +183,22 @@ def timing_law(timing: str, duration: float, time: np.ndarray) -> Triple:
     )
 
 
-def along(curve: Callable[[np.ndarray], Triple], law: Triple) -> Triple:
-    """A curve over s, driven by s(t): pose and time derivatives by the chain rule."""
-    s, ds, dds = law
-    value, first, second = curve(s)
-    return (
-        value,
-        first * ds[:, None],
-        second * (ds**2)[:, None] + first * dds[:, None],
-    )
+def _named(tool: BodyMotion, near: np.ndarray) -> np.ndarray:
+    return pose_from_placement(tool.position, tool.rotation, near)
 
 
 def driven(
-    curve: Callable[[np.ndarray], Triple], timing: str, duration: float, time: np.ndarray
-) -> Triple:
-    return along(curve, timing_law(timing, duration, time))
+    curve: Callable[[np.ndarray], Sampled], law: Callable[[np.ndarray], Triple], time: np.ndarray
+) -> Sampled:
+    """A curve over s, driven by s(t): the tool's motion over time, by the chain rule."""
+    s, ds, dds = law(time)
+    tool, near = curve(s)
+    ds, dds = ds[:, None], dds[:, None]
+    moved = replace(
+        tool,
+        velocity=tool.velocity * ds,
+        acceleration=tool.acceleration * ds**2 + tool.velocity * dds,
+        omega=tool.omega * ds,
+        alpha=tool.alpha * ds**2 + tool.omega * dds,
+    )
+    return moved, near

@@ -21,6 +21,7 @@ from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.elementwise import LONG, Samples, blocks, intervals
 from thesis_pin.numeric.long import LongTrajectory
 from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.numeric.turns import TURN, started, unwound
 from thesis_pin.tolerances import TOLERANCES
 
 _JUMP = 1.0  # rad between two samples that only a break of the branch explains …
@@ -67,7 +68,8 @@ def joint_trajectory(
         motion: The sampled path.
         branch: Which solution; it is kept all along. None for the default branch.
         reference: Angles [rad] whose whole turns the first sample takes, ``(12,)``;
-            None for angles in (−π, π].
+            None for angles in (−π, π], or whole turns from it where only so the limits
+            hold the whole motion.
 
     Raises:
         Unreachable: A pose can't be reached, or an angle leaves its limits.
@@ -95,12 +97,14 @@ def joint_trajectory(
 def _solve(
     robot: Pollard, motion: ToolMotion, branch: Branch, reference: np.ndarray | None = None
 ) -> SolvedTrajectory:
-    """Angles from those in (−π, π], or next to the reference, rates and accelerations."""
+    """Angles without jumps of a turn, rates and accelerations."""
     solutions = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
-    q = _unwrapped(solutions.angles)
-    if reference is not None:
-        turns = np.rint((reference - q[0]) / (2 * np.pi))
-        q = q + 2 * np.pi * turns if turns.any() else q
+    q = unwound(solutions.angles)
+    if reference is None:
+        q = started(q, robot.lower, robot.upper)
+    else:
+        turns = np.rint((reference - q[0]) / TURN)
+        q = q + TURN * turns if turns.any() else q
     if len(q) < LONG:
         v, a = np.empty(q.shape), np.empty(q.shape)
         for part in blocks(len(q)):
@@ -118,19 +122,7 @@ def _rates(
     """Joint rates and accelerations at some samples, each ``(m, 12)``."""
     some, posture = motion.part(samples), Posture.of(robot.geometry, angles[samples])
     first = samples.start if isinstance(samples, slice) else 0
-    return motion_rates(posture, some.pose, some.rate, some.acceleration, some.time, first=first)
-
-
-def _unwrapped(q: np.ndarray) -> np.ndarray:
-    """Angles without jumps of a whole turn."""
-    found, turned = q, np.zeros(q.shape[1])
-    for part in intervals(len(q)):
-        turns = turned + np.cumsum(np.rint(np.diff(q[part], axis=0) / (2 * np.pi)), axis=0)
-        if turns.any():
-            found = q.copy() if found is q else found
-            found[part.start + 1 : part.stop] -= 2 * np.pi * turns
-            turned = turns[-1]
-    return found
+    return motion_rates(posture, some.tool, some.time, first=first)
 
 
 def _suspicious(joints: JointTrajectory) -> list[tuple[int, int, float]]:
@@ -160,9 +152,16 @@ def _check_limits(robot: Pollard, time: np.ndarray, q: np.ndarray) -> None:
             continue
         k, joint = (int(i) for i in np.argwhere(beyond)[0] + (part.start, 0))
         low, high = np.degrees([robot.lower[joint], robot.upper[joint]])
+        mine = q[:, joint : joint + 1]
+        start = started(mine, robot.lower[joint : joint + 1], robot.upper[joint : joint + 1])
+        least, most = np.degrees([mine.min(), mine.max()])
         raise Unreachable(
             f"{JOINT_NAMES[joint]} ({JOINT_SYMBOLS[joint]}) leaves its limits: "
             f"{np.degrees(q[k, joint]):.2f}°, outside {low:g}° to {high:g}°",
             where=f"t = {time[k]:.6g} s",
-            remedy="Move the path, or start it nearer to the middle of the joint's range",
+            allowed=f"a motion that fits them from some start; this goes from {least:.2f}° to "
+            f"{most:.2f}°",
+            remedy="Move the path, or turn the tool the other way"
+            if start is mine
+            else f"Start it at {np.degrees(start[0, 0]):.2f}° (reference)",
         )

@@ -32,6 +32,7 @@ def plots(report: TrajectoryReport, keep: Samples) -> list[Plot]:
     """
     return [
         path_from_ahead(report, keep),
+        tool_speed(report, keep),
         reach_margin(report, keep),
         conditioning(report, keep),
         loop_reactions(report, keep),
@@ -53,6 +54,17 @@ def path_from_ahead(report: TrajectoryReport, keep: Samples) -> Plot:
             Curve("x over y, from above", x, VERMILLION, "dash", x=y),
         ],
         across="y [mm]",
+    )
+
+
+def tool_speed(report: TrajectoryReport, keep: Samples) -> Plot:
+    """Speed of the spray tip."""
+    return Plot(
+        "Speed of the spray tip",
+        "Along its path, by which paint is laid on.",
+        "speed [m/s]",
+        [Curve("spray tip", report.tool_speed[keep], BLUE)],
+        report.joints.time[keep],
     )
 
 

@@ -30,7 +30,7 @@ from thesis_pin.report.info import assumptions
 from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/trajectory-report"
-VERSION = 1
+VERSION = 2
 
 
 class TrajectoryReport(TrajectoryNumbers):
@@ -83,6 +83,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "symbols": list(JOINT_SYMBOLS),
             "time": self.joints.time,
             "pose": self.motion.pose,
+            "tool_speed": self.tool_speed,
             "theta": self.joints.q,
             "theta_rate": self.joints.v,
             "theta_acceleration": self.joints.a,
@@ -108,6 +109,7 @@ class TrajectoryReport(TrajectoryNumbers):
         units = ("m", "m", "m", "rad", "rad", "rad")
         for k, (name, unit) in enumerate(zip(POSE_NAMES, units, strict=True)):
             columns[f"{name}_{unit}"] = self.motion.pose[:, k]
+        columns["tool_speed_m_s"] = self.tool_speed
         for prefix, names, values, unit in (
             ("theta", JOINT_NAMES, self.joints.q, "rad"),
             ("theta_rate", JOINT_NAMES, self.joints.v, "rad_s"),
@@ -134,6 +136,11 @@ class TrajectoryReport(TrajectoryNumbers):
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
             **self.actuators.document(),
+            "tool_speed": {
+                "least": float(self.tool_speed.min()),
+                "largest": float(self.tool_speed.max()),
+                "time": float(time[self.tool_speed.argmax()]),
+            },
             "energy": {
                 "net_work": float(self.work_done[-1].sum()),
                 "change": self.energy_change,

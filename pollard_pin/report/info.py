@@ -15,7 +15,7 @@ from thesis_pin.report import info
 def document(robot: Pollard) -> info.Info:
     """A robot's joints, bodies, loops, mobility and assumptions, JSON-ready."""
     spec = robot.specification
-    limits = spec.assumptions.joint_limits
+    limits = [spec.assumptions.joint_limits.of_joint(k) for k in range(len(JOINT_NAMES))]
     joints: list[info.JointEntry] = [
         {
             "name": name,
@@ -24,8 +24,8 @@ def document(robot: Pollard) -> info.Info:
             "motor": k in ACTUATORS,
             "lower": float(robot.lower[k]),
             "upper": float(robot.upper[k]),
-            "effort": limits.effort if k in ACTUATORS else None,
-            "velocity": limits.velocity if k in ACTUATORS else None,
+            "effort": limits[k][0] if k in ACTUATORS else None,
+            "velocity": limits[k][1] if k in ACTUATORS else None,
         }
         for k, name in enumerate(JOINT_NAMES)
     ]

@@ -40,8 +40,8 @@ class MotorUse:
         torque_time, speed_time: When [s].
     """
 
-    effort: float
-    velocity: float
+    effort: np.ndarray
+    velocity: np.ndarray
     torque: np.ndarray
     speed: np.ndarray
     torque_time: np.ndarray
@@ -60,11 +60,12 @@ class MotorUse:
             speed: [rad/s], shape ``(n, 6)``.
         """
         peaks, times = [], []
-        for values, limit in ((torque, limits.effort), (speed, limits.velocity)):
+        bounds = limits.of_motors()
+        for values, limit in zip((torque, speed), bounds, strict=True):
             size = np.abs(values)
             peaks.append(size.max(axis=0) / limit)
             times.append(time[size.argmax(axis=0)])
-        return cls(limits.effort, limits.velocity, *peaks, *times)
+        return cls(*bounds, *peaks, *times)
 
     @property
     def within(self) -> bool:

@@ -72,6 +72,16 @@ class TrajectoryNumbers:
         count = len(self.joints.time)
         return gathered(count, self.joints.part, lambda part: part.v[:, ACTUATORS])
 
+    @cached_property
+    def tool_speed(self) -> np.ndarray:
+        """Speed of the spray tip [m/s], shape ``(n,)``."""
+        count = len(self.joints.time)
+        return gathered(
+            count,
+            self.motion.part,
+            lambda part: np.asarray(np.linalg.norm(part.tool.velocity, axis=1)),
+        )
+
     @property
     def power(self) -> np.ndarray:
         """Motor power [W], shape ``(n, 6)``."""

@@ -27,7 +27,7 @@ def trajectory_page(report: TrajectoryReport) -> bytes:
             subtitle=f"{report.path.duration:.4g} s, branch {report.branch}, "
             f"{report.robot.inertia} inertias, {len(report.joints.time)} samples",
             good=report.within_limits,
-            verdict=report.verdict(),
+            verdict=[*report.verdict(), *(f"Note: {note}." for note in report.path.notes)],
             tiles=_tiles(report),
             plots=plots(report, thinned(report.joints.time, MOST_SAMPLES)),
             tables=_tables(report),
@@ -44,6 +44,7 @@ def _tiles(report: TrajectoryReport) -> list[Tile]:
         Tile("peak power of a motor", f"{a.peak_power.max():.3f} W"),
         Tile("work given by the motors", f"{a.positive_work.sum():.3f} J"),
         Tile("peak ball-joint force", f"{report.loop_force_size.max():.2f} N"),
+        Tile("fastest spray tip", f"{report.tool_speed.max():.3f} m/s"),
         Tile("least reach margin", f"{report.solutions.margin.min():z.3f}"),
         Tile("largest condition number", f"{report.holding.condition.max():.1f}"),
         Tile("loops open by, most", f"{report.solutions.loop_residual.max():.1e} m"),

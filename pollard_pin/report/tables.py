@@ -46,6 +46,7 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         [row[1:9] for row in motors_table(report).rows[: 6 if report.three is None else 3]],
     )
     condition, margin = report.holding.condition, report.solutions.margin
+    tool = report.tool_speed
     reading, other = report.other_reading
     force, joint_force = report.loop_force_size.max(axis=0), report.peak_reactions[0]
     joint = int(np.argmax(joint_force))
@@ -61,6 +62,8 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         f"Actuation: condition number {condition.min():.2f} to {condition.max():.2f} "
         f"(largest at t = {time[condition.argmax()]:.3f} s), determinant of constant sign. "
         f"Reach margin at least {margin.min():z.3f} (t = {time[margin.argmin()]:.3f} s).",
+        f"The spray tip moves at {tool.min():.4g} to {tool.max():.4g} m/s (fastest at "
+        f"t = {time[tool.argmax()]:.3f} s).",
         f"With {reading} inertias the base motors of six would peak at "
         f"{', '.join(f'{value:.3f}' for value in other[:3])} N·m.",
         "",

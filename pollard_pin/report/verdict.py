@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from pollard_pin.report.numbers import TrajectoryNumbers
-from pollard_pin.specification import ACTUATOR_SYMBOLS
+from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.numeric.arrays import wrap
+from thesis_pin.tolerances import TOLERANCES
 
 _NEAR = (
     "nearly touches a singularity",
@@ -21,7 +23,12 @@ def within_limits(numbers: TrajectoryNumbers) -> bool:
 
 def sentences(numbers: TrajectoryNumbers) -> list[str]:
     """The verdict, most important first: reach, singularities, motors, energy."""
-    return [*_reach(numbers), *_motors(numbers), *_balance(numbers)]
+    return [
+        *_reach(numbers),
+        *_motors(numbers),
+        *_balance(numbers),
+        *_turns(numbers),
+    ]
 
 
 def _reach(numbers: TrajectoryNumbers) -> list[str]:
@@ -37,24 +44,38 @@ def _reach(numbers: TrajectoryNumbers) -> list[str]:
     ]
 
 
+def _turns(numbers: TrajectoryNumbers) -> list[str]:
+    """Joints that start outside (−180°, 180°]: the turn that was taken for the user."""
+    start, told = numbers.joints.part(np.array([0])).q[0], []
+    for k in np.flatnonzero(np.abs(start) > np.pi + TOLERANCES.joint_limit):
+        low, high = np.degrees([numbers.robot.lower[k], numbers.robot.upper[k]])
+        told.append(
+            f"{JOINT_NAMES[k]} ({JOINT_SYMBOLS[k]}) starts at {np.degrees(start[k]):.2f}°, whole "
+            f"turns from {np.degrees(wrap(start[k])):.2f}°: so the motion fits {low:g}° to "
+            f"{high:g}°."
+        )
+    return told
+
+
 def _motors(numbers: TrajectoryNumbers) -> list[str]:
     """The most loaded motors, or everything that is exceeded."""
     use, broken = numbers.motor_use, []
-    for shares, times, limit in (
-        (use.torque, use.torque_time, f"{use.effort:g} N·m"),
-        (use.speed, use.speed_time, f"{use.velocity:g} rad/s"),
+    for shares, times, limits, unit in (
+        (use.torque, use.torque_time, use.effort, "N·m"),
+        (use.speed, use.speed_time, use.velocity, "rad/s"),
     ):
         for k in np.flatnonzero(shares > 1.0):
             broken.append(
-                f"{ACTUATOR_SYMBOLS[k]} needs {shares[k]:.0%} of its {limit} (t = {times[k]:.3f} s)"
+                f"{ACTUATOR_SYMBOLS[k]} needs {shares[k]:.0%} of its {limits[k]:g} {unit} "
+                f"(t = {times[k]:.3f} s)"
             )
     if broken:
         return [f"The motors can't do this: {'; '.join(broken)}."]
     torque, speed = int(use.torque.argmax()), int(use.speed.argmax())
     return [
         f"Motors within their limits: the most loaded is {ACTUATOR_SYMBOLS[torque]} with "
-        f"{use.torque[torque]:.0%} of {use.effort:g} N·m, the fastest "
-        f"{ACTUATOR_SYMBOLS[speed]} with {use.speed[speed]:.0%} of {use.velocity:g} rad/s."
+        f"{use.torque[torque]:.0%} of {use.effort[torque]:g} N·m, the fastest "
+        f"{ACTUATOR_SYMBOLS[speed]} with {use.speed[speed]:.0%} of {use.velocity[speed]:g} rad/s."
     ]
 
 

@@ -32,7 +32,7 @@ from thesis_pin.equations.catalogue import Edition
 from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.explicit import ExplicitTerms
 from thesis_pin.equations.formula import Symbol
-from thesis_pin.errors import UnknownName
+from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array
 
@@ -78,6 +78,11 @@ class ExplicitModel(ExplicitTerms[References]):
     ) -> None:
         super().__init__(catalogue(), edition, inertia)
         self.robot = load(specification, inertia=inertia)
+        if self.robot.specification.motors.armature().any():
+            raise BadInput(
+                "the motors' rotors have inertia, which the thesis's equations don't know",
+                allowed="rotor_inertia = 0",
+            )
         self.branch = Branch.parse(branch) if isinstance(branch, str) else branch
         self.constants = constants_of(self.robot.specification, inertia)
         self.substituted |= lost_coefficients()

@@ -64,9 +64,9 @@ def torque_blocks(
     Raises:
         TrajectoryError, Unreachable, SingularPose: The motion is impossible.
     """
-    t, last = finite_array("t", t, None), None
+    t, last = finite_array("t", t, None), gait.reference
     for part in blocks(len(t), size):
         motion = gait.sample(t[part], time_unit)
         joints = joint_trajectory(robot, motion, branch=branch, reference=last)
-        last = joints.q[-1]
+        last = tuple(joints.q[-1])
         yield TorqueBlock(part.start, motion, joints, inverse_dynamics(robot, motion, joints))

@@ -28,6 +28,7 @@ from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
 from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
 from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, Number, blocks
+from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
 
 _FREE_POSES = 64
@@ -87,7 +88,7 @@ def every_branch(
     return LegSolutions(
         leg,
         target,
-        theta.reshape(*stack, 8, 6),
+        fitted(theta, leg.lower, leg.upper).reshape(*stack, 8, 6),
         excess.reshape(*stack, 8),
         sine_axis.reshape(stack),
         sine_hip.reshape(stack),
@@ -163,6 +164,7 @@ def _members(
         gamma[2 * k], gamma[2 * k + 1], gaps[2 * k : 2 * k + 2] = chunk.solve(*pair)
     theta = wrap(gamma - leg.beta[:, None]).reshape(8, 6, tried, count).transpose(2, 3, 0, 1)
     excess = gaps.reshape(8, tried, count).transpose(1, 2, 0)
+    theta = fitted(theta, leg.lower, leg.upper)
     distance = np.abs(wrap(theta - reference[:, None, :])).sum(axis=-1)
     distance[0] = -1.0  # the reference's own comes first
     beyond = np.maximum(leg.lower - theta, theta - leg.upper).max(axis=-1)
@@ -288,6 +290,7 @@ def follow_branch(
         for part in blocks(count):
             *gammas, excess = ClosedForm(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
             angles = wrap(np.array(gammas[k % 2]) - leg.beta[:, None])
+            angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
             if not (
                 np.all(excess <= TOLERANCES.reach)
                 and (angles >= lower).all()

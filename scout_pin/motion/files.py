@@ -14,6 +14,7 @@ from pydantic import Field
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.model import Scout
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.smoothing import gait_from_samples
@@ -158,6 +159,7 @@ def load_gait(
     *,
     smooth: str = "auto",
     time_unit: float | None = None,
+    robot: Scout | None = None,
 ) -> Gait:
     """Load a preset, a TOML gait or a table of samples.
 
@@ -170,6 +172,7 @@ def load_gait(
             be, ``none`` for exact, and a length such as ``0.1mm``, an angle such as
             ``0.05deg`` or both with a comma for no finer than that.
         time_unit: Seconds in a unit of t in which the gait will be run; None for its own.
+        robot: The biped, for tables of its joints' angles; nothing else needs it.
 
     Raises:
         BadInput: ``smooth`` is none of these, the file can't be read, has an unknown
@@ -186,7 +189,8 @@ def load_gait(
         source = GAITS / f"{source}.toml"
     path = Path(source)
     if path.suffix.lower() in TABLES:
-        return gait_from_samples(read_gait_table(path), how, interpolation, time_unit or 1.0)
+        samples = read_gait_table(path, robot)
+        return gait_from_samples(samples, how, interpolation, time_unit or 1.0)
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)

@@ -89,6 +89,8 @@ class Gait:
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
         notes: What was chosen or mended when it was read, in plain words.
+        reference: Angles [rad] of the joints that its first sample is near, twelve, where
+            they are known: they choose the branch of the legs.
         variants: What samples of finite resolution leave open; None if the curves are
             exact, as far as anybody knows.
     """
@@ -99,6 +101,7 @@ class Gait:
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
+    reference: tuple[float, ...] | None = None
     variants: Variants | None = None
 
     @property

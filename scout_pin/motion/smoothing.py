@@ -103,18 +103,11 @@ def errors(
 
 
 def _quanta(samples: GaitSamples, how: Stated) -> dict[str, float]:
-    """Resolution of each column; one that never moves has that of its kind."""
-    moving: dict[bool, list[float]] = {True: [], False: []}
-    for name, column in samples.poses.items():
-        if np.ptp(column.values) > 0:
-            moving[_turns(name)].append(column.quantum)
-    result = {}
-    for name, column in samples.poses.items():
-        own = column.quantum
-        if not np.ptp(column.values) > 0 and moving[_turns(name)]:
-            own = float(np.median(moving[_turns(name)]))
-        result[name] = max(own, how.angle if _turns(name) else how.length)
-    return result
+    """Resolution of each column."""
+    return {
+        name: max(column.quantum, how.angle if _turns(name) else how.length)
+        for name, column in samples.poses.items()
+    }
 
 
 def _mended(samples: GaitSamples) -> tuple[GaitSamples, tuple[str, ...]]:
@@ -132,7 +125,7 @@ def _mended(samples: GaitSamples) -> tuple[GaitSamples, tuple[str, ...]]:
                 f"{samples.table.where(one.sample)}: {name} is {size} off its neighbours, an "
                 "outlier; what they say stands in for it"
             )
-        poses[name] = Column(column.name, values, column.quantum, column.heading)
+        poses[name] = replace(column, values=values)
     return replace(samples, poses=poses), tuple(notes)
 
 
@@ -180,6 +173,7 @@ def _smoothed(samples: GaitSamples, quanta: dict[str, float], notes: tuple[str, 
         {body: tuple(curve.value for curve in own) for body, own in every.items()},
         phases,
         (*samples.notes, *more, *notes, *_jump_notes(samples, feet)),
+        samples.reference,
         variants,
     )
 

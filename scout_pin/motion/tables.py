@@ -6,22 +6,25 @@ The format is described in docs/scout.md.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.model import Scout
 from scout_pin.motion.contact import SUPPORTS, Phase, changes
 from scout_pin.motion.gait import BODIES, Gait
-from thesis_pin.errors import TrajectoryError, UnknownName
+from scout_pin.motion.joint_angles import placed
+from scout_pin.specification import JOINT_NAMES
+from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.interpolation import constant, interpolate
 from thesis_pin.tables.meaning import chosen, known_names, text_names, time_column, time_names
 from thesis_pin.tables.reading import read_table
-from thesis_pin.tables.table import Column, Table
+from thesis_pin.tables.table import Column, Table, alike
 from thesis_pin.tables.units import ANGLE, LENGTH
 
 POSES = tuple(f"{body}_{coordinate}" for body in BODIES for coordinate in POSE_NAMES)
@@ -31,8 +34,9 @@ _KNOWN = {
     **time_names(),
     **text_names("support"),
     **known_names((name, LENGTH if name[-1] in "xyz" else ANGLE) for name in POSES),
+    **known_names((name, ANGLE) for name in JOINT_NAMES),
 }
-_ALLOWED = ("t", "support", *POSES)
+_ALLOWED = ("t", "support", *POSES, "or the joints: left_hip_yaw … right_ankle_roll")
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,14 +49,22 @@ class GaitSamples:
         support: ``"left"``, ``"right"`` or ``"double"`` for each sample.
         poses: Name of :data:`POSES` → its column; those that are missing are zero. Angles
             are unwrapped.
-        notes: How the table was read, where that isn't plain.
+        angles: The twelve joints' columns in the order of ``JOINT_NAMES``, from which the
+            poses were made; empty where the table has poses itself.
+        notes: How the table was read, where that isn't plain, and what was made of it.
     """
 
     table: Table
     time: Column
     support: tuple[str, ...]
     poses: Mapping[str, Column]
+    angles: tuple[Column, ...] = ()
     notes: tuple[str, ...] = ()
+
+    @property
+    def reference(self) -> tuple[float, ...] | None:
+        """Angles [rad] of the twelve joints at the first sample; None if it has none."""
+        return tuple(float(column.values[0]) for column in self.angles) or None
 
     def values(self, name: str) -> np.ndarray:
         """Samples of a pose's column, zero if it is missing, shape ``(n,)``."""
@@ -60,8 +72,13 @@ class GaitSamples:
         return np.zeros(len(self.table)) if column is None else column.values
 
 
-def read_gait_table(path: str | Path) -> GaitSamples:
-    """Columns ``t``, ``support`` and any of :data:`POSES`, units at the ends of their names.
+def read_gait_table(path: str | Path, robot: Scout | None = None) -> GaitSamples:
+    """A gait's table: poses of torso and soles, or angles of the joints.
+
+    Args:
+        path: The file: ``t``, ``support`` and any of :data:`POSES`; or ``t`` and all joints by
+            their names, with ``support`` and the torso's columns where they are known.
+        robot: The biped whose joints they are; poses need none.
 
     Raises:
         BadInput: The file can't be read, or a cell isn't a number.
@@ -70,20 +87,44 @@ def read_gait_table(path: str | Path) -> GaitSamples:
     """
     table = read_table("gait", path)
     columns, _ = chosen(table, _KNOWN, _ALLOWED)
-    for name in ("t", "support"):
+    joints = any(name in columns for name in JOINT_NAMES)
+    for name in ("t",) if joints else ("t", "support"):
         if name not in columns:
             raise TrajectoryError(f"there is no column {name!r}", where=table.file)
     if len(table) < 4:
         raise TrajectoryError(f"{len(table)} samples", where=table.file, allowed="at least 4")
-    poses = {
-        name: _unwrapped(table.column(*columns[name], name)) for name in POSES if name in columns
-    }
     time = time_column(table, columns)
-    support = table.texts(columns["support"][0])
+    support = table.texts(columns["support"][0]) if "support" in columns else []
     for row, name in enumerate(support):
         if name not in SUPPORTS:
             raise UnknownName("support", name, SUPPORTS, where=table.where(row))
-    return GaitSamples(table, time, tuple(support), poses, table.dialect.notes)
+    found = [table.column(*columns[name], name) for name in POSES if name in columns]
+    lengths = alike([column for column in found if column.name[-1] in "xyz"])
+    turns = alike([_unwrapped(column) for column in found if column.name[-1] not in "xyz"])
+    poses = {column.name: column for column in (*lengths, *turns)}
+    samples = GaitSamples(table, time, tuple(support), poses, (), table.dialect.notes)
+    if not joints:
+        return samples
+    missing = [name for name in JOINT_NAMES if name not in columns]
+    if missing:
+        raise TrajectoryError(
+            f"joints are missing: {', '.join(missing)}", where=table.file, allowed="all twelve"
+        )
+    if robot is None:
+        raise BadInput(
+            "a table of joint angles needs the robot whose joints they are",
+            where=table.file,
+            remedy="load_gait(file, robot=scout_pin.load())",
+        )
+    angles = tuple(alike([table.column(*columns[name], name) for name in JOINT_NAMES]))
+    meant = placed(robot, table, angles, poses, support)
+    return replace(
+        samples,
+        support=meant.support,
+        poses=meant.poses,
+        angles=angles,
+        notes=(*samples.notes, *meant.notes),
+    )
 
 
 def through_samples(samples: GaitSamples, method: str) -> Gait:
@@ -109,6 +150,7 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
         curves,
         phases,
         (*samples.notes, *notes),
+        samples.reference,
     )
 
 
@@ -149,7 +191,5 @@ def _curve(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:
 
 
 def _unwrapped(column: Column) -> Column:
-    """An angle without its jumps by a turn; lengths as they are."""
-    if column.name[-1] in "xyz":
-        return column
-    return Column(column.name, np.unwrap(column.values), column.quantum, column.heading)
+    """An angle without its jumps by a turn."""
+    return replace(column, values=np.unwrap(column.values))

@@ -12,12 +12,15 @@ from scout_pin.kinematics.rates import leg_rates
 from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
-from scout_pin.specification import SIDES
+from scout_pin.specification import JOINT_NAMES, SIDES
+from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.elementwise import LONG, Samples, blocks
 from thesis_pin.numeric.long import LongTrajectory
-from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
+from thesis_pin.numeric.turns import TURN, started, unwound
+from thesis_pin.tolerances import TOLERANCES
 
 _LEGS = (slice(0, 6), slice(6, 12))  # each leg's joints, in the order of SIDES
 
@@ -38,21 +41,52 @@ def joint_trajectory(
             ``"+-+"`` or ``("+++", "-+-")``; None takes the nearest to the reference of
             those that are valid throughout.
         reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
+            Where a range is wider than a turn, its whole turns are taken.
 
     Raises:
-        Unreachable: Some pose has no valid branch.
+        Unreachable: Some pose has no valid branch, or a joint turns out of its range.
         SingularPose: A leg's Jacobian loses rank on the way.
     """
     instance("robot", robot, Scout, "scout_pin.load()")
     instance("motion", motion, GaitMotion, "Gait.sample()")
     start = None if reference is None else vector("reference", reference, 12)
     q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=branch)
+    if max(robot.upper.max(), -robot.lower.min()) > np.pi:
+        q = _without_jumps(robot, motion.time, q, start)
     if len(q) < LONG:
         return JointTrajectory(motion.time, q, *_rates(robot, motion, q))
     for side, mine in zip(SIDES, _LEGS, strict=True):
         for part in blocks(len(q)):
+            if _rests(motion.part(part), side):
+                continue
             LegScrews(robot.legs[side], q[part, mine]).refuse_singular(part.start)
     return LongTrajectory(motion.time, q, partial(_rates, robot, motion, q))
+
+
+def _without_jumps(
+    robot: Scout, time: np.ndarray, q: np.ndarray, reference: np.ndarray | None
+) -> np.ndarray:
+    """Angles that go on where a range holds more than a turn, ``(n, 12)``."""
+    q = unwound(q)
+    if reference is not None:
+        q = q + TURN * np.rint((reference - q[0]) / TURN)
+    else:
+        q = started(q, robot.lower, robot.upper)
+    outside = np.maximum(robot.lower - q, q - robot.upper) > TOLERANCES.joint_limit
+    if outside.any():
+        k, joint = (int(i) for i in np.argwhere(outside)[0])
+        least, most, low, high = np.degrees(
+            [q[:, joint].min(), q[:, joint].max(), robot.lower[joint], robot.upper[joint]]
+        )
+        raise Unreachable(
+            f"{JOINT_NAMES[joint]} turns out of its limits: {np.degrees(q[k, joint]):.2f}°, "
+            f"outside {low:g}° to {high:g}°",
+            where=f"t = {time[k]:.6g} s",
+            allowed=f"a motion that fits them from some start; this goes from {least:.2f}° to "
+            f"{most:.2f}°",
+            remedy="Turn the feet less",
+        )
+    return q
 
 
 def _rates(
@@ -60,8 +94,26 @@ def _rates(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Joint rates and accelerations at some samples, each ``(m, 12)``."""
     motion, q = motion.part(samples), q[samples]
-    feet = (motion.left_foot, motion.right_foot)
-    v, a = np.empty(q.shape), np.empty(q.shape)
-    for side, foot, mine in zip(SIDES, feet, _LEGS, strict=True):
-        v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
+    v, a = np.zeros(q.shape), np.zeros(q.shape)
+    for side, mine in zip(SIDES, _LEGS, strict=True):
+        if not _rests(motion, side):
+            foot = _foot(motion, side)
+            v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
     return v, a
+
+
+def _foot(motion: GaitMotion, side: str) -> BodyMotion:
+    return motion.left_foot if side == "left" else motion.right_foot
+
+
+def _rests(motion: GaitMotion, side: str) -> bool:
+    """Whether torso and a foot rest throughout: so do the joints, at singular poses too."""
+    return not any(
+        body.velocity.any()
+        or body.omega.any()
+        or body.acceleration.any()
+        or body.alpha.any()
+        or np.ptp(body.position, axis=0).any()
+        or np.ptp(body.rotation, axis=0).any()
+        for body in (motion.torso, _foot(motion, side))
+    )

@@ -17,6 +17,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import decision
+from scout_pin.report.implausible import implausible
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.report.reason import reason, sentences
 from scout_pin.report.uncertainty.document import uncertainty
@@ -30,7 +31,7 @@ from thesis_pin.report.info import assumptions
 from thesis_pin.version import __version__
 
 SCHEMA = "scout-pin/gait-report"
-VERSION = 1
+VERSION = 2
 
 
 class GaitReport(GaitNumbers):
@@ -148,6 +149,8 @@ class GaitReport(GaitNumbers):
             "peak_power": a.peak_power,
             "stall_torque": self.robot.stall_torque,
             "no_load_speed": self.robot.no_load_speed,
+            "armature": self.robot.specification.armature(),
+            "implausible": implausible(self.robot.specification),
             "servo_use": self.servo_use,
             "fastest_time_unit": {
                 "speed": self.fastest.speed,
@@ -162,6 +165,21 @@ class GaitReport(GaitNumbers):
             "least_violation_time": float(self.joints.time[sample]),
             "peak_friction_used": self.peak_friction_used,
             "swing_clearance": self.clearance,
+            "lowest_corner": self.lowest_corner,
+            "swings": [
+                {
+                    "foot": swing.side,
+                    "start": swing.start * self.time_unit,
+                    "end": swing.end * self.time_unit,
+                    "clearance": swing.clearance,
+                    "way": swing.way,
+                    "scraped": swing.scraped,
+                    "scrapes": swing.scrapes,
+                }
+                for swing in self.swings
+            ],
+            "sole_gap": self.sole_gap[0],
+            "sole_gap_time": float(self.joints.time[self.sole_gap[1]]),
             "rate_jumps": [
                 {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}
                 for j in self.rate_jumps
@@ -211,7 +229,7 @@ def gait_report(
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
-    joints = joint_trajectory(robot, motion, branch=branch)
+    joints = joint_trajectory(robot, motion, branch=branch, reference=gait.reference)
     progress(2, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
     com, zmp = np.empty((len(motion.t), 3)), np.empty((len(motion.t), 2))

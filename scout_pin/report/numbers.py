@@ -11,10 +11,11 @@ from scout_pin.dynamics.impact import Impact
 from scout_pin.dynamics.variants import Drawn
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
+from scout_pin.motion.swings import Swing, lowest_corner, sole_gap, swings
 from scout_pin.motion.variants import RateJump
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.report.uncertainty.headlines import Headlines, Worked, headlines
-from scout_pin.specification import JOINT_NAMES, SIDES
+from scout_pin.specification import JOINT_NAMES
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks, intervals
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -116,16 +117,24 @@ class GaitNumbers:
         return int(worst[np.argmax(sizes)]), max(sizes)
 
     @cached_property
-    def clearance(self) -> float:
-        """Lowest corner of a swinging sole above the floor [m]."""
-        lowest = np.inf
-        for k, side in enumerate(SIDES):
-            swinging = np.flatnonzero(~self.motion.support[:, k])
-            foot = self.motion.left_foot if side == "left" else self.motion.right_foot
-            for part in blocks(len(swinging)):
-                corners = self.robot.sole_vertices(side, foot.part(swinging[part]).placement)
-                lowest = min(lowest, float(corners[..., 2].min()))
-        return lowest if np.isfinite(lowest) else 0.0
+    def swings(self) -> list[Swing]:
+        """Every time a foot is in the air: its clearance, and how far it scrapes."""
+        return swings(self.robot, self.gait, self.motion)
+
+    @property
+    def clearance(self) -> float | None:
+        """Least mid-swing clearance [m]; None if no foot swings."""
+        return min((swing.clearance for swing in self.swings), default=None)
+
+    @cached_property
+    def lowest_corner(self) -> float | None:
+        """Height of a swinging sole's lowest corner [m]; None if no foot swings."""
+        return lowest_corner(self.robot, self.motion)
+
+    @cached_property
+    def sole_gap(self) -> tuple[float, int]:
+        """Least distance of the soles [m], and the sample at which they are nearest."""
+        return sole_gap(self.robot, self.motion)
 
     @cached_property
     def tips_towards_swing(self) -> bool:

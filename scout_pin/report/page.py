@@ -6,12 +6,13 @@ import numpy as np
 
 from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
+from scout_pin.report.implausible import implausible
 from scout_pin.report.tables import joints_table
+from scout_pin.report.verdict import digs, soles_collide
 from scout_pin.report.view import gait_scene
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
-from thesis_pin.tolerances import TOLERANCES
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -30,7 +31,11 @@ def gait_page(report: GaitReport) -> bytes:
             subtitle=f"{seconds:.4g} s, time unit {report.time_unit:g} s, "
             f"{len(report.joints.time)} samples. {report.gait.source}",
             good=report.within_limits,
-            verdict=[*report.verdict(), *(f"Note: {note}." for note in report.gait.notes)],
+            verdict=[
+                *report.verdict(),
+                *(f"Note: {note}." for note in report.gait.notes),
+                *(f"Warning: {one}" for one in implausible(report.robot.specification)),
+            ],
             tiles=_tiles(report),
             plots=plots(report, thinned(report.joints.time, MOST_SAMPLES)),
             tables=_tables(report),
@@ -55,15 +60,20 @@ def _tiles(report: GaitReport) -> list[Tile]:
         ),
         Tile("worst use of a servo's torque-speed line", f"{use:.0%}", bool(use <= 1)),
         Tile("peak torque", f"{report.actuators.peak_torque.max():.3f} N·m"),
-        Tile(
-            "lowest swinging corner",
-            f"{report.clearance * 1e3:z.1f} mm",
-            report.clearance >= -TOLERANCES.clearance,
-        ),
+        _clearance(report),
+        Tile("soles apart, least", f"{report.sole_gap[0] * 1e3:.1f} mm", not soles_collide(report)),
         Tile("fastest time unit", "none" if fastest is None else f"{fastest:.4f} s"),
         Tile("work of all servos", f"{report.actuators.positive_work.sum() * 1e3:.0f} mJ"),
         Tile("friction used, most", "–" if used is None else f"{used:.0%}"),
     ]
+
+
+def _clearance(report: GaitReport) -> Tile:
+    """Mid-swing clearance; not good if a sole digs into the floor or scrapes."""
+    if report.clearance is None:
+        return Tile("mid-swing clearance", "no swing")
+    good = not digs(report) and not any(swing.scrapes for swing in report.swings)
+    return Tile("mid-swing clearance", f"{report.clearance * 1e3:z.1f} mm", good)
 
 
 def _tables(report: GaitReport) -> list[Table]:

@@ -9,6 +9,8 @@ import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
+from scout_pin.report.implausible import implausible
+from scout_pin.report.servos import servo_limits
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.report import branches
 from thesis_pin.report.tables import Part, Table
@@ -51,14 +53,16 @@ def summary(report: GaitReport) -> Iterator[Part]:
     torque, line = (f"{x:.4f} s" if x is not None else "none" for x in (f.torque, f.line))
     used = report.peak_friction_used
     yield from (
-        f"Servo limits: {s.stall_torque.min():g} N·m, {s.no_load_speed.min():g} rad/s; "
+        f"Servo limits: {'; '.join(servo_limits(s.specification))}; "
         "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
         f"Fastest time unit by speed {f.speed:.4f} s, by torque {torque}, by both (line) {line}.",
         f"ZMP margin: worst {report.margin.min() * 1e3:z.1f} mm; stable in "
         f"{report.stable_share:.1%} of the time.",
         f"Floor wrench: admissible in {report.dynamics.admissible.mean():.1%} of samples; "
         "friction used up to " + ("–." if used is None else f"{used:.0%}."),
-        f"Lowest corner of a swinging sole: {report.clearance * 1e3:z.1f} mm above the floor.",
+        _clearance(report),
+        f"The soles come within {report.sole_gap[0] * 1e3:.1f} mm of each other "
+        f"(t = {report.motion.t[report.sole_gap[1]]:g}).",
     )
     for impact in report.impacts:
         normal = impact.impulse[0, 2]
@@ -70,6 +74,18 @@ def summary(report: GaitReport) -> Iterator[Part]:
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
     yield from ("", *report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
+    yield from (f"Warning: {one}" for one in implausible(s.specification))
+
+
+def _clearance(report: GaitReport) -> str:
+    """How high the feet swing."""
+    if report.clearance is None or report.lowest_corner is None:
+        return "No foot swings."
+    low = min(report.swings, key=lambda swing: swing.clearance)
+    return (
+        f"Mid-swing clearance: {low.clearance * 1e3:z.1f} mm ({low.side} foot, t = {low.start:g} "
+        f"to {low.end:g}); lowest corner of a swinging sole {report.lowest_corner * 1e3:z.1f} mm."
+    )
 
 
 def ik_document(

@@ -22,15 +22,20 @@ def can_walk(numbers: GaitNumbers) -> bool:
 
 def feet_and_rates(numbers: GaitNumbers) -> bool:
     """Whether feet swing clear and no rate jumps: all but what the floor has to supply."""
-    return not _digs(numbers) and not numbers.rate_jumps
+    return not digs(numbers) and not soles_collide(numbers) and not numbers.rate_jumps
 
 
-def _digs(numbers: GaitNumbers) -> bool:
+def digs(numbers: GaitNumbers) -> bool:
     """Whether a swinging sole goes into the floor, by more than its samples leave open."""
-    lowest = numbers.clearance
+    lowest = numbers.lowest_corner
     if numbers.headlines is not None and numbers.headlines.lowest is not None:
         lowest = numbers.headlines.lowest.high
-    return lowest < -TOLERANCES.clearance
+    return lowest is not None and lowest < -TOLERANCES.clearance
+
+
+def soles_collide(numbers: GaitNumbers) -> bool:
+    """Whether the soles touch each other."""
+    return numbers.sole_gap[0] < TOLERANCES.sole_gap
 
 
 def within_limits(numbers: GaitNumbers) -> bool:
@@ -123,9 +128,23 @@ def _servos(numbers: GaitNumbers) -> list[str]:
 
 
 def _swing(numbers: GaitNumbers) -> list[str]:
-    if _digs(numbers):
-        return [f"A swinging sole goes {-numbers.clearance * 1e3:.1f} mm into the floor."]
-    return []
+    said = []
+    if digs(numbers):
+        depth = -(numbers.lowest_corner or 0.0)
+        said.append(f"A swinging sole goes {depth * 1e3:.1f} mm into the floor.")
+    if soles_collide(numbers):
+        time = numbers.motion.t[numbers.sole_gap[1]]
+        said.append(f"The soles collide (t = {time:g}).")
+    scraping = [swing for swing in numbers.swings if swing.scrapes]
+    if scraping:
+        worst = max(scraping, key=lambda swing: swing.scraped)
+        often = "" if len(scraping) == 1 else f", and {len(scraping) - 1} other swings do"
+        said.append(
+            f"The {worst.side} foot scrapes: of its way of {worst.way * 1e3:.1f} mm it makes "
+            f"{worst.scraped * 1e3:.1f} mm less than {TOLERANCES.scrape_height * 1e3:g} mm above "
+            f"the floor (t = {worst.start:g} to {worst.end:g}){often}."
+        )
+    return said
 
 
 def _smooth(numbers: GaitNumbers) -> list[str]:

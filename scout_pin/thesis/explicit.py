@@ -27,7 +27,7 @@ from thesis_pin.equations.editions import EditionEnvironment
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.explicit import ExplicitTerms
 from thesis_pin.equations.formula import Symbol
-from thesis_pin.errors import NoSolution, UnknownName
+from thesis_pin.errors import BadInput, NoSolution, UnknownName
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.tolerances import TOLERANCES
@@ -77,7 +77,13 @@ class ExplicitModel(ExplicitTerms[References]):
         edition: Edition = "corrected",
     ) -> None:
         super().__init__(catalogue(), edition, inertia)
-        self.parameters = Parameters.of(specification or Specification.read(), inertia)
+        specification = specification or Specification.read()
+        if specification.armature().any():
+            raise BadInput(
+                "the servos' rotors have inertia, which the thesis's equations don't know",
+                allowed="rotor_inertia = 0",
+            )
+        self.parameters = Parameters.of(specification, inertia)
 
     # -- right side ------------------------------------------------------------
 

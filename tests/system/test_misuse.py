@@ -15,6 +15,7 @@ import pollard_pin
 import scout_pin
 from pollard_pin.dynamics.inverse import tree_torques
 from pollard_pin.motion import curves as pollard_curves
+from pollard_pin.motion import samples as pollard_samples
 from pollard_pin.thesis import ExplicitModel as PollardExplicit
 from scout_pin.thesis import ExplicitModel as ScoutExplicit
 from thesis_pin.errors import BadInput, ThesisPinError
@@ -233,7 +234,7 @@ CALLS = {
         },
     ),
     "through": (
-        pollard_curves.through,
+        pollard_samples.through,
         {"time": [0, 1, 2], "poses": np.zeros((3, 6)), "method": "cubic"},
     ),
     "joined": (pollard_curves.joined, {"paths": [PATH]}),

@@ -81,7 +81,7 @@ def test_json_has_every_documented_field_and_shape():
     # Eleven evenly spaced samples, and those beside every change.
     count = len(document["time"])
     assert 11 < count == document["parameters"]["samples"]
-    assert (document["schema"], document["version"]) == ("scout-pin/gait-report", 1)
+    assert (document["schema"], document["version"]) == ("scout-pin/gait-report", 2)
     shapes = {
         "time": (count,),
         "theta": (count, 12),

@@ -53,8 +53,8 @@ FORMATS = (
             "closed_loop and type: 3d, 6d, hinge_z, universal_xy, rod, any mask as xyz--z",
             "name_mot: motors",
             "joint_name and joint_type: SPHERICAL, UJOINT_XY and the like, FIXED",
-            "thesis_pin: names, lengths, couplings, motors, springs, armature, damping, "
-            "friction, poses, root, gravity",
+            "thesis_pin: names, lengths, couplings, motors, rotor_inertia, gear_ratio, springs, "
+            "armature, damping, friction, poses, root, gravity",
         ),
         (),
     ),

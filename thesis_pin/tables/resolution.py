@@ -33,7 +33,8 @@ def quantum(cells: Sequence[str], values: Array) -> float:
         values: The same as numbers, shape ``(n,)``.
 
     Returns:
-        The step; 0.0 where whole numbers that never change say nothing of it.
+        The step; 0.0 where a value that never changes says nothing of it, as 0, 0.0 or 0.03
+        do and 0.030 doesn't.
     """
     every = max(1, len(cells) // _LINES)
     looked, sizes = cells[::every], np.abs(values[::every])
@@ -43,7 +44,8 @@ def quantum(cells: Sequence[str], values: Array) -> float:
     finest = float(np.spacing(np.abs(values).max(initial=0.0)))
     digit = max(float(f"1e{fewest}"), finest)
     if not np.ptp(values) > 0:
-        return digit if places.min(initial=0) < 0 else 0.0
+        fixed = places.min(initial=0) < -1 and all(cell.endswith("0") for cell in looked)
+        return digit if fixed else 0.0
     steps = np.diff(np.unique(values))
     if len(steps) < _STEPS or not (np.diff(values) == 0).any():
         return digit

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 
 import numpy as np
@@ -110,6 +110,18 @@ class Table:
                 )
             values[k] = value
         return values
+
+
+def alike(columns: Sequence[Column]) -> list[Column]:
+    """Columns of one kind, those that never move with the resolution of those that do.
+
+    Args:
+        columns: Columns of one unit that one program wrote: all lengths, or all angles.
+    """
+    moving = [one.quantum for one in columns if np.ptp(one.values) > 0]
+    if not moving:
+        return list(columns)
+    return [one if np.ptp(one.values) > 0 else replace(one, quantum=max(moving)) for one in columns]
 
 
 def finite(cell: str, tens: int = 0) -> float | None:

@@ -81,7 +81,7 @@ def blame(
 
 
 def _one_at_a_time(variants: Variants, t: Array, unit: float, draws: int) -> dict[str, Array]:
-    """Coordinates of the gait itself, in turn with one column drawn: ``(3, 6, columns · draws)``."""
+    """The gait's coordinates, in turn with one column drawn, ``(3, 6, columns · draws)``."""
     columns = variants.columns
     result = {}
     for name in BODIES:

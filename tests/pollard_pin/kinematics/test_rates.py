@@ -118,4 +118,4 @@ def test_a_singular_sample_is_named_by_its_place_in_the_whole_motion(pollard, ba
     poses[bad] = pollard.pose(q)
     still, time = np.zeros(poses.shape), np.linspace(0.0, 1.0, 5000)
     with pytest.raises(SingularPose, match=f"pose {bad} at t = {time[bad]:.6g} s"):
-        joint_trajectory(pollard, ToolMotion(time, poses, still, still))
+        joint_trajectory(pollard, ToolMotion.of_coordinates(time, poses, still, still))

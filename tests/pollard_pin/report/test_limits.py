@@ -47,3 +47,25 @@ def test_a_motor_exactly_at_its_limit_is_within_it():
     torque, speed = np.full((2, 6), limits.effort), np.full((2, 6), -limits.velocity)
     assert MotorUse.of(limits, np.arange(2.0), torque, speed).within
     assert not MotorUse.of(limits, np.arange(2.0), torque * (1 + 1e-9), speed).within
+
+
+def test_each_motor_is_held_against_its_own_limits(report):
+    peak, fastest = (np.abs(values).max(axis=0) for values in (report.torque, report.speed))
+    assert peak[5] < 1e-12  # the tool's own axis: nothing turns it
+    effort = (*(peak[:5] * [2, 2, 0.5, 2, 2]).tolist(), 1.0)
+    robot = robot_with(effort=effort, velocity=tuple((fastest * 4).tolist()))
+    own = trajectory_report(robot, appendix_b(), samples=201)
+    np.testing.assert_allclose(own.motor_use.torque, [0.5, 0.5, 2, 0.5, 0.5, 0], atol=1e-9)
+    np.testing.assert_allclose(own.motor_use.speed, 0.25, rtol=1e-9)
+    (text,) = [one for one in own.verdict() if "motors can't" in one]
+    assert f"θ212 needs 200% of its {effort[2]:g} N·m" in text
+    assert text.count("needs") == 1
+    assert own.summary()["motor_limits"]["effort"] == pytest.approx(effort)
+    model = robot.model
+    for name, limit in zip(robot.actuators, effort, strict=True):
+        assert model.upperEffortLimit[model.joints[model.getJointId(name)].idx_v] == limit
+
+
+def test_seven_limits_are_refused():
+    with pytest.raises(ValueError, match="effort"):
+        robot_with(effort=(1.0,) * 7)

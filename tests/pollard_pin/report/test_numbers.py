@@ -179,3 +179,13 @@ def test_longer_durations_tend_to_the_static_torques(pollard):
 def test_the_branch_of_the_report_is_the_one_asked_for(report, printed):
     assert report.branch == DEFAULT_BRANCH
     assert printed.branch_of(report.joints.q[100]) == DEFAULT_BRANCH
+
+
+def test_the_tool_s_speed_is_the_slope_of_its_path(pollard):
+    report = pollard_pin.trajectory_report(pollard, appendix_b(duration=10.0), samples=8001)
+    slope = np.gradient(report.motion.pose[:, :3], report.joints.time, axis=0)
+    expected = np.linalg.norm(slope, axis=1)[2:-2]
+    np.testing.assert_allclose(report.tool_speed[2:-2], expected, rtol=1e-4)
+    said = report.summary()["tool_speed"]
+    assert said["largest"] == report.tool_speed.max()
+    assert report.columns()["tool_speed_m_s"] is report.tool_speed

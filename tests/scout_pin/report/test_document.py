@@ -139,7 +139,7 @@ def test_the_summary_sums_the_columns_up(report):
     np.testing.assert_allclose(landings, planned)
 
 
-def test_friction_and_clearance_are_the_worst_of_the_samples(report):
+def test_friction_and_lowest_corner_are_the_worst_of_the_samples(report):
     """By hand from the wrenches' columns and the soles' corners."""
     columns, summary = report.columns(), report.summary()
     friction = report.robot.specification.assumptions.floor_friction.coefficient
@@ -157,4 +157,4 @@ def test_friction_and_clearance_are_the_worst_of_the_samples(report):
             for x, y in outline:
                 lowest.append((foot.position[s] + foot.rotation[s] @ (x, y, 0.0))[2])
     assert summary["peak_friction_used"] == pytest.approx(max(shares), rel=1e-9)
-    assert summary["swing_clearance"] == pytest.approx(min(lowest), abs=1e-12)
+    assert summary["lowest_corner"] == pytest.approx(min(lowest), abs=1e-12)

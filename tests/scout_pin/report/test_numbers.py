@@ -30,10 +30,10 @@ def test_the_worst_contact_may_be_in_double_support(walk, size):
 def test_a_swinging_sole_a_tenth_of_a_millimetre_below_the_floor_is_no_walk(walk, depth, walks):
     """All else as in a gait that can be walked; no floor is flatter than that."""
     assert walk.can_walk
-    lowered = walk.motion.left_foot.position - (0.0, 0.0, walk.clearance + depth)
+    lowered = walk.motion.left_foot.position - (0.0, 0.0, walk.lowest_corner + depth)
     motion = replace(walk.motion, left_foot=replace(walk.motion.left_foot, position=lowered))
     dug = replace(walk, motion=motion)
-    assert dug.clearance < 0
+    assert dug.lowest_corner < 0
     assert dug.can_walk == walks
     assert any("A swinging sole goes 0.1 mm" in one for one in dug.verdict()) != walks
     assert not any("0.0 mm" in sentence for sentence in dug.verdict())

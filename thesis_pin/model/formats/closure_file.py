@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias, TypeVar
@@ -100,16 +101,21 @@ class Extra(Strict):
         lengths: Of the loops that are rods [m].
         couplings, motors, springs, armature, damping, friction, poses: As in
             :class:`~thesis_pin.model.mechanism.supplement.Supplement`.
+        rotor_inertia: Of each motor's rotor about its own axis [kg·m²], as ``name_mot`` orders
+            them; reflected to the joint by the gear.
+        gear_ratio: Turns of each rotor in one of its joint, likewise.
         root: ``fixed`` or ``free``.
         gravity: In the world's axes [m/s²].
     """
 
-    format: Literal[1]
+    format: Literal[1] = 1
     robot: str = ""
     names: Bounded[str] = ()
     lengths: Bounded[Annotated[float, Field(gt=0)] | None] = ()
     couplings: Bounded[CouplingEntry] = ()
     motors: Bounded[MotorEntry] = ()
+    rotor_inertia: Bounded[NotNegative] = ()
+    gear_ratio: Bounded[Factor] = ()
     springs: Bounded[SpringEntry] = ()
     armature: ByJoint[NotNegative] = Field(default_factory=dict)
     damping: ByJoint[NotNegative] = Field(default_factory=dict)
@@ -181,6 +187,20 @@ class ClosureFile(Strict):
         for key, count in (("names", len(extra.names)), ("lengths", len(extra.lengths))):
             if count and count != loops:
                 yield ("thesis_pin", key), f"has {count} entries for {loops} loops", None
+        motors = len(self.name_mot)
+        for key, count in (
+            ("rotor_inertia", len(extra.rotor_inertia)),
+            ("gear_ratio", len(extra.gear_ratio)),
+        ):
+            if count and count != motors:
+                yield ("thesis_pin", key), f"has {count} entries for {motors} motors", None
+            for entry in extra.motors if count else ():
+                if entry.gear != 1.0 or entry.armature:
+                    yield (
+                        ("thesis_pin", "motors"),
+                        f"gives gear or armature of a motor, beside {key} of all",
+                        entry.joint,
+                    )
         if not self.name_mot and not self.thesis_pin:
             yield ("name_mot",), "names no motor", None
         for place, listed in (
@@ -219,7 +239,8 @@ class ClosureFile(Strict):
                 Coupling(one.name, one.coefficients, one.constant) for one in extra.couplings
             ),
             motors=tuple(
-                _motor(known.get(joint) or MotorEntry(joint=joint)) for joint in self.name_mot
+                _geared(_motor(known.get(joint) or MotorEntry(joint=joint)), extra, number)
+                for number, joint in enumerate(self.name_mot)
             ),
             joint_types=dict(zip(self.joint_name, self.joint_type, strict=True)),
             springs=tuple(Spring(one.joint, one.stiffness, one.rest) for one in extra.springs),
@@ -236,6 +257,13 @@ class ClosureFile(Strict):
             free_root=extra.root == "free",
             gravity=extra.gravity,
         )
+
+
+def _geared(motor: Motor, extra: Extra, number: int) -> Motor:
+    """A motor with what the lists of all motors say of its rotor."""
+    (gear,) = extra.gear_ratio[number : number + 1] or (motor.gear,)
+    (rotor,) = extra.rotor_inertia[number : number + 1] or (0.0,)
+    return replace(motor, gear=gear, armature=motor.armature + gear**2 * rotor)
 
 
 def _motor(entry: MotorEntry) -> Motor:

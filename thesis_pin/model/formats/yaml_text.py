@@ -7,6 +7,8 @@ from growing into gigabytes.
 
 from __future__ import annotations
 
+import re
+
 import yaml
 
 from thesis_pin.errors import BadInput
@@ -39,6 +41,14 @@ class _Loader(yaml.SafeLoader):
         node: yaml.Node | None = super().compose_node(parent, index)  # type: ignore[arg-type]
         self.depth -= 1
         return node
+
+
+# YAML 1.1, which is what PyYAML reads, takes 1e-5 for a word; 1.2 and everybody else don't.
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+"),
+    list("-+.0123456789"),
+)
 
 
 def parse_yaml(kind: str, text: str, *, where: str) -> tuple[object, dict[Key, int]]:

@@ -51,6 +51,14 @@ def test_a_motor_has_what_is_said_of_it_and_nothing_else():
         ("  springs: [{joint: j, stiffness: 1}, {joint: j, stiffness: 2}]\n", "3d", "twice"),
         ("  damping: {j: -1}\n", "3d", r"damping\.j"),
         ("  root: floating\n", "3d", "root"),
+        ("  rotor_inertia: [1e-5, 1e-5]\n", "3d", "has 2 entries for 1 motors"),
+        ("  rotor_inertia: [-1e-5]\n", "3d", "rotor_inertia"),
+        ("  gear_ratio: [0]\n", "3d", "must not be zero"),
+        (
+            "  gear_ratio: [50]\n  motors: [{joint: m, armature: 1}]\n",
+            "3d",
+            "beside gear_ratio of all",
+        ),
         ("  poses: {home: {j: word}}\n", "3d", "poses"),
     ],
 )
@@ -64,3 +72,15 @@ def test_only_our_own_files_may_name_no_motor():
     assert ClosureFile.parse(text).supplement().motors == ()
     with pytest.raises(SpecificationError, match="name_mot: names no motor"):
         ClosureFile.parse(text.partition("thesis_pin")[0])
+
+
+def test_rotors_behind_gears_are_reflected_to_the_joint():
+    (motor,) = supplement("  rotor_inertia: [1.0e-5]\n  gear_ratio: [50]\n").motors
+    assert (motor.gear, motor.armature) == (50, pytest.approx(0.025))  # 50² × 1e-5
+    (bare,) = supplement("  rotor_inertia: [1.0e-5]\n").motors
+    assert (bare.gear, bare.armature) == (1, 1e-5)
+
+
+def test_what_we_add_needs_no_version_of_its_own():
+    text = PLAIN.format("3d").replace("  format: 1\n", "  gear_ratio: [2]\n")
+    assert ClosureFile.parse(text).supplement().motors[0].gear == 2

@@ -77,3 +77,8 @@ def test_a_list_longer_than_the_limit_is_refused():
     names = ", ".join(f"j{k}" for k in range(LIMITS.entries + 1))
     with pytest.raises(SpecificationError, match=r"joint_name.* at most 1000 items"):
         ClosureFile.parse(f"closed_loop: []\ntype: []\nname_mot: [a]\njoint_name: [{names}]\n")
+
+
+def test_powers_of_ten_are_numbers_with_and_without_a_point():
+    data, _ = parse_yaml("file", "a: [1e-5, 1.0e-5, -2E3, .5e1, 1.e+2, e5, 1e]\n", where="f")
+    assert data == {"a": [1e-5, 1e-5, -2000.0, 5.0, 100.0, "e5", "1e"]}

@@ -1,0 +1,158 @@
+"""What the feet do between lift-off and landing: clearance, scraping, sole against sole.
+
+The clearance that keeps a walker from stumbling is that of mid-swing, where the foot moves
+fastest: minimum toe clearance. Next to lift-off and landing a sole is at the floor in every
+gait.
+
+Source: D. A. Winter, "Foot trajectory in human gait: a precise and multifactorial motor
+control task", Physical Therapy 72 (1992); R. Begg et al., "Minimum foot clearance during
+walking", Gait & Posture 25 (2007).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from scout_pin.model import Scout
+from scout_pin.motion.gait import Gait, GaitMotion
+from scout_pin.specification import SIDES
+from thesis_pin.contacts.polygons import least_distance
+from thesis_pin.numeric.elementwise import BLOCK, blocks
+from thesis_pin.numeric.trajectory import BodyMotion
+from thesis_pin.tolerances import TOLERANCES
+
+MIDDLE = (0.25, 0.75)
+"""Mid-swing: the middle half of the foot's way over the floor."""
+
+_LEAST = 33  # samples from which a swing is judged as sampled
+_MOST = BLOCK
+
+
+@dataclass(frozen=True)
+class Swing:
+    """A foot from lift-off to landing.
+
+    Attributes:
+        side: Which foot.
+        start, end: Times in the gait's unit.
+        clearance: Least height of the sole's lowest corner in mid-swing [m].
+        way: Way that the sole makes over the floor, of the corner that goes farthest [m].
+        scraped: The part of it made lower than ``TOLERANCES.scrape_height`` [m].
+    """
+
+    side: str
+    start: float
+    end: float
+    clearance: float
+    way: float
+    scraped: float
+
+    @property
+    def scrapes(self) -> bool:
+        """Whether too much of the way is made next to the floor; straight up is no scraping."""
+        return (
+            self.way > TOLERANCES.scrape_way and self.scraped > TOLERANCES.scrape_share * self.way
+        )
+
+
+def swings(robot: Scout, gait: Gait, motion: GaitMotion) -> list[Swing]:
+    """Every swing of a gait, in order.
+
+    Mid-swing is the middle half of the way that the sole makes over the floor, or of the
+    time if it goes straight up and down. A foot that is in the air when the gait begins or
+    ends is judged from there, or to there.
+
+    Args:
+        robot: The biped.
+        gait: The gait.
+        motion: Its samples; swings with few of them are sampled anew.
+    """
+    found = []
+    for k, side in enumerate(SIDES):
+        for start, end in _air_times(gait, side):
+            some = np.flatnonzero(~motion.support[:, k] & (motion.t > start) & (motion.t < end))
+            if len(some) < _LEAST:
+                inside = TOLERANCES.instant * (end - start)
+                t = np.linspace(start + inside, end - inside, _LEAST)
+                place = gait.body(f"{side}_foot", t).placement
+            else:
+                some = some[:: 1 + len(some) // _MOST]
+                t = motion.t[some]
+                place = _foot(motion, k).part(some).placement
+            low = MIDDLE[0] if start > gait.start else 0.0
+            high = MIDDLE[1] if end < gait.end else 1.0
+            found.append(Swing(side, start, end, *_judged(robot, side, t, place, (low, high))))
+    return sorted(found, key=lambda swing: swing.start)
+
+
+def lowest_corner(robot: Scout, motion: GaitMotion) -> float | None:
+    """Height of the lowest corner of a foot that bears no load [m]; None if both always do."""
+    lowest = np.inf
+    for k, side in enumerate(SIDES):
+        swinging = np.flatnonzero(~motion.support[:, k])
+        for part in blocks(len(swinging)):
+            place = _foot(motion, k).part(swinging[part]).placement
+            lowest = min(lowest, float(robot.sole_vertices(side, place)[..., 2].min()))
+    return lowest if np.isfinite(lowest) else None
+
+
+def sole_gap(robot: Scout, motion: GaitMotion) -> tuple[float, int]:
+    """Least distance of the soles [m], and the sample at which they are nearest."""
+    least, sample = np.inf, 0
+    for part in blocks(len(motion.t)):
+        one, other = (
+            robot.sole_vertices(side, _foot(motion, k).part(part).placement)
+            for k, side in enumerate(SIDES)
+        )
+        found, here = least_distance(one, other)
+        if found < least:
+            least, sample = found, part.start + here
+    return float(least), sample
+
+
+def _foot(motion: GaitMotion, number: int) -> BodyMotion:
+    return (motion.left_foot, motion.right_foot)[number]
+
+
+def _air_times(gait: Gait, side: str) -> Iterator[tuple[float, float]]:
+    """Start and end of each time that a foot bears no load."""
+    start: float | None = None
+    for phase in gait.phases:
+        if phase.support in (side, "double"):
+            if start is not None:
+                yield start, phase.start
+            start = None
+        elif start is None and phase.end > phase.start:
+            start = phase.start
+    if start is not None:
+        yield start, gait.end
+
+
+def _judged(
+    robot: Scout, side: str, t: np.ndarray, place: np.ndarray, middle: tuple[float, float]
+) -> tuple[float, float, float]:
+    """Clearance, way and scraped way [m] of one swing."""
+    corners = robot.sole_vertices(side, place)
+    height = corners[..., 2].min(axis=1)
+    steps = np.diff(corners[..., :2], axis=0)
+    step = np.hypot(steps[..., 0], steps[..., 1]).max(axis=1)
+    way = float(step.sum())
+    if way > TOLERANCES.scrape_way:
+        progress = np.concatenate([[0.0], np.cumsum(step)]) / way
+    else:
+        progress = (t - t[0]) / (t[-1] - t[0])
+    within = height[(progress >= middle[0]) & (progress <= middle[1])]
+    ends = np.interp(middle, progress, height)
+    scraped = float((step * _below(TOLERANCES.scrape_height, height)).sum())
+    return float(min(within.min(initial=np.inf), ends.min())), way, scraped
+
+
+def _below(limit: float, height: np.ndarray) -> np.ndarray:
+    """Share of each step between heights ``(n,)`` that lies below a limit, ``(n - 1,)``."""
+    low, high = np.minimum(height[1:], height[:-1]), np.maximum(height[1:], height[:-1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.clip((limit - low) / (high - low), 0.0, 1.0)
+    return np.asarray(np.where(high > low, share, low < limit))

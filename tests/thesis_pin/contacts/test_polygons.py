@@ -1,0 +1,84 @@
+"""Distances of flat polygons in space, against a quadratic programme and shapely."""
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import minimize
+
+from thesis_pin.contacts.polygons import least_distance, polygon_distance
+
+SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+NOTCHED = np.array([[0, 0], [3, 0], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]], dtype=float)
+
+
+def placed(outline, rng, spread):
+    axis = rng.normal(size=3)
+    angle = rng.uniform(0, np.pi)
+    k = np.cross(np.eye(3), axis / np.linalg.norm(axis))
+    turn = np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+    return np.column_stack([outline, np.zeros(len(outline))]) @ turn.T + rng.normal(
+        size=3, scale=spread
+    )
+
+
+def by_optimisation(one, other):
+    """Least distance of two convex polygons over mixtures of their corners."""
+    m, n = len(one), len(other)
+
+    def square(w):
+        gap = w[:m] @ one - w[m:] @ other
+        return gap @ gap
+
+    sums = (
+        {"type": "eq", "fun": lambda w: w[:m].sum() - 1},
+        {"type": "eq", "fun": lambda w: w[m:].sum() - 1},
+    )
+    start = np.concatenate([np.full(m, 1 / m), np.full(n, 1 / n)])
+    options = {"ftol": 1e-14, "maxiter": 500}
+    found = minimize(
+        square, start, bounds=[(0, 1)] * (m + n), constraints=sums, options=options, method="SLSQP"
+    )
+    return np.sqrt(found.fun)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10**6), st.sampled_from([0.3, 1.0, 3.0]))
+def test_convex_polygons_anywhere_are_as_far_apart_as_an_optimiser_finds(seed, spread):
+    rng = np.random.default_rng(seed)
+    hull = np.array([[0, 0], [2, 0], [2.5, 1], [1, 2]], dtype=float)
+    one, other = placed(SQUARE, rng, spread), placed(hull, rng, spread)
+    found = polygon_distance(one[None], other[None])[0]
+    assert found == pytest.approx(by_optimisation(one, other), abs=2e-4)
+    assert found == pytest.approx(polygon_distance(other[None], one[None])[0], abs=1e-12)
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.floats(-1, 4), st.floats(-1, 4), st.floats(0, 6.3), st.floats(0, 2))
+def test_level_polygons_with_notches_are_as_far_apart_as_shapely_says(x, y, angle, height):
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    small = 0.4 * SQUARE @ turn.T + (x, y)
+    flat = shapely.distance(shapely.Polygon(NOTCHED), shapely.Polygon(small))
+    lifted = np.column_stack([small, np.full(4, height)])
+    level = np.column_stack([NOTCHED, np.zeros(8)])
+    found = polygon_distance(level[None], lifted[None])[0]
+    assert found == pytest.approx(np.hypot(flat, height), abs=1e-9)
+
+
+def test_a_polygon_through_another_is_at_distance_zero_without_touching_its_edges():
+    big = np.column_stack([10 * SQUARE - 5, np.zeros(4)])
+    upright = np.column_stack([SQUARE[:, 0], np.zeros(4), SQUARE[:, 1] - 0.5])
+    assert polygon_distance(big[None], upright[None])[0] == 0.0
+    assert polygon_distance(big[None], upright[None] + (0, 0, 0.7))[0] == pytest.approx(0.2)
+
+
+def test_the_nearest_sample_of_a_motion_is_found():
+    """Two squares pass each other; the least of all distances, one by one."""
+    t = np.linspace(-1, 1, 301)
+    level = np.broadcast_to(np.column_stack([SQUARE, np.zeros(4)]), (301, 4, 3))
+    passing = level + np.stack([np.full(301, 1.2), 3 * t, 0.3 * np.abs(t)], axis=1)[:, None]
+    distances = polygon_distance(level, passing)
+    least, sample = least_distance(level, passing)
+    assert least == distances.min()
+    assert distances[sample] == least

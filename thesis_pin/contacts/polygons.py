@@ -1,0 +1,105 @@
+"""How near flat soles come to each other: distances of polygons in space, in closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+
+_DIRECTIONS = np.array(
+    [[np.cos(a), np.sin(a), 0.0] for a in np.pi * np.arange(8) / 8] + [[0.0, 0.0, 1.0]]
+)
+_TOGETHER = 256  # pairs of polygons worked on at a time
+
+
+def polygon_distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Least distance of two flat polygons' areas, zero where they meet.
+
+    The least distance is that of two edges, or of a corner of one to the area of the other;
+    if an edge of one passes through the other it is zero. Polygons needn't be convex.
+
+    Args:
+        one: Corners in order [m], shape ``(n, corners, 3)``.
+        other: The same of the other polygon.
+
+    Returns:
+        Distances [m], shape ``(n,)``.
+    """
+    edges = _segment_distance(one, other)
+    corners = np.minimum(_corners_to_area(one, other), _corners_to_area(other, one))
+    return np.asarray(np.minimum(edges, corners))
+
+
+def least_distance(one: np.ndarray, other: np.ndarray) -> tuple[float, int]:
+    """Where two moving polygons are nearest: the distance [m], and the sample.
+
+    Args:
+        one: Corners of one polygon at each sample [m], shape ``(n, corners, 3)``.
+        other: The same of the other one.
+    """
+    # How far apart their shadows on some lines are bounds the distance from below.
+    here, there = one @ _DIRECTIONS.T, other @ _DIRECTIONS.T
+    apart = np.maximum(
+        there.min(axis=1) - here.max(axis=1), here.min(axis=1) - there.max(axis=1)
+    ).max(axis=1)
+    sample = int(np.argmin(apart))
+    least = float(polygon_distance(one[[sample]], other[[sample]])[0])
+    some = np.flatnonzero(apart < least)
+    for start in range(0, len(some), _TOGETHER):
+        part = some[start : start + _TOGETHER]
+        found = polygon_distance(one[part], other[part])
+        if found.min() < least:
+            least, sample = float(found.min()), int(part[np.argmin(found)])
+    return least, sample
+
+
+def _segment_distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Least distance of any edge of one to any edge of the other, shape ``(n,)``."""
+    p, d = one[:, :, None], (np.roll(one, -1, axis=1) - one)[:, :, None]
+    q, e = other[:, None], (np.roll(other, -1, axis=1) - other)[:, None]
+    r = p - q
+    dd, ee, de = (d * d).sum(-1), (e * e).sum(-1), (d * e).sum(-1)
+    dr, er = (d * r).sum(-1), (e * r).sum(-1)
+    across = dd * ee - de**2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Parallel edges: any point of the first will do, the second's is found for it.
+        s = np.where(across > 1e-12 * dd * ee, (de * er - dr * ee) / across, 0.0)
+    s = np.clip(s, 0.0, 1.0)
+    t = np.clip((de * s + er) / ee, 0.0, 1.0)
+    s = np.clip((de * t - dr) / dd, 0.0, 1.0)
+    gap = r + d * s[..., None] - e * t[..., None]
+    return np.asarray(np.sqrt((gap**2).sum(-1)).min(axis=(1, 2)))
+
+
+def _corners_to_area(points: np.ndarray, area: np.ndarray) -> np.ndarray:
+    """Least distance of corners to another area, where its edges don't decide, ``(n,)``.
+
+    Zero if an edge between two of the corners passes through the area, infinite if no
+    corner lies above or below it.
+    """
+    edge = area[:, 1] - area[:, 0]
+    # The normal of a polygon that may have notches is the sum over its corners.
+    normal = np.cross(area, np.roll(area, -1, axis=1)).sum(axis=1)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    across = edge / np.linalg.norm(edge, axis=1)[:, None]
+    axes = np.stack([across, np.cross(normal, across)], axis=1)
+    from_here = points - area[:, :1]
+    height = np.einsum("npi,ni->np", from_here, normal)
+    flat = np.einsum("npi,nji->npj", from_here, axes)
+    outline = np.einsum("npi,nji->npj", area - area[:, :1], axes)
+    above = np.where(_inside(flat, outline), np.abs(height), np.inf).min(axis=1)
+    following, next_flat = np.roll(height, -1, axis=1), np.roll(flat, -1, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.where(height != following, height / (height - following), 0.0)
+    passes = flat + share[..., None] * (next_flat - flat)
+    pierced = (height * following < 0) & _inside(passes, outline)
+    return np.where(pierced.any(axis=1), 0.0, above)
+
+
+def _inside(points: np.ndarray, outline: np.ndarray) -> np.ndarray:
+    """Whether points ``(n, p, 2)`` lie in polygons ``(n, corners, 2)``: ``(n, p)``."""
+    x, y = points[:, :, None, 0], points[:, :, None, 1]
+    (x_0, y_0), (x_1, y_1) = (
+        np.moveaxis(corners[:, None], -1, 0) for corners in (outline, np.roll(outline, -1, axis=1))
+    )
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crossing = ((y_0 > y) != (y_1 > y)) & (x < x_0 + (y - y_0) * (x_1 - x_0) / (y_1 - y_0))
+    return np.asarray(crossing.sum(axis=2) % 2 == 1)
