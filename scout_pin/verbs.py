@@ -21,7 +21,13 @@ def report(
     from scout_pin.motion.files import load_gait
     from scout_pin.report.document import gait_report
 
-    gait = load_gait(arguments.gait, arguments.interpolation, robot=robot)
+    gait = load_gait(
+        arguments.gait,
+        arguments.interpolation,
+        robot=robot,
+        smooth=arguments.smooth,
+        time_unit=arguments.time_unit,
+    )
     unit = arguments.time_unit or gait.time_unit
     return gait_report(
         robot,

@@ -33,6 +33,7 @@ _STANDS = np.array([TOLERANCES.stance_drift] * 3 + [TOLERANCES.stance_tilt] * 3)
 _NEAR = np.array([TOLERANCES.stance_near] * 3 + [TOLERANCES.stance_near_tilt] * 3)
 _FAR = 4.5  # standard deviations of noise by which a standing foot may seem off the floor
 _ENOUGH = 8  # rows of a swing that tell its rate at an end
+_MISSED = 4.0  # standard deviations of a sample by which a start from rest must miss them
 _STANCES = 1  # one of two kinds of streams of random numbers
 _SWINGS = 2
 
@@ -239,17 +240,23 @@ class _Swing:
         """Sizes of the rate's jumps where the swing begins and ends; 0 where it rests there.
 
         A foot that starts from rest has, one row on, at most the rate that its largest
-        acceleration gives it in that time.
+        acceleration gives it in that time. And a start from rest that was a little earlier
+        must miss the samples by more than their noise.
         """
         curve = self._fit(first, last, (None, None))
         fastest = float(np.abs(curve.value(self.time[first : last + 1], 2)).max())
         found = []
         for end, row, neighbour in ((ends[0], first, first - 1), (ends[1], last, last + 1)):
             at = self.time[row]
-            rate = abs(float(curve.value(at, 1)))
+            rate = min(abs(float(curve.value(at, 1))), abs(float(curve.rival(at, 1))))
             spread = float(curve.draws(at, 1).std(ddof=1))
             step = abs(self.time[row] - self.time[min(max(neighbour, 0), len(self.time) - 1)])
-            jumps = end is not None and rate > max(2.0 * fastest * step, 5.0 * spread)
+            missed = rate**2 / (2.0 * fastest) if fastest else np.inf
+            jumps = (
+                end is not None
+                and rate > max(2.0 * fastest * step, 5.0 * spread)
+                and missed > _MISSED * curve.sigma
+            )
             found.append(rate if jumps else 0.0)
         return found
 

@@ -6,6 +6,7 @@ Source: the method is :mod:`thesis_pin.smoothing`; docs/rounding.md shows what i
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.motion.contact import check_stance
 from scout_pin.motion.feet import Foot, Moving, Stance, foot, stances
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
@@ -63,7 +65,10 @@ def gait_from_samples(
     notes = (*notes, *_close_rows(samples))
     if all(error <= limit for _, error, limit in errors(samples, quanta, time_unit)):
         gait = through_samples(samples, "free")
-        return replace(gait, notes=(*gait.notes, *notes))
+        # A spline through a jump of rate rings; pieces that end there don't.
+        with suppress(TrajectoryError):
+            check_stance(gait.name, gait.curves, gait.phases)
+            return replace(gait, notes=(*gait.notes, *notes))
     return _smoothed(samples, quanta, notes)
 
 

@@ -78,4 +78,5 @@ def columns_table(variants: Variants, unit: float) -> Table:
         "column": [one.name for one in moving],
         "samples": [how_fine(one, variants.rate / unit) for one in moving],
     }
-    return Table.of("What the samples resolve", columns)
+    rows = list(zip(*columns.values(), strict=True))
+    return Table("What the samples resolve", list(columns), rows, prose=True)

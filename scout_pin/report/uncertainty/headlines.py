@@ -21,7 +21,7 @@ from thesis_pin.smoothing.intervals import SPREAD, Interval, largest_value, leas
 Array = NDArray[np.float64]
 Floats = NDArray[np.floating[Any]]
 
-_MARGIN = 2e-5  # what the grid of samples may miss of a margin [m]
+_MARGIN = 5e-5  # what the grid of samples may miss of a margin [m]
 _PEAK = 2e-4  # and of a peak, relative
 
 
