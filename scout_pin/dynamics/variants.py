@@ -22,6 +22,7 @@ from scout_pin.motion.gait import BODIES, Gait, GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.motion.variants import Variants
 from scout_pin.specification import SIDES
+from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.errors import ThesisPinError
 from thesis_pin.numeric.rotations import euler_placement
 from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
@@ -250,3 +251,21 @@ def _rates(
     wide = KNOWN * np.stack([np.interp(t, kept_t, column) for column in spread.T], axis=1)
     resting = speed <= np.maximum(wide, TOLERANCES.static)
     return resting, resting & (speed + wide > TOLERANCES.static)
+
+
+def extremes_of(
+    robot: Scout, joints: JointTrajectory, dynamics: ContactDynamics, margin: np.ndarray
+) -> list[int]:
+    """Samples of the least margins and of the largest torques and uses of a servo.
+
+    Args:
+        robot: The biped.
+        joints: Joint trajectory of the gait itself.
+        dynamics: Its torques and floor wrenches.
+        margin: Its margins [m], shape ``(n,)``.
+    """
+    torque = np.abs(dynamics.torque)
+    use = torque / robot.stall_torque + np.abs(joints.v) / robot.no_load_speed
+    single = np.where(dynamics.support, dynamics.contact_margin, np.inf).min(axis=1)
+    found = [margin.argmin(), single.argmin(), *torque.argmax(axis=0), *use.argmax(axis=0)]
+    return [int(sample) for sample in found]

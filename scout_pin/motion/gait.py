@@ -20,7 +20,7 @@ from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, check_stance
-from scout_pin.motion.variants import RateJump, Variants
+from scout_pin.motion.variants import RateJump, Rows, Variants
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
@@ -93,6 +93,7 @@ class Gait:
             they are known: they choose the branch of the legs.
         variants: What samples of finite resolution leave open; None if the curves are
             exact, as far as anybody knows.
+        rows: Where its samples stand in their file; None if it has none.
     """
 
     name: str
@@ -103,6 +104,7 @@ class Gait:
     notes: tuple[str, ...] = ()
     reference: tuple[float, ...] | None = None
     variants: Variants | None = None
+    rows: Rows | None = None
 
     @property
     def start(self) -> float:

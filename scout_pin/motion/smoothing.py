@@ -118,8 +118,11 @@ def _quanta(samples: GaitSamples, how: Stated) -> dict[str, float]:
 def _mended(samples: GaitSamples) -> tuple[GaitSamples, tuple[str, ...]]:
     """The samples without those that don't belong to their neighbours, and a note on each."""
     poses, notes = dict(samples.poses), []
+    step = float(np.median(np.diff(samples.time.values)))
     for name, column in samples.poses.items():
-        found = outliers(column.values, column.quantum)
+        limit = TOLERANCES.exact_turn if _turns(name) else TOLERANCES.exact_move
+        # What is exact enough to be interpolated has none.
+        found = outliers(column.values, column.quantum, limit * step**2)
         if not found:
             continue
         values = column.values.copy()
@@ -180,6 +183,7 @@ def _smoothed(samples: GaitSamples, quanta: dict[str, float], notes: tuple[str, 
         (*samples.notes, *more, *notes, *_jump_notes(samples, feet)),
         samples.reference,
         variants,
+        samples.rows,
     )
 
 

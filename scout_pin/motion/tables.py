@@ -17,6 +17,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.contact import SUPPORTS, Phase, changes
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.joint_angles import placed
+from scout_pin.motion.variants import Rows
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
@@ -65,6 +66,11 @@ class GaitSamples:
     def reference(self) -> tuple[float, ...] | None:
         """Angles [rad] of the twelve joints at the first sample; None if it has none."""
         return tuple(float(column.values[0]) for column in self.angles) or None
+
+    @property
+    def rows(self) -> Rows:
+        """Where in its file each sample stands."""
+        return Rows(name_as_text(self.table.file), self.time.values, self.table.lines)
 
     def values(self, name: str) -> np.ndarray:
         """Samples of a pose's column, zero if it is missing, shape ``(n,)``."""
@@ -151,6 +157,7 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
         phases,
         (*samples.notes, *notes),
         samples.reference,
+        rows=samples.rows,
     )
 
 

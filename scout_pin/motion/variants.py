@@ -9,6 +9,26 @@ from scipy.interpolate import PPoly
 
 
 @dataclass(frozen=True)
+class Rows:
+    """Where in its file each sample of a gait stands.
+
+    Attributes:
+        file: The file.
+        t: Times, shape ``(n,)``.
+        lines: Lines, ``(n,)``.
+    """
+
+    file: str
+    t: np.ndarray
+    lines: np.ndarray
+
+    def where(self, t: float) -> str:
+        """File and lines of the samples next to a time."""
+        k = int(np.clip(np.searchsorted(self.t, t), 1, len(self.t) - 1))
+        return f"{self.file}:{self.lines[k - 1]}–{self.lines[k]}"
+
+
+@dataclass(frozen=True)
 class RateJump:
     """A planned rate that changes in an instant: it would take an infinite force.
 

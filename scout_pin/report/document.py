@@ -11,21 +11,20 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
 from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
-from scout_pin.dynamics.variants import drawn
+from scout_pin.dynamics.variants import drawn, extremes_of
 from scout_pin.kinematics.solutions import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import decision
 from scout_pin.report.implausible import implausible
+from scout_pin.report.located import located
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.report.reason import reason, sentences
 from scout_pin.report.uncertainty.document import uncertainty
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
-from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.elementwise import LONG, blocks
-from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report.info import assumptions
 from thesis_pin.version import __version__
@@ -229,23 +228,24 @@ def gait_report(
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
-    joints = joint_trajectory(robot, motion, branch=branch, reference=gait.reference)
-    progress(2, 4)
-    dynamics = inverse_dynamics(robot, motion, joints)
-    com, zmp = np.empty((len(motion.t), 3)), np.empty((len(motion.t), 2))
-    for part in blocks(len(motion.t)):
-        state = free_flyer_state(motion.torso.part(part), joints.part(part))
-        com[part], rate = momentum(robot, *state)
-        zmp[part] = zero_moment_point(robot.mass, com[part], rate, first=part.start)
-    margin = support_margin(robot, motion, zmp)
-    progress(3, 4)
-    draws = None
-    if gait.variants is not None:
-        extremes = _extremes(robot, joints, dynamics, margin)
-        draws = drawn(robot, gait, motion, joints, unit, extremes)
-    if draws is not None and len(joints.time) < LONG:
-        joints = replace(joints, resting=draws.resting)
+    with located(gait, motion.t):
+        joints = joint_trajectory(robot, motion, branch=branch, reference=gait.reference)
+        progress(2, 4)
         dynamics = inverse_dynamics(robot, motion, joints)
+        com, zmp = np.empty((len(motion.t), 3)), np.empty((len(motion.t), 2))
+        for part in blocks(len(motion.t)):
+            state = free_flyer_state(motion.torso.part(part), joints.part(part))
+            com[part], rate = momentum(robot, *state)
+            zmp[part] = zero_moment_point(robot.mass, com[part], rate, first=part.start)
+        margin = support_margin(robot, motion, zmp)
+        progress(3, 4)
+        draws = None
+        if gait.variants is not None:
+            extremes = extremes_of(robot, joints, dynamics, margin)
+            draws = drawn(robot, gait, motion, joints, unit, extremes)
+        if draws is not None and len(joints.time) < LONG:
+            joints = replace(joints, resting=draws.resting)
+            dynamics = inverse_dynamics(robot, motion, joints)
     report = GaitReport(
         robot=robot,
         gait=gait,
@@ -262,14 +262,3 @@ def gait_report(
     )
     progress(4, 4)
     return report
-
-
-def _extremes(
-    robot: Scout, joints: JointTrajectory, dynamics: ContactDynamics, margin: np.ndarray
-) -> list[int]:
-    """Samples of the least margins and of the largest torques and uses of a servo."""
-    torque = np.abs(dynamics.torque)
-    use = torque / robot.stall_torque + np.abs(joints.v) / robot.no_load_speed
-    single = np.where(dynamics.support, dynamics.contact_margin, np.inf).min(axis=1)
-    found = [margin.argmin(), single.argmin(), *torque.argmax(axis=0), *use.argmax(axis=0)]
-    return [int(sample) for sample in found]

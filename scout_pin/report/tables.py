@@ -11,7 +11,6 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
 from scout_pin.report.implausible import implausible
 from scout_pin.report.servos import servo_limits
-from scout_pin.report.uncertainty.document import open_table
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.report import branches
 from thesis_pin.report.tables import Part, Table
@@ -75,6 +74,8 @@ def summary(report: GaitReport) -> Iterator[Part]:
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
     if report.headlines is not None:
+        from scout_pin.report.uncertainty.document import open_table
+
         yield open_table(report.headlines)
     yield from ("", *report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
     yield from (f"Warning: {one}" for one in implausible(s.specification))
