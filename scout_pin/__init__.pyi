@@ -14,14 +14,13 @@ from .model import (
 )
 
 # Kinematics
-from .kinematics.solutions import (
-    BRANCHES as BRANCHES,
-    LegSolutions as LegSolutions,
-)
+from .kinematics.branches import BRANCHES as BRANCHES
+from .kinematics.solutions import LegSolutions as LegSolutions
 
 # Motion
 from .motion.gait import Gait as Gait
 from .motion.files import load_gait as load_gait
+from .motion.cycles import repeat_gait as repeat_gait
 from .motion.trajectory import joint_trajectory as joint_trajectory
 
 # Dynamics
@@ -30,6 +29,9 @@ from .dynamics.stream import torque_blocks as torque_blocks
 
 # Report
 from .report.document import gait_report as gait_report
+
+# Study
+from .study.size import size as size
 
 # Only Scout
 from .kinematics.rates import leg_rates as leg_rates

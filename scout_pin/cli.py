@@ -7,18 +7,18 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common, options
-from thesis_pin.command.options import add_branch, number
+from thesis_pin.command.options import add_branch, count, number
 from thesis_pin.command.registry import Command, Parser, Robot
 
 _branch = partial(
     add_branch,
-    signs="three signs S_E S_2 S_K for both legs, written --branch=+-+, or for left and right, "
-    "--branch=+++,-+-",
+    signs="the way the knees bend, forward or backward, or three signs S_E S_2 S_K, written "
+    "--branch=+-+; for both legs, or for left and right, --branch=+++,-+-",
 )
 
 
 def _which_gait(words: argparse.ArgumentParser) -> None:
-    _branch(words, default="the nearest to zero angles that is valid throughout")
+    _branch(words, default="the gait's, the specification's, else nearest to neutral")
     words.add_argument(
         "--gait",
         metavar="NAME|FILE",
@@ -36,6 +36,19 @@ def _which_gait(words: argparse.ArgumentParser) -> None:
         type=number("--time-unit", positive=True),
         metavar="SECONDS",
         help="seconds in the gait's unit of t (default: the gait's own)",
+    )
+    words.add_argument(
+        "--cycle",
+        action="store_true",
+        help="the gait's end is its start, a step further (as cycle = true in its file)",
+    )
+    words.add_argument(
+        "--repeat",
+        type=count("--repeat", 1),
+        default=1,
+        metavar="N",
+        help="walk the gait N times, each time a step further and with as many samples "
+        "(default: 1)",
     )
 
 
@@ -82,6 +95,13 @@ COMMAND = Command(
             "gait --gait examples/walk.toml --time-unit 0.05 --out report",
             samples=401,
             breaks="the gait breaks a limit",
+        ),
+        common.size_verb(
+            ROBOT,
+            "which servos of a list carry this gait?",
+            "Servos of a list held against what a gait asks of each joint: safety factor, RMS.",
+            "size examples/servos.csv --gait examples/walk.toml --time-unit 0.05",
+            samples=401,
         ),
         common.view_verb(
             ROBOT,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -12,15 +13,16 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from scout_pin import coordinates
-from scout_pin.kinematics import forward
+from scout_pin.implausible import implausible
+from scout_pin.kinematics import choosing, forward
 from scout_pin.kinematics import inverse as kinematics
+from scout_pin.kinematics.branches import Numbers, allowed_branches
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.kinematics.solutions import branch_numbers
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.contacts.feet import sole_corners
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
@@ -50,7 +52,8 @@ def load(
         inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.mechanism.inertia`.
 
     Returns:
-        The robot.
+        The robot. What nobody builds so, see :func:`scout_pin.implausible.implausible`, is said
+        as a :class:`~thesis_pin.errors.ModelWarning` each.
 
     Raises:
         SpecificationError: The specification is invalid.
@@ -61,6 +64,8 @@ def load(
         specification = Specification.read(specification)
     choice("root", root, ("free_flyer", "thesis"))
     choice("inertia", inertia, ("physical", "printed"))
+    for one in implausible(specification):
+        warnings.warn(one, ModelWarning, stacklevel=2)
     return Scout(specification, root, inertia)
 
 
@@ -186,18 +191,22 @@ class Scout(LoadedRobot):
         They are no Pinocchio q; :meth:`configuration` makes one of them.
 
         The branch is the one nearest the reference that exists and keeps the joint
-        limits. Without a reference, a stack is a trajectory along its first axis:
-        if one branch is valid throughout it is kept, the one with the smallest
-        first angles if there are several; otherwise each sample takes the branch
-        nearest the sample before.
+        limits. Without a reference, a stack is a trajectory along its first axis, and
+        both legs take branches of one shape that are valid throughout: knees the same
+        way, hips the same way, nearest to the neutral pose at the first sample, knees
+        forward where two are equally near. Where no shape serves both legs each takes
+        its own nearest; where no branch is valid throughout each sample takes the
+        one nearest the sample before.
 
         Args:
             torso: Torso in the world: ``pin.SE3``, sequence, or ``(..., 4, 4)``.
             left_foot: Left sole in the world, likewise.
             right_foot: Right sole in the world, likewise.
             reference: Angles [rad], ``(12,)`` for a start or ``(..., 12)`` for each pose.
-            branch: Signs of the branch to take, for both legs or one label a leg, as
-                ``"+-+"`` or ``("+++", "-+-")``; None chooses as above.
+            branch: What to choose from: the way the knees bend, ``"forward"`` or
+                ``"backward"``, or the signs of one branch, as ``"+-+"``; for both legs or
+                for each, as ``("+++", "-+-")``; None takes what the specification says,
+                or near a reference any.
 
         Returns:
             Joint angles [rad], shape ``(..., 12)``.
@@ -223,12 +232,33 @@ class Scout(LoadedRobot):
             ) from None
         given = None if reference is None else finite_array("reference", reference, 12)
         world_to_torso = invert(placements[0])
-        sides, only = [], branch_numbers(branch)
-        for number, side in enumerate(SIDES):
-            start = None if given is None else given[..., 6 * number : 6 * number + 6]
-            target = world_to_torso @ placements[number + 1]
-            sides.append(kinematics.one_branch(self.legs[side], side, target, start, only[number]))
+        targets = [world_to_torso @ place for place in placements[1:]]
+        allowed, legs = self.allowed_branches(branch, near=given is not None), self._legs
+        if given is None:
+            sides = choosing.both_legs(legs, targets, allowed)
+        else:
+            sides = [
+                choosing.one_branch(leg, side, target, given[..., part], only)
+                for leg, side, target, part, only in zip(
+                    legs, SIDES, targets, (slice(0, 6), slice(6, 12)), allowed, strict=True
+                )
+            ]
         return np.concatenate(np.broadcast_arrays(*sides), axis=-1)
+
+    def allowed_branches(
+        self, branch: str | Sequence[str] | None, *, near: bool = False
+    ) -> tuple[Numbers, Numbers]:
+        """Which of :data:`scout_pin.BRANCHES` each leg may take, left then right.
+
+        Args:
+            branch: As in :meth:`inverse_kinematics`; None for what the specification says.
+            near: Whether a reference is to decide where nobody asks.
+
+        Raises:
+            BadInput: There is no such branch.
+        """
+        asked = self.specification.branch_asked if branch is None and not near else branch
+        return allowed_branches(self._legs, asked)
 
     def follow(
         self,
@@ -252,22 +282,32 @@ class Scout(LoadedRobot):
             Unreachable: Some sample has no valid branch; says which and why.
             BadInput: A rotation isn't one.
         """
-        angles: list[np.ndarray] = []
-        numbers = branch_numbers(branch)
-        for side, foot, only in zip(SIDES, (left_foot, right_foot), numbers, strict=True):
+        allowed, legs = self.allowed_branches(branch, near=reference is not None), self._legs
+        feet = (left_foot, right_foot)
 
-            def entries(part: slice, foot: BodyMotion = foot, side: str = side) -> np.ndarray:
-                found = foot.part(part).entries_in(torso.part(part))
-                check_rigid(f"{side} foot", found, found.shape[1:], part.start)
+        def entries(number: int) -> Callable[[slice], np.ndarray]:
+            def of(part: slice) -> np.ndarray:
+                found = feet[number].part(part).entries_in(torso.part(part))
+                check_rigid(f"{SIDES[number]} foot", found, found.shape[1:], part.start)
                 return found
 
-            start = None if reference is None else reference[6 * len(angles) :][:6]
-            count = foot.count
-            found = kinematics.follow_branch(self.legs[side], count, entries, start, only)
-            if found is None:
-                places = (torso.placement, left_foot.placement, right_foot.placement)
-                return self.inverse_kinematics(*places, reference, branch=branch)
-            angles.append(found)
+            return of
+
+        both = (entries(0), entries(1))
+        if reference is None:
+            found = choosing.follow_both(legs, (left_foot.count, right_foot.count), both, allowed)
+        else:
+            starts = (reference[:6], reference[6:])
+            found = [
+                choosing.follow_branch(leg, foot.count, of, start, only)
+                for leg, foot, of, start, only in zip(
+                    legs, feet, both, starts, allowed, strict=True
+                )
+            ]
+        angles = [one for one in found if one is not None]
+        if len(angles) < 2:
+            places = (torso.placement, left_foot.placement, right_foot.placement)
+            return self.inverse_kinematics(*places, reference, branch=branch)
         return np.concatenate(angles, axis=1)
 
     def leg_forward_kinematics(self, side: str, theta: ArrayLike) -> np.ndarray:
@@ -305,6 +345,10 @@ class Scout(LoadedRobot):
     def neutral_feet(self) -> dict[str, np.ndarray]:
         """Soles in the torso frame with all servos neutral, by side."""
         return self.forward_kinematics(np.zeros(12))
+
+    @property
+    def _legs(self) -> tuple[LegGeometry, LegGeometry]:
+        return self.legs["left"], self.legs["right"]
 
     def _leg(self, side: str) -> LegGeometry:
         return self.legs[choice("side", side, SIDES)]

@@ -6,12 +6,13 @@ polygonal soles) is another file of this format; the two legs need not be equal.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, field_validator
+from pydantic import AfterValidator, Field, field_validator
 
 from thesis_pin.errors import NonPhysicalInertia
 from thesis_pin.model.mechanism.inertia import (
@@ -56,6 +57,38 @@ LINK_NAMES = ("hip", "pelvis", "thigh", "shank", "ankle", "foot")
 Six = tuple[float, float, float, float, float, float]
 SixNames = tuple[str, str, str, str, str, str]
 Twelve = Annotated[tuple[float, ...], Field(min_length=12, max_length=12)]
+
+
+def _branch(text: str) -> str:
+    words = text.split(",")
+    if len(words) > 2 or not all(re.fullmatch("[+-]{3}|forward|backward", word) for word in words):
+        raise ValueError(
+            'must be three signs for both legs, as "+-+", or for each, as "+++,-+-"; or the '
+            'way the knees bend, "forward" or "backward"'
+        )
+    return text
+
+
+class BranchKeys(Strict):
+    """How the legs are to stand where several ways reach: in specifications and gaits.
+
+    Attributes:
+        knee: The way both knees bend, seen from the soles: towards the toes or away.
+        branch: The same for each leg, or the signs of one branch of inverse kinematics.
+    """
+
+    knee: Literal["forward", "backward"] | None = None
+    branch: Annotated[str, AfterValidator(_branch)] | None = None
+
+    @property
+    def branch_asked(self) -> str | None:
+        """What is asked for, as an argument ``branch`` takes it; None if it is left open."""
+        return self.branch or self.knee
+
+    def cross_check(self) -> Iterator[tuple[Key, str, object]]:
+        """Only one of the two is given."""
+        if self.knee and self.branch:
+            yield ("branch",), "says what knee says already; leave one of them out", self.branch
 
 
 class Servo(Strict):
@@ -164,7 +197,7 @@ class Assumptions(Strict):
     joint_friction: JointFriction
 
 
-class Specification(Strict):
+class Specification(BranchKeys):
     """A Scout-like biped. ``Specification.read(path)`` reads and validates a file."""
 
     format: Literal[1]
@@ -250,6 +283,7 @@ class Specification(Strict):
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Servo names, joint ranges and physical inertias."""
+        yield from super().cross_check()
         known = ", ".join(self.servos)
         for side in SIDES:
             for name in dict.fromkeys(self.leg(side).servos):

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from scout_pin.model import Scout
+from scout_pin.specification import SIDES
 from thesis_pin.command.results import Answer
 
 
@@ -18,6 +20,7 @@ def report(
     progress: Callable[[int, int], None],
 ) -> object:
     """The report on the gait that the arguments ask for."""
+    from scout_pin.motion.cycles import repeat_gait
     from scout_pin.motion.files import load_gait
     from scout_pin.report.document import gait_report
 
@@ -28,11 +31,17 @@ def report(
         smooth=arguments.smooth,
         time_unit=arguments.time_unit,
     )
+    if arguments.cycle:
+        gait = replace(gait, cycle=True)
+    one = gait.end - gait.start
+    if arguments.repeat > 1:
+        gait = repeat_gait(gait, arguments.repeat)
     unit = arguments.time_unit or gait.time_unit
     return gait_report(
         robot,
         gait,
-        samples=samples((gait.end - gait.start) * unit),
+        # As many for each walk: peaks don't get lost where it is repeated.
+        samples=1 + arguments.repeat * (samples(one * unit) - 1),
         time_unit=unit,
         branch=arguments.branch,
         progress=progress,
@@ -41,16 +50,16 @@ def report(
 
 def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:
     """The branches of the foot pose that the arguments ask for."""
-    from scout_pin.kinematics.solutions import branch_numbers
     from scout_pin.report.tables import ik_document, solutions_table
     from thesis_pin.numeric.rotations import euler_placement, transform
 
     pose, zero = np.concatenate([arguments.position, np.radians(arguments.rotation)]), np.zeros(3)
     rotation = euler_placement("xyz", pose[3:], zero, zero)[0]
     solutions = robot.leg_inverse_kinematics(arguments.side, transform(rotation, pose[:3]))
-    numbers = branch_numbers(arguments.branch)
-    only = numbers[0 if arguments.side == "left" else 1]
-    reached = solutions.reachable if only is None else solutions.reachable[only]
+    only = None  # all, whatever the specification would choose
+    if arguments.branch is not None:
+        only = robot.allowed_branches(arguments.branch)[SIDES.index(arguments.side)]
+    reached = solutions.reachable if only is None else solutions.reachable[list(only)]
     return Answer(
         lambda: ik_document(robot, solutions, pose, only),
         lambda: solutions_table(solutions, only),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.dynamics.inverse import inverse_dynamics
 from pollard_pin.dynamics.three_motors import three_torques
+from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
@@ -25,9 +27,15 @@ from pollard_pin.report import verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.checks import choice, function, instance
+from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
-from thesis_pin.report.info import assumptions
+from thesis_pin.report import pace
+from thesis_pin.report.info import assumptions, odd_sizes
+from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
+
+ARM = 0.1
+"""Length [m] at which the tool's turning counts as its moving."""
 
 SCHEMA = "pollard-pin/trajectory-report"
 VERSION = 2
@@ -45,6 +53,19 @@ class TrajectoryReport(TrajectoryNumbers):
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
 
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed."""
+        return self._doubts
+
+    @cached_property
+    def _doubts(self) -> list[str]:
+        seconds, speed, push = float(self.joints.time[-1] - self.joints.time[0]), 0.0, 0.0
+        for samples in blocks(len(self.joints.time)):
+            part = self.motion.part(samples)
+            speed = max(speed, largest(part.rate[:, :3], ARM * part.rate[:, 3:]))
+            push = max(push, largest(part.acceleration[:, :3], ARM * part.acceleration[:, 3:]))
+        return pace.doubts(seconds, speed * seconds, push)
+
     def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open and this report rests on, with their reasons."""
         result = []
@@ -56,7 +77,7 @@ class TrajectoryReport(TrajectoryNumbers):
                     continue
                 one["name"] = f"inertia of {one['link']}"
             result.append(one)
-        return result
+        return [*result, *odd_sizes(implausible(self.robot.specification))]
 
     @property
     def parameters(self) -> dict[str, object]:
@@ -135,6 +156,8 @@ class TrajectoryReport(TrajectoryNumbers):
         summary: dict[str, object] = {
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
+            "implausible": implausible(self.robot.specification),
+            "doubts": self.doubts(),
             **self.actuators.document(),
             "tool_speed": {
                 "least": float(self.tool_speed.min()),

@@ -67,6 +67,7 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         f"With {reading} inertias the base motors of six would peak at "
         f"{', '.join(f'{value:.3f}' for value in other[:3])} N·m.",
         "",
+        *(f"Warning: {one}." for one in report.doubts()),
         *report.verdict(),
         *(f"Note: {note}." for note in report.path.notes),
         "",

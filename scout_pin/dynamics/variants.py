@@ -106,6 +106,7 @@ def drawn(
     joints: JointTrajectory,
     unit: float,
     extremes: Sequence[int] = (),
+    branch: str | Sequence[str] | None = None,
 ) -> Drawn | None:
     """Judge the variants of a gait; None if it has none.
 
@@ -116,6 +117,7 @@ def drawn(
         joints: Its joint trajectory; variants begin on its branches.
         unit: Seconds in the gait's unit of t.
         extremes: Samples at which the gait itself has its least and largest numbers.
+        branch: The branch it was asked to take; None left it open.
     """
     variants = gait.variants
     if variants is None:
@@ -125,7 +127,8 @@ def drawn(
     stack = _stack(variants, own, unit)
 
     def follow(some: Sequence[int]) -> JointTrajectory:
-        return joint_trajectory(robot, stack.part(_rows(some, count)), reference=joints.q[0])
+        motions = stack.part(_rows(some, count))
+        return joint_trajectory(robot, motions, branch=branch, reference=joints.q[0])
 
     alive, followed = _survivors(range(variants.count - 1), follow)
     rates = followed.v.reshape(len(alive), count, -1)[alive[0] == 0 :]
@@ -218,7 +221,8 @@ def stacked(
         rotation, omega, alpha = turns
         place, velocity, acceleration = (part[:3].copy().T for part in (found, rates, second))
         bodies.append(BodyMotion(rotation, place, velocity, acceleration, omega, alpha))
-    return GaitMotion(t * unit, t, support, *bodies)
+    torso, left, right = bodies
+    return GaitMotion(t * unit, t, support, torso, left, right)
 
 
 def _rows(numbers: Sequence[int], count: int) -> NDArray[np.intp]:

@@ -64,3 +64,8 @@ class LegGeometry:
         """The first two rows of :attr:`foot`: axes of the foot link, seen from the sole."""
         rows: list[list[float]] = self.foot[:2].tolist()
         return rows
+
+    @property
+    def heelwards(self) -> bool:
+        """Whether the axis of joint 6 points to the heel, against the sole's y."""
+        return self.foot_rows[0][1] < 0.0

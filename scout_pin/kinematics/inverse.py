@@ -14,8 +14,6 @@ thesis's numeric solver.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,16 +23,15 @@ from scout_pin.kinematics.families import axis_bounds, yaw_bounds
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
 from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
-from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, Number, blocks
+from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, Number, Numbers, blocks
 from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
 
 _FREE_POSES = 64
 """Singular poses worked on at a time: some hundred members of each family are tried."""
 
-_PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the knee each
+PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the knee each
 
 
 def leg_inverse_kinematics(
@@ -103,10 +100,12 @@ def _few(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -
     """All branches of a few poses, by floats."""
     numbers: list[Number] = []  # one list for all: an array costs more to begin than to fill
     for k, matrix in enumerate(matrices.tolist()):
-        free = _free(leg, FLOATS, None if reference is None else (reference[k] + leg.beta).tolist())
+        free = free_values(
+            leg, FLOATS, None if reference is None else (reference[k] + leg.beta).tolist()
+        )
         chunk = ClosedForm(FLOATS, leg, matrix, free)
         excesses: list[Number] = []
-        for axis, two in _PAIRS:
+        for axis, two in PAIRS:
             one, other, excess = chunk.solve(axis, two)
             numbers += one
             numbers += other
@@ -124,8 +123,8 @@ def _many(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) 
     for part in blocks(count):
         given = None if reference is None else (reference[part] + leg.beta).T
         columns = np.ascontiguousarray(matrices[part].T)
-        chunk = ClosedForm(ARRAYS, leg, columns, _free(leg, ARRAYS, given))
-        for k, pair in enumerate(_PAIRS):
+        chunk = ClosedForm(ARRAYS, leg, columns, free_values(leg, ARRAYS, given))
+        for k, pair in enumerate(PAIRS):
             one, other, excess[2 * k : 2 * k + 2, part] = chunk.solve(*pair)
             theta[2 * k, :, part], theta[2 * k + 1, :, part] = one, other
         theta[:, :, part] = wrap(theta[:, :, part] - leg.beta[:, None])
@@ -142,7 +141,7 @@ def _members(
     nearest member that does; else, limits aside, likewise; else the nearest to reach.
     """
     count, columns = len(matrices), np.ascontiguousarray(matrices.T)
-    gamma_1, axis = _free(leg, ARRAYS, (reference + leg.beta).T)
+    gamma_1, axis = free_values(leg, ARRAYS, (reference + leg.beta).T)
     given = ClosedForm(ARRAYS, leg, columns, (gamma_1, axis))
     v, a, j = (np.stack(vector) for vector in (given.reach, given.a, given.j))
     level = np.array([0.0, 0.0, 1.0])[:, None]
@@ -160,7 +159,7 @@ def _members(
         (yaws.ravel(), (axes[:, 0].ravel(), axes[:, 1].ravel(), axes[:, 2].ravel())),
     )
     gamma, gaps = np.empty((8, 6, tried * count)), np.empty((8, tried * count))
-    for k, pair in enumerate(_PAIRS):
+    for k, pair in enumerate(PAIRS):
         gamma[2 * k], gamma[2 * k + 1], gaps[2 * k : 2 * k + 2] = chunk.solve(*pair)
     theta = wrap(gamma - leg.beta[:, None]).reshape(8, 6, tried, count).transpose(2, 3, 0, 1)
     excess = gaps.reshape(8, tried, count).transpose(1, 2, 0)
@@ -178,132 +177,7 @@ def _members(
     )
 
 
-def one_branch(
-    leg: LegGeometry,
-    side: str,
-    target: np.ndarray,
-    reference: np.ndarray | None,
-    only: int | None = None,
-) -> np.ndarray:
-    """Angles ``(..., 6)`` on one branch a pose, by the rule of ``Scout.inverse_kinematics``.
-
-    ``only`` is the number of the one branch to take; None leaves the choice.
-
-    Raises:
-        Unreachable: Some pose has no valid branch.
-    """
-    if target.ndim == 3 and len(target) and (reference is None or reference.ndim == 1):
-        entries = target.reshape(-1, 16).T
-        found = follow_branch(
-            leg, len(target), lambda part: entries[:, part].copy(), reference, only
-        )
-        if found is not None:
-            return found
-    return choose_branch(every_branch(leg, target, reference), side, reference, only)
-
-
-def choose_branch(
-    solutions: LegSolutions,
-    side: str,
-    reference: ArrayLike | None = None,
-    only: int | None = None,
-) -> np.ndarray:
-    """One valid branch a pose, by the rule of ``Scout.inverse_kinematics``.
-
-    Args:
-        solutions: All branches, of a single pose or a stack.
-        side: Name of the leg, for messages.
-        reference: Angles [rad], ``(6,)`` or ``(..., 6)``.
-        only: Number of the one branch to take; None leaves the choice.
-
-    Returns:
-        Angles [rad], shape ``(..., 6)``.
-
-    Raises:
-        Unreachable: Some pose has no valid branch.
-    """
-    valid, angles = solutions.valid, solutions.angles
-    if only is not None:
-        valid = valid & (np.arange(8) == only)
-    possible = valid.any(axis=-1)
-    if not possible.all():
-        index = tuple(int(k) for k in np.argwhere(~np.atleast_1d(possible))[0])[: possible.ndim]
-        where = f"{side} foot" + (f", sample {index[0]}" if index else "")
-        raise Unreachable(
-            solutions.explain(index, only), where=where, remedy="Move the torso or the foot closer"
-        )
-    start = np.zeros(6) if reference is None else np.asarray(reference)
-    each = np.ndim(start) > 1
-    if angles.ndim == 2 or each:
-        cost = np.where(valid, np.abs(wrap(angles - start[..., None, :])).max(axis=-1), np.inf)
-        best = np.argmin(cost, axis=-1)
-        return np.take_along_axis(angles, best[..., None, None], axis=-2)[..., 0, :]
-    first = np.abs(wrap(angles[0] - start)).max(axis=-1)
-    throughout = valid.reshape(-1, 8).all(axis=0)
-    if throughout.any():
-        cost = np.where(throughout, first.reshape(-1, 8).max(axis=0), np.inf)
-        return angles[..., int(np.argmin(cost)), :]
-    chosen = np.empty((*angles.shape[:-2], 6))
-    previous = np.broadcast_to(start, chosen.shape[1:])
-    for k in range(len(angles)):
-        step = np.abs(wrap(angles[k] - previous[..., None, :])).max(axis=-1)
-        best = np.argmin(np.where(valid[k], step, np.inf), axis=-1)
-        chosen[k] = np.take_along_axis(angles[k], best[..., None, None], axis=-2)[..., 0, :]
-        previous = chosen[k]
-    return chosen
-
-
-def follow_branch(
-    leg: LegGeometry,
-    count: int,
-    matrices: Callable[[slice], np.ndarray],
-    reference: np.ndarray | None = None,
-    only: int | None = None,
-) -> np.ndarray | None:
-    """One branch along a whole motion, if one is valid throughout: no other is worked out.
-
-    The branch is the one :func:`choose_branch` takes: of those valid throughout,
-    the nearest to the reference at the first sample.
-
-    Args:
-        leg: Geometry of the leg.
-        count: Number of samples, at least 1.
-        matrices: Gives the rows of the rigid placements torso to sole of some
-            samples, entries first, shape ``(12 or 16, n)``.
-        reference: Angles [rad], ``(6,)``; None for zero.
-        only: Number of the one branch to try; None tries all.
-
-    Returns:
-        Angles [rad], shape ``(count, 6)``; None if no branch is valid throughout.
-    """
-    start = np.zeros(6) if reference is None else reference
-    free = _free(leg, FLOATS, None if reference is None else (reference + leg.beta).tolist())
-    first = ClosedForm(FLOATS, leg, matrices(slice(0, 1))[:, 0].tolist(), free)
-    gammas = [gamma for pair in _PAIRS for gamma in first.solve(*pair)[:2]]
-    step = np.abs(wrap(np.array(gammas) - leg.beta - start)).max(axis=1)
-    lower, upper = (
-        (limit + sign * TOLERANCES.joint_limit)[:, None]
-        for limit, sign in ((leg.lower, -1), (leg.upper, 1))
-    )
-    theta = np.empty((count, 6))
-    for k in np.argsort(step, kind="stable") if only is None else (only,):
-        for part in blocks(count):
-            *gammas, excess = ClosedForm(ARRAYS, leg, matrices(part), free).solve(*_PAIRS[k // 2])
-            angles = wrap(np.array(gammas[k % 2]) - leg.beta[:, None])
-            angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
-            if not (
-                np.all(excess <= TOLERANCES.reach)
-                and (angles >= lower).all()
-                and (angles <= upper).all()
-            ):
-                break
-            theta[part] = angles.T
-        else:
-            return theta
-    return None
-
-
-def _free(leg: LegGeometry, xp: Elementwise, gamma: Any) -> Free:
+def free_values(leg: LegGeometry, xp: Elementwise, gamma: Numbers | None) -> Free:
     """What a reference, as γ with the joint first, says of γ1 and e; None is neutral."""
     if gamma is None:
         gamma = leg.beta.tolist()

@@ -8,49 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
+from scout_pin.kinematics.branches import BRANCHES as BRANCHES
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
-from thesis_pin.errors import BadInput
-from thesis_pin.numeric.checks import element, shown
+from thesis_pin.numeric.checks import element
 from thesis_pin.report.branches import label
 from thesis_pin.tolerances import TOLERANCES
-
-BRANCHES = tuple((e, two, knee) for e in (1, -1) for two in (1, -1) for knee in (1, -1))
-"""Signs (S_E, S_2, S_K) of the eight branches: direction of e, sign of
-sin γ2, sign of sin γ4. The thesis's gait lies on (1, 1, 1) for the left leg and
-on (−1, 1, −1) for the right."""
-
-_NUMBERS = {label(signs): k for k, signs in enumerate(BRANCHES)}
-
-
-def branch_numbers(branch: str | Sequence[str] | None) -> tuple[int | None, int | None]:
-    """Which of :data:`BRANCHES` each leg is to take; None leaves it open.
-
-    Args:
-        branch: Signs for both legs, as ``"+-+"``; or one label a leg, left then right,
-            as ``("+++", "-+-")`` or ``"+++,-+-"``.
-
-    Raises:
-        BadInput: It is none of these.
-    """
-    if branch is None:
-        return None, None
-    labels = branch.split(",") if isinstance(branch, str) else branch
-    known = isinstance(labels, list | tuple) and all(isinstance(one, str) for one in labels)
-    numbers = [_NUMBERS.get(one) for one in labels] if known else []
-    if len(numbers) not in (1, 2) or None in numbers:
-        raise BadInput(
-            f"branch is {shown(branch)}",
-            allowed='three signs for both legs, as "+-+", or for each, as "+++,-+-"',
-            remedy="scout-pin ik lists the branches of a pose",
-        )
-    return numbers[0], numbers[-1]
-
-
-def branch_label(branch: str | Sequence[str] | None) -> str | None:
-    """The branches of both legs in one string, as ``"+++,-+-"``; None if they are open."""
-    numbers = [k for k in branch_numbers(branch) if k is not None]
-    return ",".join(label(BRANCHES[k]) for k in numbers) or None
 
 
 @dataclass(frozen=True)
@@ -137,18 +100,27 @@ class LegSolutions:
             text = np.char.add(text, np.where(which.any(axis=-1), name, ""))
         return np.asarray(np.char.rstrip(text, "; "))
 
-    def explain(self, index: tuple[int, ...] | int = (), branch: int | None = None) -> str:
+    def explain(
+        self, index: tuple[int, ...] | int = (), branch: int | Sequence[int] | None = None
+    ) -> str:
         """Say in words which branches a pose has, or why it, or one of them, fails.
 
         Args:
             index: Which pose of the stack.
-            branch: Number of a branch in :data:`BRANCHES`; None speaks of the pose.
+            branch: Number of a branch in :data:`BRANCHES`, or several; None speaks of the
+                pose.
 
         Raises:
             BadInput: There is no such pose or branch.
         """
         index = element(index, self.target.shape[:-2], "poses")
-        branch = None if branch is None else element(branch, (8,), "branches")[0]
+        if isinstance(branch, list | tuple):
+            numbers = sorted({element(one, (8,), "branches")[0] for one in branch})
+            if 1 < len(numbers) < 8:
+                return self._explain_some(index, numbers)
+            branch = numbers[0] if len(numbers) == 1 else None
+        elif branch is not None:
+            branch = element(branch, (8,), "branches")[0]
         if branch is not None:
             text = f"branch {label(BRANCHES[branch])} is {self._explain_branch(index, branch)}"
         elif (valid := self.valid[index]).any():
@@ -165,6 +137,14 @@ class LegSolutions:
             text = self._explain_branch(index, int(np.argmin(self.excess[index])))
         singular = str(self.singularity[index])
         return text + (f" (singular: {singular})" if singular else "")
+
+    def _explain_some(self, index: tuple[int, ...], numbers: list[int]) -> str:
+        if count := int(self.valid[index][numbers].sum()):
+            return f"{count} of the {len(numbers)} branches asked for are valid"
+        beyond, reachable = self.beyond_limits[index].max(axis=-1), self.reachable[index]
+        order = np.where(reachable, beyond, 1e3 + self.excess[index])
+        nearest = self.explain(index, min(numbers, key=lambda k: float(order[k])))
+        return f"none of the {len(numbers)} branches asked for is valid; the nearest, {nearest}"
 
     def _explain_branch(self, index: tuple[int, ...], branch: int) -> str:
         leg = self.geometry

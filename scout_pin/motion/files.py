@@ -19,6 +19,7 @@ from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.smoothing import gait_from_samples
 from scout_pin.motion.tables import read_gait_table
+from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.specification import Key, Positive, Strict, read_toml
@@ -71,7 +72,7 @@ class BodyCurves(Strict):
     yaw_deg: float | tuple[Segment, ...] | None = None
 
 
-class GaitFile(Strict):
+class GaitFile(BranchKeys):
     """The format of a gait's TOML file."""
 
     format: Literal[1]
@@ -79,6 +80,7 @@ class GaitFile(Strict):
     source: str = ""
     time_unit: Positive
     interpolation: Method = "quadratic"
+    cycle: bool = False
     torso: BodyCurves
     left_foot: BodyCurves
     right_foot: BodyCurves
@@ -86,6 +88,7 @@ class GaitFile(Strict):
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Phases follow each other; segments do, with as many values as nodes."""
+        yield from super().cross_check()
         for k, phase in enumerate(self.phases):
             if phase.end < phase.start:
                 yield ("phases", k, "end"), "a phase can't end before it starts", phase.end
@@ -195,7 +198,15 @@ def load_gait(
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     file = read_toml("gait", GaitFile, path)
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
-    return Gait(file.name, file.source, file.time_unit, curves, file.phases)
+    return Gait(
+        file.name,
+        file.source,
+        file.time_unit,
+        curves,
+        file.phases,
+        cycle=file.cycle,
+        branch=file.branch_asked,
+    )
 
 
 def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[PPoly, ...]:

@@ -43,6 +43,7 @@ class GaitMotion:
         t: The same in the gait's unit, shape ``(n,)``.
         support: Feet in support, left then right, booleans ``(n, 2)``.
         torso, left_foot, right_foot: Motions in the world.
+        branch: The branch its gait asks for; None leaves it open.
     """
 
     time: np.ndarray
@@ -51,6 +52,7 @@ class GaitMotion:
     torso: BodyMotion
     left_foot: BodyMotion
     right_foot: BodyMotion
+    branch: str | None = None
 
     @cached_property
     def phase(self) -> list[str]:
@@ -64,7 +66,10 @@ class GaitMotion:
             self.time[samples],
             self.t[samples],
             self.support[samples],
-            *(body.part(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+            self.torso.part(samples),
+            self.left_foot.part(samples),
+            self.right_foot.part(samples),
+            self.branch,
         )
 
     def at_rest(self, samples: Samples) -> GaitMotion:
@@ -73,7 +78,10 @@ class GaitMotion:
             self.time[samples],
             self.t[samples],
             self.support[samples],
-            *(body.at_rest(samples) for body in (self.torso, self.left_foot, self.right_foot)),
+            self.torso.at_rest(samples),
+            self.left_foot.at_rest(samples),
+            self.right_foot.at_rest(samples),
+            self.branch,
         )
 
 
@@ -89,8 +97,11 @@ class Gait:
             :data:`POSE_NAMES`, in metres and radians.
         phases: Contact phases in order.
         notes: What was chosen or mended when it was read, in plain words.
+        cycle: Whether its end is meant to be its start, a step further.
         reference: Angles [rad] of the joints that its first sample is near, twelve, where
             they are known: they choose the branch of the legs.
+        branch: The branch it asks for, as an argument ``branch`` takes it; None leaves
+            it to the robot.
         variants: What samples of finite resolution leave open; None if the curves are
             exact, as far as anybody knows.
         rows: Where its samples stand in their file; None if it has none.
@@ -102,7 +113,9 @@ class Gait:
     curves: dict[str, tuple[PPoly, ...]]
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
+    cycle: bool = False
     reference: tuple[float, ...] | None = None
+    branch: str | None = None
     variants: Variants | None = None
     rows: Rows | None = None
 
@@ -224,7 +237,7 @@ class Gait:
         bodies = {name: self.body(name, t, unit) for name in BODIES}
         if self.variants is None:  # else the samples were judged when they were read
             check_stance(self.name, self.curves, self.phases)
-        return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies)
+        return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies, branch=self.branch)
 
     def _unit(self, time_unit: float | None) -> float:
         """Seconds in a unit of t: what was given, or the gait's own."""

@@ -181,9 +181,9 @@ def _smoothed(samples: GaitSamples, quanta: dict[str, float], notes: tuple[str, 
         {body: tuple(curve.value for curve in own) for body, own in every.items()},
         phases,
         (*samples.notes, *more, *notes, *_jump_notes(samples, feet)),
-        samples.reference,
-        variants,
-        samples.rows,
+        reference=samples.reference,
+        variants=variants,
+        rows=samples.rows,
     )
 
 

@@ -82,9 +82,8 @@ def swings(robot: Scout, gait: Gait, motion: GaitMotion) -> list[Swing]:
                 some = some[:: 1 + len(some) // _MOST]
                 t = motion.t[some]
                 place = _foot(motion, k).part(some).placement
-            low = MIDDLE[0] if start > gait.start else 0.0
-            high = MIDDLE[1] if end < gait.end else 1.0
-            found.append(Swing(side, start, end, *_judged(robot, side, t, place, (low, high))))
+            cut = start == gait.start, end == gait.end
+            found.append(Swing(side, start, end, *_judged(robot, side, t, place, cut)))
     return sorted(found, key=lambda swing: swing.start)
 
 
@@ -132,9 +131,9 @@ def _air_times(gait: Gait, side: str) -> Iterator[tuple[float, float]]:
 
 
 def _judged(
-    robot: Scout, side: str, t: np.ndarray, place: np.ndarray, middle: tuple[float, float]
+    robot: Scout, side: str, t: np.ndarray, place: np.ndarray, cut: tuple[bool, bool]
 ) -> tuple[float, float, float]:
-    """Clearance, way and scraped way [m] of one swing."""
+    """Clearance, way and scraped way [m] of one swing, which the gait's ends may cut."""
     corners = robot.sole_vertices(side, place)
     height = corners[..., 2].min(axis=1)
     steps = np.diff(corners[..., :2], axis=0)
@@ -144,6 +143,12 @@ def _judged(
         progress = np.concatenate([[0.0], np.cumsum(step)]) / way
     else:
         progress = (t - t[0]) / (t[-1] - t[0])
+    # A foot that is at the floor where the gait ends lands there.
+    in_air = height[[0, -1]] > TOLERANCES.scrape_height
+    middle = (
+        0.0 if cut[0] and in_air[0] else MIDDLE[0],
+        1.0 if cut[1] and in_air[1] else MIDDLE[1],
+    )
     within = height[(progress >= middle[0]) & (progress <= middle[1])]
     ends = np.interp(middle, progress, height)
     scraped = float((step * _below(TOLERANCES.scrape_height, height)).sum())

@@ -156,7 +156,7 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
         curves,
         phases,
         (*samples.notes, *notes),
-        samples.reference,
+        reference=samples.reference,
         rows=samples.rows,
     )
 

@@ -37,9 +37,8 @@ def joint_trajectory(
     Args:
         robot: The biped.
         motion: The sampled gait.
-        branch: Signs of the branch to take, for both legs or one label a leg, as
-            ``"+-+"`` or ``("+++", "-+-")``; None takes the nearest to the reference of
-            those that are valid throughout.
+        branch: What to choose from, see :meth:`scout_pin.Scout.inverse_kinematics`; None
+            for what the gait says, else the specification.
         reference: Angles [rad] the first sample is to be near, ``(12,)``; None for zero.
             Where a range is wider than a turn, its whole turns are taken.
 
@@ -50,7 +49,8 @@ def joint_trajectory(
     instance("robot", robot, Scout, "scout_pin.load()")
     instance("motion", motion, GaitMotion, "Gait.sample()")
     start = None if reference is None else vector("reference", reference, 12)
-    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=branch)
+    asked = motion.branch if branch is None else branch
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=asked)
     if max(robot.upper.max(), -robot.lower.min()) > np.pi:
         q = _without_jumps(robot, motion.time, q, start)
     if len(q) < LONG:

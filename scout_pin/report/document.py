@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
@@ -12,22 +14,29 @@ from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
 from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
 from scout_pin.dynamics.variants import drawn, extremes_of
-from scout_pin.kinematics.solutions import branch_label
+from scout_pin.implausible import implausible
+from scout_pin.kinematics.branches import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import decision
-from scout_pin.report.implausible import implausible
 from scout_pin.report.located import located
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.report.reason import reason, sentences
+from scout_pin.report.stance import Stance, branch_asked, stance
 from scout_pin.report.uncertainty.document import uncertainty
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
+from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.elementwise import LONG, blocks
 from thesis_pin.numeric.workers import silent
-from thesis_pin.report.info import assumptions
+from thesis_pin.report import pace
+from thesis_pin.report.info import assumptions, odd_sizes
+from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
+
+ARM = 0.1
+"""Length [m] at which a body's turning counts as its moving."""
 
 SCHEMA = "scout-pin/gait-report"
 VERSION = 2
@@ -54,6 +63,11 @@ class GaitReport(GaitNumbers):
         """Walkable and carried by the servos; None where the gait's samples can't say."""
         return decision.within_limits(self)
 
+    @cached_property
+    def stance(self) -> Stance:
+        """The branches the legs are on, why, and what else would do."""
+        return stance(self.robot, self.gait, self.motion, self.joints, self.branch)
+
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
         return sentences(self)
@@ -63,11 +77,31 @@ class GaitReport(GaitNumbers):
         """Why the gait's samples carry no verdict; None if they do, or it is exact."""
         return reason(self)
 
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed."""
+        return self._doubts
+
+    @cached_property
+    def _doubts(self) -> list[str]:
+        seconds, speed, push = float(self.joints.time[-1] - self.joints.time[0]), 0.0, 0.0
+        for samples in blocks(len(self.joints.time)):
+            part = self.motion.part(samples)
+            for body in (part.torso, part.left_foot, part.right_foot):
+                speed = max(speed, largest(body.velocity, ARM * body.omega))
+                push = max(push, largest(body.acceleration, ARM * body.alpha))
+        return pace.doubts(seconds, speed * seconds, push)
+
     def assumptions(self) -> list[dict[str, object]]:
-        """Numbers the thesis leaves open, with their reasons."""
+        """Numbers that nothing prints, with their reasons, and sizes taken as they are."""
         assumed = assumptions(self.robot.specification.assumptions)
-        why = "the thesis leaves it open"
-        return [*assumed, {"name": "time_unit", "seconds": self.time_unit, "why": why}]
+        why = "asked for" if self.time_unit != self.gait.time_unit else "the gait's own"
+        if self.gait.source.startswith("Scout thesis"):
+            why = "the thesis leaves it open"
+        return [
+            *assumed,
+            {"name": "time_unit", "seconds": self.time_unit, "why": why},
+            *odd_sizes(implausible(self.robot.specification)),
+        ]
 
     @property
     def parameters(self) -> dict[str, object]:
@@ -77,6 +111,10 @@ class GaitReport(GaitNumbers):
             "gait": self.gait.name,
             "time_unit": self.time_unit,
             "branch": self.branch,
+            "branches": list(self.stance.labels),
+            "knees": list(self.stance.knees),
+            "branch_choice": self.stance.sentence(),
+            "cycle": self.gait.cycle,
             "samples": len(self.joints.time),
             "inertia": self.robot.inertia,
             "thesis_pin": __version__,
@@ -142,6 +180,7 @@ class GaitReport(GaitNumbers):
             "servos_carry": self.servos_carry,
             "verdict": None if self.within_limits is None else self.verdict(),
             "reason": self.reason,
+            "doubts": self.doubts(),
             "peak_torque": a.peak_torque,
             "rms_torque": a.rms_torque,
             "peak_speed": a.peak_speed,
@@ -183,6 +222,7 @@ class GaitReport(GaitNumbers):
                 {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}
                 for j in self.rate_jumps
             ],
+            "ends": self.ends.document(),
             "impacts": [
                 {
                     "time": impact.t * self.time_unit,
@@ -215,8 +255,8 @@ def gait_report(
         gait: The gait.
         samples: Number of evenly spaced samples.
         time_unit: Seconds in the gait's unit of t; None for the gait's own.
-        branch: Signs of the branch to take, for both legs or one label a leg, as ``"+-+"``
-            or ``("+++", "-+-")``; None takes one that is valid throughout.
+        branch: What to choose from, see :meth:`scout_pin.Scout.inverse_kinematics`; None
+            for what the gait says, else the specification.
         progress: Called with the steps done and their total.
 
     Raises:
@@ -228,8 +268,9 @@ def gait_report(
     unit = gait.time_unit if time_unit is None else time_unit
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
+    asked = branch_asked(robot, gait, branch)
     with located(gait, motion.t):
-        joints = joint_trajectory(robot, motion, branch=branch, reference=gait.reference)
+        joints = joint_trajectory(robot, motion, branch=asked, reference=gait.reference)
         progress(2, 4)
         dynamics = inverse_dynamics(robot, motion, joints)
         com, zmp = np.empty((len(motion.t), 3)), np.empty((len(motion.t), 2))
@@ -242,7 +283,7 @@ def gait_report(
         draws = None
         if gait.variants is not None:
             extremes = extremes_of(robot, joints, dynamics, margin)
-            draws = drawn(robot, gait, motion, joints, unit, extremes)
+            draws = drawn(robot, gait, motion, joints, unit, extremes, asked)
         if draws is not None and len(joints.time) < LONG:
             joints = replace(joints, resting=draws.resting)
             dynamics = inverse_dynamics(robot, motion, joints)
@@ -250,7 +291,7 @@ def gait_report(
         robot=robot,
         gait=gait,
         time_unit=unit,
-        branch=branch_label(branch),
+        branch=branch_label(asked),
         motion=motion,
         joints=joints,
         dynamics=dynamics,
@@ -261,4 +302,6 @@ def gait_report(
         drawn=draws,
     )
     progress(4, 4)
+    if report.stance.tied:
+        warnings.warn(report.stance.sentence(), ModelWarning, stacklevel=2)
     return report

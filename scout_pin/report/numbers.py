@@ -13,6 +13,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.swings import Swing, lowest_corner, sole_gap, swings
 from scout_pin.motion.variants import RateJump
+from scout_pin.report.ends import Ends, ends
 from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
 from scout_pin.report.uncertainty.headlines import Headlines, Worked, headlines
 from scout_pin.specification import JOINT_NAMES
@@ -29,7 +30,8 @@ class GaitNumbers:
     Attributes:
         robot, gait: What was asked about.
         time_unit: Seconds in the gait's unit of t.
-        branch: Labels of the branches asked for, left then right; None left it open.
+        branch: What the legs were asked for, left then right: labels, or ways of the
+            knees; None left it open.
         motion: Sampled task-space motion.
         joints: Joint trajectory.
         dynamics: Torques and floor wrenches.
@@ -115,6 +117,11 @@ class GaitNumbers:
         worst = np.argsort(margin)[:32]
         sizes = [d.least_violation(int(sample))[0] for sample in worst]
         return int(worst[np.argmax(sizes)]), max(sizes)
+
+    @cached_property
+    def ends(self) -> Ends:
+        """How the gait begins and ends."""
+        return ends(self.robot, self.gait, self.motion, self.com, self.time_unit)
 
     @cached_property
     def swings(self) -> list[Swing]:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.kinematics.inverse import BRANCHES, LegSolutions
-from scout_pin.report.implausible import implausible
+from scout_pin.implausible import implausible
+from scout_pin.kinematics.branches import BRANCHES, knee
+from scout_pin.kinematics.inverse import LegSolutions
 from scout_pin.report.servos import servo_limits
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.report import branches
@@ -64,6 +65,7 @@ def summary(report: GaitReport) -> Iterator[Part]:
         f"The soles come within {report.sole_gap[0] * 1e3:.1f} mm of each other "
         f"(t = {report.motion.t[report.sole_gap[1]]:g}).",
     )
+    yield report.stance.sentence()
     for impact in report.impacts:
         normal = impact.impulse[0, 2]
         yield (
@@ -77,7 +79,8 @@ def summary(report: GaitReport) -> Iterator[Part]:
         from scout_pin.report.uncertainty.document import open_table
 
         yield open_table(report.headlines)
-    yield from ("", *report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
+    yield from ("", *(f"Warning: {one}." for one in report.doubts()))
+    yield from (*report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
     yield from (f"Warning: {one}" for one in implausible(s.specification))
 
 
@@ -93,7 +96,10 @@ def _clearance(report: GaitReport) -> str:
 
 
 def ik_document(
-    robot: Scout, solutions: LegSolutions, pose: np.ndarray, only: int | None = None
+    robot: Scout,
+    solutions: LegSolutions,
+    pose: np.ndarray,
+    only: int | Sequence[int] | None = None,
 ) -> dict[str, object]:
     """Inverse kinematics of one foot pose, JSON-ready.
 
@@ -101,7 +107,7 @@ def ik_document(
         robot: The biped.
         solutions: All branches of one pose.
         pose: The pose as asked for: x, y, z [m], pitch, roll, yaw [rad], ``(6,)``.
-        only: Number of the one branch to say; None says all.
+        only: Number of the branch to say, or several; None says all.
     """
     excess = (solutions.excess, True)
     return branches.document(
@@ -118,17 +124,20 @@ def ik_document(
                 solutions.explain((), k),
                 reach_excess=excess,
             )
+            | {"knee": knee(solutions.geometry, k)}
             for k in _numbers(only)
         ],
         explanation=solutions.explain((), only),
     )
 
 
-def _numbers(only: int | None) -> Sequence[int]:
-    return range(len(BRANCHES)) if only is None else (only,)
+def _numbers(only: int | Sequence[int] | None) -> Sequence[int]:
+    if only is None:
+        return range(len(BRANCHES))
+    return (only,) if isinstance(only, int) else only
 
 
-def solutions_table(solutions: LegSolutions, only: int | None = None) -> list[Part]:
+def solutions_table(solutions: LegSolutions, only: int | Sequence[int] | None = None) -> list[Part]:
     """Joint angles of one pose, a row a branch; ``only`` as for :func:`ik_document`."""
     rows = []
     for k in _numbers(only):

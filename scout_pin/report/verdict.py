@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from scout_pin.report import ends
 from scout_pin.report.numbers import GaitNumbers
 from thesis_pin.tolerances import TOLERANCES
 
@@ -14,15 +15,20 @@ def servos_carry(numbers: GaitNumbers) -> bool:
 
 
 def can_walk(numbers: GaitNumbers) -> bool:
-    """Whether the floor can supply every wrench, feet swing clear and no rate jumps."""
+    """Whether the floor can give every wrench, feet swing clear, no rate jumps, a cycle closes."""
     return bool(
         (numbers.margin > 0).all() and numbers.dynamics.admissible.all() and feet_and_rates(numbers)
     )
 
 
 def feet_and_rates(numbers: GaitNumbers) -> bool:
-    """Whether feet swing clear and no rate jumps: all but what the floor has to supply."""
-    return not digs(numbers) and not soles_collide(numbers) and not numbers.rate_jumps
+    """All but what the floor has to supply: feet swing clear, no rate jumps, a cycle closes."""
+    return (
+        not digs(numbers)
+        and not soles_collide(numbers)
+        and numbers.ends.kind != "open cycle"
+        and not numbers.rate_jumps
+    )
 
 
 def digs(numbers: GaitNumbers) -> bool:
@@ -44,7 +50,7 @@ def within_limits(numbers: GaitNumbers) -> bool:
 
 
 def sentences(numbers: GaitNumbers, *, walking: bool = True, servos: bool = True) -> list[str]:
-    """The verdict, most important first: walking, contact, servos, swing feet.
+    """The verdict, most important first: walking, contact, ends, servos, swing feet.
 
     Args:
         numbers: What it is about.
@@ -53,6 +59,7 @@ def sentences(numbers: GaitNumbers, *, walking: bool = True, servos: bool = True
     """
     return [
         *(_walking(numbers) if walking else ()),
+        *ends.sentences(numbers.ends),
         *(_servos(numbers) if servos else ()),
         *_swing(numbers),
         *_smooth(numbers),
@@ -67,9 +74,10 @@ def _walking(numbers: GaitNumbers) -> list[str]:
         return [f"{name} can't walk this gait as planned, though the floor could carry it."]
     if not outside.any() and not refused:
         worst = numbers.margin.min() * 1e3
+        within = " within its file" if numbers.ends.qualified else ""
         return [
-            f"{name} can walk this gait: the floor can supply every wrench it needs, and the "
-            f"ZMP keeps at least {worst:z.1f} mm inside the support polygon."
+            f"{name} can walk this gait{within}: the floor can supply every wrench it needs, and "
+            f"the ZMP keeps at least {worst:z.1f} mm inside the support polygon."
         ]
     text = f"{name} can't walk this gait as planned"
     result = []

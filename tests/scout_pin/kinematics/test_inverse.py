@@ -6,9 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from scout_pin.kinematics.choosing import choose_branch
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.kinematics.inverse import BRANCHES, choose_branch, leg_inverse_kinematics
+from scout_pin.kinematics.inverse import BRANCHES, leg_inverse_kinematics
 from scout_pin.kinematics.rates import leg_rates
 from scout_pin.specification import SIDES, Specification
 from scout_pin.urdf import JOINT_AXES, offsets

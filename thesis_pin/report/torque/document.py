@@ -14,8 +14,10 @@ from thesis_pin.loops.motion.files import JointMotion
 from thesis_pin.loops.motion.whole import whole_motion
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
+from thesis_pin.report import pace
 from thesis_pin.report.torque import verdict
 from thesis_pin.report.torque.numbers import TorqueNumbers
+from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
 SCHEMA, VERSION = "thesis-pin/torque", 2
@@ -37,6 +39,19 @@ class TorqueReport(TorqueNumbers):
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
+
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed."""
+        motion = self.motion
+        found = []
+        for unit in ("m", "rad"):
+            here = [singles(self.robot.model)[name].unit == unit for name in motion.joints]
+            travel = float(np.ptp(motion.position[:, here], axis=0).max(initial=0.0))
+            push = float(np.abs(motion.acceleration[:, here]).max(initial=0.0))
+            if push >= TOLERANCES.inertia_unfelt:
+                return []
+            found += pace.doubts(float(motion.time[-1] - motion.time[0]), travel, push, unit)
+        return found
 
     def warnings(self) -> list[str]:
         """What may make the numbers wrong: of the motion, then of the description."""
@@ -128,6 +143,7 @@ class TorqueReport(TorqueNumbers):
         return {
             "within_limits": self.within_limits,
             "verdict": self.verdict(),
+            "doubts": self.doubts(),
             "warnings": self.warnings(),
             **self.actuators.document(),
             "effort_limits": [

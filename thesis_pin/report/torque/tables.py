@@ -50,6 +50,7 @@ def summary(report: TorqueReport) -> Iterator[Part]:
     if report.robot.loops:
         yield loops_table(report)
     yield f"Unexplained load: {report.unexplained.max():.1e} of the largest."
+    yield from (f"Warning: {one}." for one in report.doubts())
     yield from report.verdict()
     yield from (f"Note: {note}." for note in report.motion.notes)
     yield from (f"Warning: {one}" for one in report.warnings())
