@@ -18,6 +18,7 @@ from scout_pin.motion.contact import check_stance
 from scout_pin.motion.feet import Foot, Moving, Stance, foot, stances
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
+from scout_pin.motion.thinning import thinned
 from scout_pin.motion.variants import Change, RateJump, Resolution, Variants
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError
@@ -69,7 +70,7 @@ def gait_from_samples(
         with suppress(TrajectoryError):
             check_stance(gait.name, gait.curves, gait.phases)
             return replace(gait, notes=(*gait.notes, *notes))
-    return _smoothed(samples, quanta, notes)
+    return _smoothed(thinned(samples), quanta, notes)
 
 
 def _warning(samples: GaitSamples, quanta: dict[str, float], time_unit: float) -> Iterator[str]:

@@ -5,6 +5,9 @@ import pytest
 
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import BODIES
+from scout_pin.motion.trajectory import joint_trajectory
+from scout_pin.report.document import gait_report
+from scout_pin.specification import JOINT_NAMES
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.numeric.interpolation import interpolate
 
@@ -190,3 +193,26 @@ def test_the_same_file_gives_the_same_gait(tmp_path):
     for body in BODIES:
         for a, b in zip(one.variants.curves[body], other.variants.curves[body], strict=True):
             assert np.array_equal(a.c, b.c)
+
+
+def joint_table(path, robot, rate, step):
+    """The walk as angles in steps of some degrees, and who stands."""
+    gait = load_gait(EXAMPLES / "walk.toml")
+    t = np.arange(0.0, 6.0 + 1e-9, 1.0 / rate)
+    motion = gait.sample(np.minimum(t / gait.time_unit, gait.end))
+    angles = np.round(np.degrees(joint_trajectory(robot, motion).q) / step) * step
+    lines = [",".join(["t", "support", *(f"{name}_deg" for name in JOINT_NAMES)])]
+    for time, who, row in zip(t, motion.phase, angles, strict=True):
+        lines.append(",".join([f"{time:.6f}", who, *(f"{value:.3f}" for value in row)]))
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_angles_in_coarse_steps_are_thinned_to_one_row_a_step(scout, tmp_path):
+    path = joint_table(tmp_path / "angles.csv", scout, 300.0, 0.1)
+    report = gait_report(scout, load_gait(path, robot=scout))
+    assert any("the angles' steps last 60 rows" in note for note in report.gait.notes)
+    held = report.headlines.margin
+    assert held.low <= 8.807e-3 <= held.high
+    assert held.half_width < 1.5e-3
+    assert report.can_walk
