@@ -67,6 +67,11 @@ class Closure:
     gaps: tuple[Gap, ...]
 
     @property
+    def places_fit(self) -> bool:
+        """Whether every place at the end is that at the start, a step further."""
+        return all(gap.what != "position" for gap in self.gaps)
+
+    @property
     def closed(self) -> bool:
         """Whether places and rates fit; accelerations may jump."""
         return all(gap.what == "acceleration" for gap in self.gaps)

@@ -20,6 +20,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import decision
+from scout_pin.report.limits import SPEEDS
 from scout_pin.report.located import located
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.report.reason import reason, sentences
@@ -195,6 +196,8 @@ class GaitReport(GaitNumbers):
                 "torque": self.fastest.torque,
                 "line": self.fastest.line,
             },
+            "time_units": [one.document() for one in self.time_units],
+            "time_units_searched": sorted(self.time_unit / speed for speed in SPEEDS),
             "worst_margin": float(self.margin.min()),
             "worst_margin_time": float(self.joints.time[np.argmin(self.margin)]),
             "stable_share": self.stable_share,

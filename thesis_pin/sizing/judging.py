@@ -54,7 +54,7 @@ def fits(loads: Loads, actuators: Sequence[Actuator]) -> Fits:
     for one in actuators:
         torque = loads.with_rotor(one.armature)
         left = 1.0 - size / one.no_load_speed
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             ratio = left * one.stall_torque / np.abs(torque)
         # Without load any speed below the free one will do, and none above.
         ratio = np.where(torque == 0.0, np.inf, ratio)
