@@ -190,11 +190,16 @@ def write(
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def cells(truth: Truth, rates: tuple[float, ...] = RATES, seed: int = 0) -> Iterator[Cell]:
+def seeds(name: str, rate: float, place: int) -> list[int]:
+    """Of a cell's random numbers: gait, rate, number of its resolution."""
+    return [20260101, int(rate), place, *map(ord, name)]
+
+
+def cells(truth: Truth) -> Iterator[Cell]:
     """Every rate and resolution of one gait."""
-    for rate in rates:
-        for k, how in enumerate([*DECIMALS, *NOISES]):
-            random = np.random.default_rng([seed, int(rate), k, *map(ord, truth.name)])
+    for rate in RATES:
+        for place, how in enumerate([*DECIMALS, *NOISES]):
+            random = np.random.default_rng(seeds(truth.name, rate, place))
             yield cell(truth, rate, how, random)
 
 
@@ -279,7 +284,7 @@ def _section(truth: Truth, own: list[Cell]) -> list[str]:
         "| --- | --- | --- | --- | --- | --- |",
     ]
     for one in own:
-        numbers = (_bounds(one.margin, 1e3, 2), _bounds(one.torque, 1.0, 4))
+        numbers = (bounds(one.margin, 1e3, 2), bounds(one.torque, 1.0, 4))
         mark = "" if one.inside and not one.wrong else "**"
         said = " | ".join(words[answer] for answer in one.verdict)
         cells_ = " | ".join(f"{mark}{text}{mark}" for text in numbers)
@@ -287,7 +292,7 @@ def _section(truth: Truth, own: list[Cell]) -> list[str]:
     return [*lines, ""]
 
 
-def _bounds(values: tuple[float, float, float], factor: float, digits: int) -> str:
+def bounds(values: tuple[float, float, float], factor: float, digits: int) -> str:
     value, low, high = (f"{x * factor:.{digits}f}" for x in values)
     return value if low == high else f"{value} [{low}, {high}]"
 

@@ -14,8 +14,9 @@ from scout_pin.report.decision import can_walk, few_draws, servos_carry, within_
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.report.uncertainty.blame import Blame, blame
 from scout_pin.report.uncertainty.headlines import Headlines
-from scout_pin.report.uncertainty.text import millimetres, newton_metres, percent, why
+from scout_pin.report.uncertainty.text import why
 from scout_pin.specification import JOINT_NAMES
+from thesis_pin.report.resolution import millimetres, newton_metres, percent
 from thesis_pin.smoothing.intervals import Interval
 
 Array = NDArray[np.float64]
