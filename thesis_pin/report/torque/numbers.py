@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -30,12 +31,15 @@ class TorqueNumbers:
         motion: The motion that was asked for.
         whole: What all joints do in it.
         dynamics: Torques of the motors and forces of the loops.
+        external: Frame → constant wrench on it from outside: force, then moment about the
+            frame's origin, world axes [N], [N·m], shape ``(6,)``.
     """
 
     robot: ClosedRobot
     motion: JointMotion
     whole: WholeMotion
     dynamics: LoopDynamics
+    external: Mapping[str, Array] = field(default_factory=dict)
 
     @property
     def joints(self) -> JointTrajectory:
