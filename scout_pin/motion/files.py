@@ -185,7 +185,19 @@ def load_gait(
         return through_samples(read_gait_table(path, robot), interpolation or "free")
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
-    file = read_toml("gait", GaitFile, path)
+    return gait_of(read_toml("gait", GaitFile, path), interpolation)
+
+
+def gait_of(file: GaitFile, interpolation: str | None = None) -> Gait:
+    """The gait of a file that has been read.
+
+    Args:
+        file: Its content.
+        interpolation: Method for every node segment, instead of the file's.
+
+    Raises:
+        TrajectoryError: A curve jumps.
+    """
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
     return Gait(
         file.name,
