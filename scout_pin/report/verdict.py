@@ -116,8 +116,8 @@ def _servos(numbers: GaitNumbers) -> list[str]:
         )
     else:
         text = (
-            f"The servos can't carry it: {numbers.actuators.names[k]} needs {_percent(use[k])} of its "
-            "torque-speed line."
+            f"The servos can't carry it: {numbers.actuators.names[k]} needs {_percent(use[k])} of "
+            "its torque-speed line."
         )
     return [text]
 

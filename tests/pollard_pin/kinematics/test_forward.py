@@ -122,6 +122,7 @@ def test_modes_outside_the_joint_limits_are_marked(rng):
     found = pollard_pin.load().inverse_kinematics(poses)
     modes = robot.forward_kinematics(found.angles[found.valid][:, ACTUATORS])
     expected = np.zeros(modes.angles.shape, dtype=bool)
-    expected[..., 2] = modes.angles[..., 2] > np.radians(10.0)
+    elbow = np.degrees(modes.angles[..., 2])
+    expected[..., 2] = (elbow > 10.0) | (elbow < -90.0)
     np.testing.assert_array_equal(modes.outside, expected)
     assert 0 < expected.sum() < modes.count.sum()
