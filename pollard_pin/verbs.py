@@ -41,7 +41,7 @@ def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPa
             )
     from pollard_pin.motion.files import load_path
 
-    return load_path(arguments.path)
+    return load_path(arguments.path, smooth=arguments.smooth)
 
 
 def report(

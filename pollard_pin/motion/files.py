@@ -34,14 +34,18 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from pollard_pin.coordinates import pose_rotation
 from pollard_pin.motion.curves import arc, joined, line
 from pollard_pin.motion.path import Timing, ToolPath
 from pollard_pin.motion.samples import through
+from pollard_pin.motion.smoothing import LEAST, Oriented, smoothed
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.files import name_as_text
 from thesis_pin.model.specification import Key, Positive, Strict, Vector3, read_toml
+from thesis_pin.smoothing.stated import Stated, stated
 from thesis_pin.tables.meaning import chosen, known_names, time_column, time_names
 from thesis_pin.tables.reading import TABLES, read_table
+from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, warning
 from thesis_pin.tables.units import ANGLE, LENGTH, TIME, headings
 
 _UNITS = {"t": TIME, "x": LENGTH, "y": LENGTH, "z": LENGTH} | dict.fromkeys(
@@ -113,11 +117,19 @@ class PathFile(Strict):
                 )
 
 
-def load_path(file: str | Path) -> ToolPath:
-    """A path from a table or a TOML file; see the head of this module."""
+def load_path(file: str | Path, *, smooth: str = "auto") -> ToolPath:
+    """A path from a table or a TOML file; see the head of this module.
+
+    Args:
+        file: The file.
+        smooth: Of a table: ``auto`` takes its samples for as fine as they show themselves to
+            be, ``none`` for exact, and a length such as ``0.1mm``, an angle such as
+            ``0.05deg`` or both with a comma for no finer than that.
+    """
+    how = stated(smooth)
     suffix = Path(str(file)).suffix.lower()
     if suffix in TABLES:
-        return read_csv(file)
+        return read_csv(file, how=how)
     if suffix == ".toml":
         return read_toml_path(file)
     raise BadInput(f"a path can't be a {suffix} file", where=str(file), allowed=".csv or .toml")
@@ -161,8 +173,14 @@ def _segments(content: PathFile) -> list[ToolPath]:
     return paths
 
 
-def read_csv(file: str | Path, method: str = "free") -> ToolPath:
+def read_csv(file: str | Path, method: str | None = None, *, how: Stated | None = None) -> ToolPath:
     """A path from a table of poses; see the head of this module.
+
+    Args:
+        file: The file.
+        method: How to interpolate, if that is asked for; curves then pass through every
+            sample.
+        how: What the user says of the samples' resolution; None for nothing.
 
     Raises:
         BadInput: It can't be read, a column is missing or a cell isn't a number.
@@ -179,11 +197,30 @@ def read_csv(file: str | Path, method: str = "free") -> ToolPath:
             allowed="one column each for time, x, y, z, psi, theta and phi",
         )
     time = time_column(table, columns)
-    poses = [table.column(*columns[name], name).values for name in _POSE]
+    poses = {name: table.column(*columns[name], name) for name in _POSE}
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} poses", where=table.file, allowed="at least 2")
-    path = through(time.values, np.stack(poses, 1), method, name=name_as_text(Path(file).name))
+    samples = Samples(table, time, poses, frozenset(_POSE[3:]))
+    path = _through_table(samples, method, how or Stated(), name_as_text(Path(file).name))
     notes = [*path.notes, *table.dialect.notes]
     if unused:
         notes.append(f"these columns mean nothing here and aren't used: {', '.join(unused)}")
     return replace(path, notes=tuple(notes))
+
+
+def _through_table(samples: Samples, method: str | None, how: Stated, name: str) -> ToolPath:
+    """A path through every sample that is exact enough, else within their resolution."""
+    resolved, notes = quanta(samples, how), list[str]()
+    through_all = how.through or method is not None or len(samples.table) < LEAST
+    if through_all:
+        notes += warning(samples, resolved)
+    else:
+        samples, told = mended(samples)
+        notes += [*told, *close_rows(samples)]
+    poses = np.stack([samples.columns[name].values for name in _POSE], axis=-1)
+    if through_all or exact(samples, resolved):
+        path = through(samples.time.values, poses, method or "free", name=name)
+    else:
+        orientation = Oriented(_POSE[3:], pose_rotation(poses), poses[:, 3:])
+        path = smoothed(samples, resolved, _POSE[:3], orientation, name=name)
+    return replace(path, notes=(*path.notes, *notes))

@@ -100,6 +100,7 @@ def smooth_curve(
     *,
     ends: tuple[End | None, End | None] = (None, None),
     draws: int = DRAWS,
+    runs: Array | None = None,
 ) -> SmoothCurve:
     """Fit one column.
 
@@ -110,13 +111,16 @@ def smooth_curve(
         random: See :func:`generator`.
         ends: Where the curve starts and ends at rest; None where it goes on.
         draws: How many draws.
+        runs: Samples in a row whose errors are one, of values that were made from others,
+            shape ``(n,)``; None for runs of equal values.
 
     Source: see :mod:`thesis_pin.smoothing.fit`; two orders because intervals of one smoothing
     spline cover on average, not pointwise: D. Nychka, "Bayesian confidence intervals
     for smoothing splines", J. Am. Stat. Assoc. 83 (1988).
     """
     floor, noise = quantum * ROUNDING, difference_noise(values, 6)
-    main = _with_enough_spans(time, values, floor, noise, ends)
+    weight = 1.0 / (run_lengths(values) if runs is None else runs)
+    main = _with_enough_spans(time, values, weight, floor, noise, ends)
     samples = main.fit.samples
     rival = strongest(Fit(samples, RIVAL), floor, noise)
     count = samples.rows.basis.count
@@ -136,6 +140,7 @@ def smooth_curve(
 def _with_enough_spans(
     time: Array,
     values: Array,
+    weight: Array,
     floor: float,
     noise: float,
     ends: tuple[End | None, End | None],
@@ -145,7 +150,7 @@ def _with_enough_spans(
     spans = min(most, max(_FIRST, len(time) // 8))
     for _ in range(_TRIES):
         basis = Basis(float(time[0]), float(time[-1]), spans)
-        found = strongest(Fit(_samples(basis, time, values, ends), ORDER), floor, noise)
+        found = strongest(Fit(_samples(basis, time, values, weight, ends), ORDER), floor, noise)
         if found.sigma > 2.0 * max(floor, noise) and spans < most:
             wanted = 2 * spans  # the basis can't follow what isn't noise
         elif _SHORT <= found.reach <= _LONG:
@@ -160,7 +165,11 @@ def _with_enough_spans(
 
 
 def _samples(
-    basis: Basis, time: Array, values: Array, ends: tuple[End | None, End | None]
+    basis: Basis,
+    time: Array,
+    values: Array,
+    weight: Array,
+    ends: tuple[End | None, End | None],
 ) -> Samples:
     first, last = (None if end is None else end.value for end in ends)
     # A fixed end first: a mean would leave the difference of two large numbers there.
@@ -169,7 +178,7 @@ def _samples(
     return Samples(
         basis.rows(time),
         values - origin,
-        1.0 / run_lengths(values),
+        weight,
         origin,
         (fixed[0], fixed[1]),
     )
