@@ -18,15 +18,9 @@ from pollard_pin.motion.path import ToolPath
 from pollard_pin.motion.samples import along_curves
 from pollard_pin.motion.variants import PLACE, Variants
 from thesis_pin.numeric import quaternions
-from thesis_pin.smoothing.curve import (
-    SEED,
-    SmoothCurve,
-    constant_curve,
-    generator,
-    rest,
-    smooth_curve,
-)
-from thesis_pin.smoothing.noise import ROUNDING, run_lengths, still
+from thesis_pin.smoothing.curve import SEED, SmoothCurve, fitted, generator
+from thesis_pin.smoothing.noise import ROUNDING
+from thesis_pin.smoothing.orientation import component_steps, shared_runs
 from thesis_pin.smoothing.resolution import Resolution
 from thesis_pin.tables.samples import Samples
 
@@ -72,14 +66,14 @@ def smoothed(
     """
     time = samples.time.values - samples.time.values[0]
     curves = [
-        _curve(time, samples.columns[column].values, quanta[column], None, k)
+        fitted(time, samples.columns[column].values, quanta[column], generator(1 + k))
         for k, column in enumerate(place)
     ]
     turn = turns(orientation.rotation, orientation.written)
     columns = quaternions.continuous(orientation.rotation, turn).T
     steps, runs = _resolved(samples, quanta, orientation, columns)
     curves += [
-        _curve(time, column, step, run, PLACE + k)
+        fitted(time, column, step, generator(1 + PLACE + k), run)
         for k, (column, step, run) in enumerate(zip(columns, steps, runs, strict=True))
     ]
     resolutions = [
@@ -119,30 +113,15 @@ def smoothed(
     return replace(path, variants=variants)
 
 
-def _curve(
-    time: Array, values: Array, quantum: float, runs: Array | None, stream: int
-) -> SmoothCurve:
-    random = generator(stream + 1)  # zero would be the numbers that all curves share
-    at_rest = still(values, quantum)
-    if at_rest is not None:
-        return constant_curve(float(time[0]), float(time[-1]), rest(at_rest, random))
-    return smooth_curve(time, values, quantum, random, runs=runs)
-
-
 def _resolved(
     samples: Samples, quanta: dict[str, float], orientation: Oriented, columns: Array
 ) -> tuple[list[float], list[Array | None]]:
     """Resolution of a quaternion's components, and how many samples share their error."""
     if orientation.quaternion:
         return [quanta[name] for name in orientation.names], [None] * len(columns)
-    quantum = max(quanta[name] for name in orientation.names)
-    # An error that turns by ε about any axis moves component p by ε √(1 − p²) / 2.
-    steps = [quantum / 2 * float(np.sqrt(np.mean(np.maximum(1.0 - p**2, 0.0)))) for p in columns]
-    moving = [name for name in orientation.names if samples.moves(name)]
-    if not moving:
-        return steps, [None] * len(columns)
-    lengths = [np.log(run_lengths(samples.columns[name].values)) for name in moving]
-    return steps, [np.exp(np.mean(lengths, axis=0))] * len(columns)
+    steps = component_steps(columns.T, max(quanta[name] for name in orientation.names))
+    moving = [samples.columns[n].values for n in orientation.names if samples.moves(n)]
+    return steps, [shared_runs(moving)] * len(columns)
 
 
 def _resolution(name: str, quantum: float, curve: SmoothCurve, turns: bool) -> Resolution:

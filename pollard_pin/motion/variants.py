@@ -77,6 +77,6 @@ class Variants:
 def _moved(found: np.ndarray) -> BodyMotion:
     """A motion from ``(3, 7, n, variants)``, variant by variant."""
     flat = np.moveaxis(found, (1, -1), (-1, 1)).reshape(3, -1, found.shape[1])
-    place, turns = flat[..., :PLACE], flat[..., PLACE:]
-    rotation, omega, alpha = quaternions.motion(*turns)
-    return BodyMotion(rotation, *place, omega, alpha)
+    position, velocity, acceleration = flat[..., :PLACE]
+    rotation, omega, alpha = quaternions.motion(*flat[..., PLACE:])
+    return BodyMotion(rotation, position, velocity, acceleration, omega, alpha)

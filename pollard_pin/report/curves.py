@@ -148,7 +148,7 @@ def _left_open(report: TrajectoryReport, numbers: Sequence[int]) -> list[Area]:
     if held is None:
         return []
     return [
-        spread("left open by the samples", held.time, *held.torque_band[..., k], PALETTE[k % 3])
+        spread("left open by the samples", held.time, held.torque_band[..., k], PALETTE[k % 3])
         for k in numbers
     ]
 

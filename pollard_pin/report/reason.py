@@ -9,7 +9,7 @@ from pollard_pin.report import verdict
 from pollard_pin.report.decision import few_draws, within_limits
 from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.report.uncertainty.headlines import Headlines
-from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
+from pollard_pin.specification import ACTUATOR_SYMBOLS
 from thesis_pin.errors import ThesisPinError
 from thesis_pin.report.uncertainty import culprit, measured, percent, why
 from thesis_pin.smoothing.resolution import Resolution
@@ -48,7 +48,7 @@ def reason(numbers: TrajectoryNumbers) -> str | None:
     one, k, name = max(named, key=lambda found: found[0].high)
     most = why(_culprit(numbers, name, k), variants.rate, one, 1.0)
     return (
-        f"The samples can't carry a verdict: {ACTUATOR_NAMES[k]} ({ACTUATOR_SYMBOLS[k]}) uses "
+        f"The samples can't carry a verdict: {ACTUATOR_SYMBOLS[k]} uses "
         f"{percent(one)} of its {name}; {most}."
     )
 
@@ -76,8 +76,8 @@ def _left_open(held: Headlines) -> str:
         max(range(6), key=lambda k: uses[k].value) for uses in (held.torque_use, held.speed_use)
     )
     return (
-        f"The samples' resolution leaves open: peak torque ({ACTUATOR_NAMES[j]}) "
-        f"{measured(held.peak_torque[j], 'N·m')}; torque of the most loaded motor "
-        f"({ACTUATOR_NAMES[torque]}) {percent(held.torque_use[torque])} of its limit; speed of "
-        f"the fastest ({ACTUATOR_NAMES[speed]}) {percent(held.speed_use[speed])}."
+        f"The samples' resolution leaves open: peak torque ({ACTUATOR_SYMBOLS[j]}) "
+        f"{measured(held.peak_torque[j], 'N·m')}; share of the torque limit "
+        f"({ACTUATOR_SYMBOLS[torque]}) {percent(held.torque_use[torque])}; of the speed limit "
+        f"({ACTUATOR_SYMBOLS[speed]}) {percent(held.speed_use[speed])}."
     )

@@ -42,7 +42,7 @@ def torque(arguments: argparse.Namespace) -> ExitCode:
 
     def make(_: object) -> TorqueReport:
         robot = _loaded(arguments)
-        motion = read_motion(robot, arguments.motion)
+        motion = read_motion(robot, arguments.motion, smooth=arguments.smooth)
         x = arguments.precision
         pose = assembly(robot, arguments.pose, precision=x).q
         return torque_report(robot, motion, pose=pose, precision=x)

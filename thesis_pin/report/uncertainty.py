@@ -53,9 +53,9 @@ def band(own: Array, rival: Array, draws: Array, more: Array | float = 0.0) -> A
 
 
 def percent(held: Interval) -> str:
-    """``98%, between 96% and 101%``."""
+    """``98%, between 96% and 101%``; ``98%`` where they are the same."""
     value, low, high = (f"{x:.0%}" for x in (held.value, held.low, held.high))
-    return f"{value}, between {low} and {high}"
+    return value if low == high else f"{value}, between {low} and {high}"
 
 
 def measured(held: Interval, unit: str, digits: str = ".3f") -> str:

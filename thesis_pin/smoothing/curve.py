@@ -11,7 +11,7 @@ from scipy.interpolate import PPoly
 from thesis_pin.smoothing.basis import DEGREE, Array, Basis
 from thesis_pin.smoothing.fit import Fit, Strength, strongest
 from thesis_pin.smoothing.local import localised
-from thesis_pin.smoothing.noise import ROUNDING, Still, difference_noise, run_lengths
+from thesis_pin.smoothing.noise import ROUNDING, Still, difference_noise, run_lengths, still
 from thesis_pin.smoothing.posterior import draws as posterior_draws
 from thesis_pin.smoothing.samples import Samples
 
@@ -90,6 +90,20 @@ def constant_curve(start: float, end: float, at: End) -> SmoothCurve:
     values = np.concatenate([[at.value, at.value], at.value + at.offsets])
     sd = float(at.offsets.std()) if at.offsets.any() else 0.0
     return SmoothCurve(PPoly(values[None, None], np.array([start, end])), sd)
+
+
+def fitted(
+    time: Array,
+    values: Array,
+    quantum: float,
+    random: np.random.Generator,
+    runs: Array | None = None,
+) -> SmoothCurve:
+    """The curve of one column that nobody holds: of something at rest, or :func:`smooth_curve`."""
+    at_rest = still(values, quantum)
+    if at_rest is not None:
+        return constant_curve(float(time[0]), float(time[-1]), rest(at_rest, random))
+    return smooth_curve(time, values, quantum, random, runs=runs)
 
 
 def smooth_curve(

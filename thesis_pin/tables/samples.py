@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.smoothing.noise import acceleration_noise, sample_noise
+from thesis_pin.smoothing.noise import acceleration_noise, rate_noise, sample_noise
 from thesis_pin.smoothing.outliers import outliers
 from thesis_pin.smoothing.stated import Stated
-from thesis_pin.tables.table import Column, Table
+from thesis_pin.tables.table import Column, Table, alike
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -29,12 +29,14 @@ class Samples:
         time: Sample times [s].
         columns: By name [m] or [rad].
         turning: Names of those that are angles.
+        rates: Names of those that are rates already [m/s] or [rad/s].
     """
 
     table: Table
     time: Column
     columns: Mapping[str, Column]
     turning: frozenset[str]
+    rates: frozenset[str] = frozenset()
 
     def moves(self, name: str) -> bool:
         """Whether a column changes at all."""
@@ -42,51 +44,64 @@ class Samples:
 
 
 def quanta(samples: Samples, how: Stated) -> dict[str, float]:
-    """Resolution of each column [m] or [rad]; one that never moves has that of its kind.
+    """Resolution of each column [m], [rad] or of a rate; see :func:`thesis_pin.tables.table.alike`.
 
-    Where nothing of its kind moves, zero is zero, and other values are as written.
+    Where nothing of its kind moves, a column that doesn't either is as written.
     """
-    moving: dict[bool, list[float]] = {True: [], False: []}
-    for name, column in samples.columns.items():
-        if samples.moves(name):
-            moving[name in samples.turning].append(column.quantum)
     found = {}
-    for name, column in samples.columns.items():
-        turns, own = name in samples.turning, column.quantum
-        if not samples.moves(name):
-            own = float(np.median(moving[turns])) if moving[turns] else 0.0
-        found[name] = max(own, how.angle if turns else how.length)
+    for turns in (False, True):
+        for rates in (False, True):
+            names = [
+                name
+                for name in samples.columns
+                if (name in samples.turning) == turns and (name in samples.rates) == rates
+            ]
+            stated = 0.0 if rates else how.angle if turns else how.length
+            moves = any(samples.moves(name) for name in names)
+            for name, column in zip(names, alike([samples.columns[n] for n in names]), strict=True):
+                found[name] = max(column.quantum if moves else 0.0, stated)
     return found
 
 
-def errors(samples: Samples, resolved: Mapping[str, float]) -> Iterator[tuple[str, float, float]]:
+def errors(
+    samples: Samples, resolved: Mapping[str, float], friction: bool = False
+) -> Iterator[tuple[str, float, float]]:
     """By how much curves through every sample would be wrong, and may be.
 
     Args:
         samples: The samples.
         resolved: Of :func:`quanta`.
+        friction: Whether the sign of a wrong rate counts, where a joint rests.
 
     Yields:
-        A column's name, the error of its second derivative [m/s²] or [rad/s²], the limit.
+        A column's name, the error of its acceleration [m/s²] or [rad/s²], the limit.
     """
     time = samples.time.values
     step = float(np.diff(time).min())
     for name, column in samples.columns.items():
-        if samples.moves(name):
-            sigma = sample_noise(time, column.values, resolved[name], samples.time.quantum)
-            turns = name in samples.turning
-            limit = TOLERANCES.exact_turn if turns else TOLERANCES.exact_move
-            yield name, acceleration_noise(sigma, step), limit
+        if not samples.moves(name):
+            continue
+        sigma = sample_noise(time, column.values, resolved[name], samples.time.quantum)
+        limit = TOLERANCES.exact_turn if name in samples.turning else TOLERANCES.exact_move
+        if name in samples.rates:
+            yield name, rate_noise(sigma, step), limit
+            continue
+        if friction:
+            limit = min(limit, acceleration_noise(TOLERANCES.exact_rate, 1.0) / step)
+        yield name, acceleration_noise(sigma, step), limit
 
 
-def exact(samples: Samples, resolved: Mapping[str, float]) -> bool:
-    """Whether curves through every sample are as good as the samples."""
-    return all(error <= limit for _, error, limit in errors(samples, resolved))
+def exact(samples: Samples, resolved: Mapping[str, float], friction: bool = False) -> bool:
+    """Whether curves through every sample are as good as the samples; see :func:`errors`."""
+    return all(error <= limit for _, error, limit in errors(samples, resolved, friction))
 
 
-def warning(samples: Samples, resolved: Mapping[str, float]) -> Iterator[str]:
+def warning(
+    samples: Samples, resolved: Mapping[str, float], friction: bool = False
+) -> Iterator[str]:
     """What interpolation as asked for makes of samples that aren't exact."""
-    worst = max(errors(samples, resolved), key=lambda one: one[1] / one[2], default=None)
+    every = errors(samples, resolved, friction)
+    worst = max(every, key=lambda one: one[1] / one[2], default=None)
     if worst is not None and worst[1] > worst[2]:
         unit = "rad/s²" if worst[0] in samples.turning else "m/s²"
         yield (
@@ -103,6 +118,8 @@ def mended(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
         turns = name in samples.turning
         # A slow motion may well be written with one row at its turning point.
         least = (TOLERANCES.outlier_turn if turns else TOLERANCES.outlier_move) * step**2
+        if name in samples.rates:
+            least /= step
         found = [one for one in outliers(column.values, column.quantum) if abs(one.error) > least]
         if not found:
             continue
@@ -110,6 +127,7 @@ def mended(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
         for one in found:
             values[one.sample] -= one.error
             size = f"{np.degrees(one.error):.3g}°" if turns else f"{one.error * 1e3:.3g} mm"
+            size += "/s" if name in samples.rates else ""
             notes.append(
                 f"{samples.table.where(one.sample)}: {name} is {size} off its neighbours, an "
                 "outlier; what they say stands in for it"
