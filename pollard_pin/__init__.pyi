@@ -33,6 +33,9 @@ from .dynamics.stream import torque_blocks as torque_blocks
 # Report
 from .report.document import trajectory_report as trajectory_report
 
+# Study
+from .study.size import size as size
+
 # Only Pollard
 from .specification import ACTUATOR_NAMES as ACTUATOR_NAMES
 from .model import CLOSURE_PATH as CLOSURE_PATH

@@ -25,8 +25,22 @@ def _which_path(words: argparse.ArgumentParser) -> None:
     )
     words.add_argument(
         "--timing",
-        choices=("constant-rate", "rest-to-rest"),
-        help="timing of appendix B's curve (default: the specification's)",
+        choices=("constant-rate", "rest-to-rest", "ramped"),
+        help="timing of appendix B's curve (default: the specification's), or of a path whose "
+        "times a tool speed gives (default: ramped)",
+    )
+    words.add_argument(
+        "--euler",
+        metavar="ORDER",
+        help="order of the angles in columns a, b, c (or about rx, ry, rz) of a path: ZYX turns "
+        "about z, then the turned y, then the turned x; zyx about the fixed axes. Columns psi, "
+        "theta, phi are Rx(θ) Ry(ψ) Rz(φ)",
+    )
+    words.add_argument(
+        "--feed",
+        type=number("--feed", positive=True),
+        metavar="SPEED",
+        help="speed of the spray tip along a path without times [m/s]",
     )
     words.add_argument(
         "--placement",
@@ -130,6 +144,13 @@ COMMAND = Command(
             "trajectory --path examples/spray_arch.toml --out report",
             samples=2001,
             breaks="a motor exceeds its limits",
+        ),
+        common.size_verb(
+            ROBOT,
+            "which motors of a list carry this path?",
+            "Motors of a list held against what a path asks of each joint: safety factor, RMS.",
+            "size examples/servos.csv --path examples/spray_arch.toml",
+            samples=2001,
         ),
         common.view_verb(
             ROBOT,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Literal, overload
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import closures
 from pollard_pin.coordinates import pose_from_placement, tool_motion
+from pollard_pin.implausible import implausible
 from pollard_pin.kinematics import forward, rates, singularity
 from pollard_pin.kinematics import inverse as kinematics
 from pollard_pin.kinematics.geometry import (
@@ -27,6 +29,7 @@ from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
 from pollard_pin.urdf import urdf
+from thesis_pin.errors import ModelWarning
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.closures import ClosedRobot
@@ -52,7 +55,8 @@ def load(
         inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.mechanism.inertia`.
 
     Returns:
-        The robot.
+        The robot. What nobody builds so, see :func:`pollard_pin.implausible.implausible`, is said
+        as a :class:`~thesis_pin.errors.ModelWarning` each.
 
     Raises:
         SpecificationError: The specification is invalid.
@@ -62,6 +66,8 @@ def load(
     if not isinstance(specification, Specification):
         specification = Specification.read(specification)
     choice("inertia", inertia, ("physical", "printed"))
+    for one in implausible(specification):
+        warnings.warn(one, ModelWarning, stacklevel=2)
     return Pollard(specification, inertia)
 
 

@@ -27,13 +27,19 @@ def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPa
     from pollard_pin.motion.curves import appendix_b
 
     if arguments.path is None:
+        for flag, value in (("euler", arguments.euler), ("feed", arguments.feed)):
+            if value is not None:
+                raise BadInput(
+                    f"--{flag} belongs to a path from a table",
+                    remedy="Name the table with --path",
+                )
         return appendix_b(
             specification,
             placement=arguments.placement,
             duration=arguments.duration,
             timing=arguments.timing,
         )
-    for flag in ("duration", "timing", "placement"):
+    for flag in ("duration", "placement"):
         if getattr(arguments, flag) is not None:
             raise BadInput(
                 f"--{flag} belongs to appendix B's curve and --path gives another",
@@ -41,7 +47,13 @@ def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPa
             )
     from pollard_pin.motion.files import load_path
 
-    return load_path(arguments.path, smooth=arguments.smooth)
+    return load_path(
+        arguments.path,
+        euler=arguments.euler,
+        feed=arguments.feed,
+        timing=arguments.timing,
+        smooth=arguments.smooth,
+    )
 
 
 def report(

@@ -30,6 +30,9 @@ from .dynamics.stream import torque_blocks as torque_blocks
 # Report
 from .report.document import gait_report as gait_report
 
+# Study
+from .study.size import size as size
+
 # Only Scout
 from .kinematics.rates import leg_rates as leg_rates
 from .model import Contact as Contact

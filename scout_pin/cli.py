@@ -95,6 +95,13 @@ COMMAND = Command(
             samples=401,
             breaks="the gait breaks a limit",
         ),
+        common.size_verb(
+            ROBOT,
+            "which servos of a list carry this gait?",
+            "Servos of a list held against what a gait asks of each joint: safety factor, RMS.",
+            "size examples/servos.csv --gait examples/walk.toml --time-unit 0.05",
+            samples=401,
+        ),
         common.view_verb(
             ROBOT,
             "watch a gait in the browser",

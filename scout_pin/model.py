@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -12,6 +13,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from scout_pin import coordinates
+from scout_pin.implausible import implausible
 from scout_pin.kinematics import choosing, forward
 from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.branches import Numbers, allowed_branches
@@ -20,7 +22,7 @@ from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.contacts.feet import sole_corners
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
@@ -50,7 +52,8 @@ def load(
         inertia: ``"physical"`` or ``"printed"``; see :mod:`thesis_pin.model.mechanism.inertia`.
 
     Returns:
-        The robot.
+        The robot. What nobody builds so, see :func:`scout_pin.implausible.implausible`, is said
+        as a :class:`~thesis_pin.errors.ModelWarning` each.
 
     Raises:
         SpecificationError: The specification is invalid.
@@ -61,6 +64,8 @@ def load(
         specification = Specification.read(specification)
     choice("root", root, ("free_flyer", "thesis"))
     choice("inertia", inertia, ("physical", "printed"))
+    for one in implausible(specification):
+        warnings.warn(one, ModelWarning, stacklevel=2)
     return Scout(specification, root, inertia)
 
 

@@ -23,6 +23,7 @@ from thesis_pin.model.urdf import (
     inertial,
     joint,
     mesh,
+    number,
     robot,
 )
 
@@ -68,10 +69,32 @@ def meshes(specification: Specification) -> dict[str, str]:
     }
 
 
+def closure_file(specification: Specification) -> str:
+    """Motors, rotors and the free root, which a URDF can't say: no loop, but the same schema."""
+    servos = [specification.servos[one] for side in SIDES for one in specification.leg(side).servos]
+    return (
+        f"# Generated from the specification {specification.name!r}: what its URDF can't hold.\n"
+        "closed_loop: []\n"
+        "type: []\n"
+        f"name_mot: [{', '.join(JOINT_NAMES)}]\n"
+        "thesis_pin:\n"
+        "  format: 1\n"
+        f"  robot: {specification.name}\n"
+        "  root: free\n"
+        f"  rotor_inertia: [{', '.join(number(one.rotor_inertia) for one in servos)}]\n"
+        f"  gear_ratio: [{', '.join(number(one.gear_ratio) for one in servos)}]\n"
+    )
+
+
 def files(specification: Specification) -> dict[str, str]:
-    """Everything generated from a specification: file name → text."""
+    """Everything generated from a specification: file name → text.
+
+    A robot whose servos have rotors gets a closure file for them beside the URDF.
+    """
     name = specification.name
+    rotors = specification.armature().any()
     return {
+        **({f"{name}.closures.yaml": closure_file(specification)} if rotors else {}),
         f"{name}.urdf": urdf(specification),
         f"{name}_printed.urdf": urdf(specification, "printed"),
         **meshes(specification),
@@ -92,7 +115,7 @@ def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
     lower, upper = specification.assumptions.joint_range.radians()
     torque, speed = specification.servo_limits()
     friction = specification.assumptions.joint_friction
-    number = 0
+    place = 0
     for side in SIDES:
         leg = specification.leg(side)
         points = offsets(leg, signs[side])
@@ -101,13 +124,13 @@ def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
             name = f"{side}_{LINK_NAMES[k]}"
             axis = JOINT_AXES[k]
             yield joint(
-                JOINT_NAMES[number],
+                JOINT_NAMES[place],
                 parent,
                 name,
                 xyz=points[k],
                 rpy=tuple(np.radians(leg.beta_deg[k]) * (letter == axis) for letter in "xyz"),
                 axis=axis,
-                limits=(lower[number], upper[number], torque[number], speed[number]),
+                limits=(lower[place], upper[place], torque[place], speed[place]),
                 friction=(friction.viscous, friction.coulomb),
             )
             size = specification.servos[leg.servos[k]].size
@@ -116,7 +139,7 @@ def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
                 cylinder(axis, radius=size[1] / 2, length=size[2]),
             ]
             yield _link(name, leg.links[k], specification, reading, shapes)
-            parent, number = name, number + 1
+            parent, place = name, place + 1
         yield joint(
             f"{side}_sole_joint",
             parent,

@@ -21,6 +21,9 @@ from .report.torque.document import (
     torque_report as torque_report,
 )
 
+# Servos and motors
+from .sizing.catalogue import read_catalogue as read_catalogue
+
 # Viewer
 from .pages.player import write_html as write_html
 from .pages.scene import Scene as Scene

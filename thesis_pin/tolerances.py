@@ -44,7 +44,17 @@ class Tolerances:
         sole_misfit: How far from its place joint angles may put a standing sole: servos of 1°
             and legs of 0.3 m make 5 mm; another robot, or degrees for radians, more [m].
         sole_misfit_tilt: The same of its angles [rad].
+        inertia_unfelt: Largest acceleration of a whole motion in which inertia plays no part:
+            it moves the zero-moment point of a robot of 0.2 m by 2 µm [m/s²], [rad/s²].
+        moves: Travel from which something moves rather than trembles [m], [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
+        density: More than any body has: that of osmium [kg/m³].
+        slender: Length of a body in radii of gyration that nobody builds; a uniform rod has
+            3.5, one with 200 times its own mass at one end 50 [-].
+        narrow: Range of joints that would be some degrees if all of them had it: radians
+            written as degrees, for a whole turn is 2π [rad].
+        overload: Weight times length of the limbs in the strongest actuator's torque, beyond
+            which nothing stands [-]; robots that walk have 2 to 20.
         branch_tie: Difference of two branches' distance from the neutral pose below which
             neither is the nearer; less than a hobby servo's dead band [rad].
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
@@ -82,6 +92,8 @@ class Tolerances:
         on_circle: How far rounding may throw a double root off the unit circle [-].
         half_turn: How near to half a turn two rotations may be until the shorter way between
             them is anyone's guess [rad].
+        quaternion_length: Difference from 1 of a quaternion's length still taken as rounding
+            of its four numbers, to two decimals [-].
         same_mode: Angles nearer than this are one assembly mode [rad].
         vanishing: Coefficient relative to the largest, or determinant over squared
             lengths, that is replaced before one divides by it [-], [m²].
@@ -120,7 +132,13 @@ class Tolerances:
     stance_near_tilt: float = 1e-2
     sole_misfit: float = 1e-2
     sole_misfit_tilt: float = 1e-1
+    inertia_unfelt: float = 1e-4
+    moves: float = 1e-3
     joint_limit: float = 1e-9
+    density: float = 22_600.0
+    slender: float = 50.0
+    narrow: float = 0.11
+    overload: float = 200.0
     branch_tie: float = 1e-3
     seam: float = 1e-4
     rate_jump: float = 1e-4
@@ -143,6 +161,7 @@ class Tolerances:
     straight: float = 1e-9
     on_circle: float = 1e-2
     half_turn: float = 1e-6
+    quaternion_length: float = 1e-2
     same_mode: float = 1e-6
     vanishing: float = 1e-14
     time_unit: float = 1e-5

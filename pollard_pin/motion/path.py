@@ -24,8 +24,13 @@ from thesis_pin.numeric.elementwise import LONG, Samples, blocks
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
-Timing = Literal["constant-rate", "rest-to-rest"]
+Timing = Literal["constant-rate", "rest-to-rest", "ramped"]
 TIMINGS: tuple[str, ...] = get_args(Timing)
+
+_RAMP = 0.1  # of the time, at each end, where a ramped law speeds up or slows down
+
+PEAK: dict[str, float] = {"constant-rate": 1.0, "rest-to-rest": 15 / 8, "ramped": 1 / (1 - _RAMP)}
+"""Largest ds/dt of each timing law, times its duration."""
 
 Triple = tuple[np.ndarray, np.ndarray, np.ndarray]
 """A number and its first and second derivatives, each ``(n,)``."""
@@ -165,8 +170,9 @@ def timing_law(timing: str, duration: float, time: np.ndarray) -> Triple:
     """s(t) in [0, 1] and its first two derivatives.
 
     Args:
-        timing: ``"constant-rate"`` or ``"rest-to-rest"`` (the quintic
-            10τ³ − 15τ⁴ + 6τ⁵, at rest without acceleration at both ends).
+        timing: ``"constant-rate"``; ``"rest-to-rest"`` (the quintic 10τ³ − 15τ⁴ + 6τ⁵, at
+            rest without acceleration at both ends); or ``"ramped"`` (a constant rate
+            between ramps 3τ² − 2τ³ over the first and last tenth).
         duration: [s].
         time: [s], shape ``(n,)``.
 
@@ -180,10 +186,26 @@ def timing_law(timing: str, duration: float, time: np.ndarray) -> Triple:
     tau, one = time / duration, np.ones_like(time)
     if timing == "constant-rate":
         return tau, one / duration, 0 * one
+    if timing == "ramped":
+        return _ramped(tau, duration)
     return (
         tau**3 * (10 - 15 * tau + 6 * tau**2),
         30 * tau**2 * (1 - tau) ** 2 / duration,
         60 * tau * (1 - tau) * (1 - 2 * tau) / duration**2,
+    )
+
+
+def _ramped(tau: np.ndarray, duration: float) -> Triple:
+    """A constant rate between ramps; its second half mirrors the first."""
+    late = tau > 0.5
+    near = np.where(late, 1.0 - tau, tau)
+    x = np.minimum(near / _RAMP, 1.0)
+    way = _RAMP * (x**3 - x**4 / 2) + np.maximum(near - _RAMP, 0.0)
+    peak, turn = PEAK["ramped"], np.where(late, -1.0, 1.0)
+    return (
+        np.where(late, 1.0 - peak * way, peak * way),
+        peak * (3 * x**2 - 2 * x**3) / duration,
+        turn * peak * 6 * x * (1 - x) / (_RAMP * duration**2),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
@@ -48,6 +48,7 @@ def through_orientations(
     method: str = "cubic",
     *,
     written: np.ndarray | None = None,
+    where: Callable[[int], str] | None = None,
     name: str = "poses over time",
 ) -> ToolPath:
     """A spline through positions and orientations at given times.
@@ -62,6 +63,7 @@ def through_orientations(
         method: See :data:`thesis_pin.numeric.interpolation.METHODS`.
         written: ψ, θ, φ as they were given [rad], shape ``(n, 3)``; for half turns, and for
             which of its names the report takes for an orientation.
+        where: Says where a pose stands, given its number, for messages; None says its time.
         name: For reports.
 
     Raises:
@@ -77,14 +79,19 @@ def through_orientations(
         )
     begin = time[0] if len(time) else 0.0
     curves = [interpolate(time - begin, column, method) for column in position.T]
-    turn = turns(rotation, written)
+    place = where or (lambda k: f"t = {time[k]:.6g} s")
+    try:
+        turn = turns(rotation, written)
+    except quaternions.HalfTurn as error:
+        k = error.step
+        raise quaternions.HalfTurn(k, f"{place(k)} to {place(k + 1)}") from None
     quaternion = quaternions.continuous(rotation, turn)
     curves += [interpolate(time - begin, column, method) for column in quaternion.T]
     size = np.linalg.norm(turn, axis=-1)
     k = int(np.argmax(size))
     note = (
-        f"from t = {time[k]:.6g} to {time[k + 1]:.6g} s the tool turns by "
-        f"{np.degrees(size[k]):.4g}°, the shorter way between samples so far apart"
+        f"from {place(k)} to {place(k + 1)} the tool turns by {np.degrees(size[k]):.4g}°, the "
+        "shorter way between samples so far apart"
     )
     angles = named_alike(rotation, np.zeros(3) if written is None else written[0])
     return along_curves(

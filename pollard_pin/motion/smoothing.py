@@ -7,102 +7,152 @@ Source: the method is :mod:`thesis_pin.smoothing`; docs/rounding.md shows what i
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pollard_pin.motion.orientation import named_alike, turns
+from pollard_pin.motion.orientation import named_alike
 from pollard_pin.motion.path import ToolPath
-from pollard_pin.motion.samples import along_curves
+from pollard_pin.motion.samples import along_curves, through_orientations, turned
+from pollard_pin.motion.tables import PoseTable
 from pollard_pin.motion.variants import PLACE, Variants
-from thesis_pin.numeric import quaternions
 from thesis_pin.smoothing.curve import SEED, SmoothCurve, fitted, generator
 from thesis_pin.smoothing.noise import ROUNDING
 from thesis_pin.smoothing.orientation import component_steps, shared_runs
 from thesis_pin.smoothing.resolution import Resolution
-from thesis_pin.tables.samples import Samples
+from thesis_pin.smoothing.stated import Stated
+from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, warning
+from thesis_pin.tables.table import Column
 
 Array = NDArray[np.float64]
 
 LEAST = 12
 """Rows below which nothing is known of their noise: curves pass through them."""
 
-
-@dataclass(frozen=True)
-class Oriented:
-    """Orientations of a table.
-
-    Attributes:
-        names: Its columns that hold them.
-        rotation: Shape ``(n, 3, 3)``.
-        written: ψ, θ, φ as they were given [rad], shape ``(n, 3)``; None if they weren't.
-        quaternion: Whether the columns are a quaternion's x, y, z, w.
-    """
-
-    names: tuple[str, ...]
-    rotation: Array
-    written: Array | None
-    quaternion: bool = False
+_TURN = tuple(f"the orientation's {name}" for name in ("x", "y", "z", "w"))
+_TWICE = 2.0  # a turn by ε moves a component of the quaternion by at most ε / 2
 
 
-def smoothed(
-    samples: Samples,
-    quanta: dict[str, float],
-    place: Sequence[str],
-    orientation: Oriented,
-    *,
-    name: str,
+def timed(
+    poses: PoseTable, time: Column, method: str | None, how: Stated, name: str
 ) -> ToolPath:
-    """A path within the resolution of samples.
+    """The path of a table with times: through samples that are exact enough, else smoothed.
 
     Args:
-        samples: The samples.
-        quanta: Resolution of each column [m] or [rad].
-        place: The columns of x, y, z.
-        orientation: Orientations of the tool.
+        poses: The table.
+        time: Its times.
+        method: How to interpolate, if that is asked for.
+        how: What the user says of the samples' resolution.
         name: For reports.
+
+    Raises:
+        TrajectoryError: Too few poses, or half a turn between two.
     """
+    where = poses.table.where
+    _, quaternion = turned(time.values, poses.rotation, poses.written, where)
+    samples = _samples(poses, time, quaternion)
+    resolved = quanta(_part(samples, poses.position), how)
+    coarsest = _coarsest(poses, how)
+    steps = component_steps(quaternion, coarsest)
+    if poses.quaternion:
+        steps = [max(column.quantum, coarsest / _TWICE) for column in poses.orientation]
+    resolved |= {turn: _TWICE * step for turn, step in zip(_TURN, steps, strict=True)}
+    through, notes = how.through or method is not None or len(poses.table) < LEAST, list[str]()
+    if through:
+        notes += warning(samples, resolved)
+    else:
+        samples, told = mended(samples)
+        notes += [*told, *close_rows(samples)]
+        if told:
+            poses = _again(poses, samples)
+    if through or exact(samples, resolved):
+        position = np.stack([column.values for column in poses.position], axis=-1)
+        path = through_orientations(
+            time.values,
+            position,
+            poses.rotation,
+            method or "free",
+            written=poses.written,
+            where=where,
+            name=name,
+        )
+    else:
+        path = _smoothed(poses, samples, resolved, coarsest, name)
+    return replace(path, notes=(*path.notes, *notes))
+
+
+def _samples(poses: PoseTable, time: Column, quaternion: Array) -> Samples:
+    """Positions, and twice the quaternion's components: an error of an angle is one of them."""
+    columns = {column.name: column for column in poses.position}
+    columns |= {
+        turn: Column(turn, _TWICE * values)
+        for turn, values in zip(_TURN, quaternion.T, strict=True)
+    }
+    return Samples(poses.table, time, columns, frozenset(_TURN))
+
+
+def _part(samples: Samples, columns: tuple[Column, ...]) -> Samples:
+    return replace(samples, columns={one.name: samples.columns[one.name] for one in columns})
+
+
+def _coarsest(poses: PoseTable, how: Stated) -> float:
+    """Resolution of the orientation [rad]; 0 where nothing turns and nobody says so."""
+    if poses.quaternion:
+        return how.angle
+    moving = [one.quantum for one in poses.orientation if np.ptp(one.values) > 0]
+    return max([how.angle, *moving])
+
+
+def _again(poses: PoseTable, samples: Samples) -> PoseTable:
+    """The poses of mended samples."""
+    from scipy.spatial.transform import Rotation
+
+    position = tuple(samples.columns[column.name] for column in poses.position)
+    quaternion = np.stack([samples.columns[turn].values for turn in _TURN], axis=-1)
+    rotation = Rotation.from_quat(quaternion).as_matrix()
+    return replace(poses, position=position, rotation=rotation)
+
+
+def _smoothed(
+    poses: PoseTable, samples: Samples, resolved: dict[str, float], coarsest: float, name: str
+) -> ToolPath:
     time = samples.time.values - samples.time.values[0]
+    turn, quaternion = turned(samples.time.values, poses.rotation, poses.written, poses.table.where)
+    moving = [one.values for one in poses.orientation if np.ptp(one.values) > 0]
+    runs = None if poses.quaternion else shared_runs(moving)
     curves = [
-        fitted(time, samples.columns[column].values, quanta[column], generator(1 + k))
-        for k, column in enumerate(place)
+        fitted(time, column.values, resolved[column.name], generator(1 + k))
+        for k, column in enumerate(poses.position)
     ]
-    turn = turns(orientation.rotation, orientation.written)
-    columns = quaternions.continuous(orientation.rotation, turn).T
-    steps, runs = _resolved(samples, quanta, orientation, columns)
     curves += [
-        fitted(time, column, step, generator(1 + PLACE + k), run)
-        for k, (column, step, run) in enumerate(zip(columns, steps, runs, strict=True))
+        fitted(time, values, resolved[of] / _TWICE, generator(1 + PLACE + k), runs)
+        for k, (of, values) in enumerate(zip(_TURN, quaternion.T, strict=True))
     ]
-    resolutions = [
-        _resolution(column, quanta[column], curve, False)
-        for column, curve in zip(place, curves, strict=False)
+    columns = [
+        _resolution(column, resolved[column.name], curve)
+        for column, curve in zip(poses.position, curves, strict=False)
     ]
     parts: list[tuple[int, ...]] = [(k,) for k in range(PLACE)]
-    quaternion = tuple(range(PLACE, len(curves)))
-    for k, column in enumerate(orientation.names):
-        if orientation.quaternion:
-            resolutions.append(_resolution(column, quanta[column], curves[PLACE + k], False))
-            parts.append((PLACE + k,))
-        elif samples.moves(column):  # angles make all of a quaternion together
-            noise = 2 * max(curves[k].sigma for k in quaternion)
-            resolutions.append(Resolution(column, quanta[column], noise, True, True))
-            parts.append(quaternion)
+    whole = tuple(range(PLACE, len(curves)))
+    noise = _TWICE * max(curves[k].sigma for k in whole)
+    for k, column in enumerate(poses.orientation):
+        if poses.quaternion:
+            columns.append(_resolution(column, column.quantum, curves[whole[k]]))
+            parts.append((whole[k],))
+        elif np.ptp(column.values) > 0:  # angles make all of a quaternion together
+            columns.append(Resolution(column.name, max(column.quantum, coarsest), noise, True, True))
+            parts.append(whole)
+    rate = 1.0 / float(np.median(np.diff(time)))
     variants = Variants(
-        tuple(curve.variants for curve in curves),
-        tuple(parts),
-        tuple(resolutions),
-        1.0 / float(np.median(np.diff(time))),
-        SEED,
+        tuple(curve.variants for curve in curves), tuple(parts), tuple(columns), rate, SEED
     )
-    written = np.zeros(3) if orientation.written is None else orientation.written[0]
     own = [curve.value for curve in curves]
+    start = np.zeros(3) if poses.written is None else poses.written[0]
     path = along_curves(
         own[:PLACE],
         own[PLACE:],
-        (time, named_alike(orientation.rotation, written)),
+        (time, named_alike(poses.rotation, start)),
         {
             "path": name,
             "nodes": len(time),
@@ -113,17 +163,6 @@ def smoothed(
     return replace(path, variants=variants)
 
 
-def _resolved(
-    samples: Samples, quanta: dict[str, float], orientation: Oriented, columns: Array
-) -> tuple[list[float], list[Array | None]]:
-    """Resolution of a quaternion's components, and how many samples share their error."""
-    if orientation.quaternion:
-        return [quanta[name] for name in orientation.names], [None] * len(columns)
-    steps = component_steps(columns.T, max(quanta[name] for name in orientation.names))
-    moving = [samples.columns[n].values for n in orientation.names if samples.moves(n)]
-    return steps, [shared_runs(moving)] * len(columns)
-
-
-def _resolution(name: str, quantum: float, curve: SmoothCurve, turns: bool) -> Resolution:
+def _resolution(column: Column, quantum: float, curve: SmoothCurve) -> Resolution:
     moves = len(curve.variants.c) > 1
-    return Resolution(name, quantum, max(curve.sigma, quantum * ROUNDING), moves, turns)
+    return Resolution(column.name, quantum, max(curve.sigma, quantum * ROUNDING), moves, False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -12,6 +13,7 @@ from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.dynamics.inverse import inverse_dynamics
 from pollard_pin.dynamics.three_motors import three_torques
 from pollard_pin.dynamics.variants import Way, drawn
+from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
     LENGTH,
@@ -29,9 +31,15 @@ from pollard_pin.report.reason import reason, sentences
 from pollard_pin.report.uncertainty.document import uncertainty
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.checks import choice, function, instance
+from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
-from thesis_pin.report.info import assumptions
+from thesis_pin.report import pace
+from thesis_pin.report.info import assumptions, odd_sizes
+from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
+
+ARM = 0.1
+"""Length [m] at which the tool's turning counts as its moving."""
 
 SCHEMA = "pollard-pin/trajectory-report"
 VERSION = 2
@@ -54,6 +62,19 @@ class TrajectoryReport(TrajectoryNumbers):
         """Why the path's samples carry no verdict; None if they do, or it is exact."""
         return reason(self)
 
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed."""
+        return self._doubts
+
+    @cached_property
+    def _doubts(self) -> list[str]:
+        seconds, speed, push = float(self.joints.time[-1] - self.joints.time[0]), 0.0, 0.0
+        for samples in blocks(len(self.joints.time)):
+            part = self.motion.part(samples)
+            speed = max(speed, largest(part.rate[:, :3], ARM * part.rate[:, 3:]))
+            push = max(push, largest(part.acceleration[:, :3], ARM * part.acceleration[:, 3:]))
+        return pace.doubts(seconds, speed * seconds, push)
+
     def assumptions(self) -> list[dict[str, object]]:
         """Numbers the thesis leaves open and this report rests on, with their reasons."""
         result = []
@@ -65,7 +86,7 @@ class TrajectoryReport(TrajectoryNumbers):
                     continue
                 one["name"] = f"inertia of {one['link']}"
             result.append(one)
-        return result
+        return [*result, *odd_sizes(implausible(self.robot.specification))]
 
     @property
     def parameters(self) -> dict[str, object]:
@@ -146,6 +167,8 @@ class TrajectoryReport(TrajectoryNumbers):
             "within_limits": self.within_limits,
             "verdict": None if self.within_limits is None else self.verdict(),
             "reason": self.reason,
+            "implausible": implausible(self.robot.specification),
+            "doubts": self.doubts(),
             **self.actuators.document(),
             "tool_speed": {
                 "least": float(self.tool_speed.min()),

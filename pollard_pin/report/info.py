@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from pollard_pin.closure import gruebler
+from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.model import Pollard
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, JOINT_SYMBOLS, LINK_NAMES
@@ -54,6 +55,7 @@ def document(robot: Pollard) -> info.Info:
         freedom={"counted": gruebler(), "by_rank": rank, "at_pose": pose},
         neutral={"spray_tip": pose[:3]},
         stated=spec.assumptions,
+        implausible=implausible(spec),
     )
 
 

@@ -29,7 +29,11 @@ def trajectory_page(report: TrajectoryReport) -> bytes:
             subtitle=f"{report.path.duration:.4g} s, branch {report.branch}, "
             f"{report.robot.inertia} inertias, {len(report.joints.time)} samples",
             good=report.within_limits,
-            verdict=[*report.verdict(), *(f"Note: {note}." for note in report.path.notes)],
+            verdict=[
+                *(f"Warning: {one}." for one in report.doubts()),
+                *report.verdict(),
+                *(f"Note: {note}." for note in report.path.notes),
+            ],
             tiles=_tiles(report),
             plots=plots(report, thinned(report.joints.time, MOST_SAMPLES)),
             tables=_tables(report),

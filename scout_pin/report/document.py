@@ -12,12 +12,12 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
 from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
+from scout_pin.implausible import implausible
 from scout_pin.kinematics.branches import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.report import verdict
-from scout_pin.report.implausible import implausible
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.report.stance import Stance, branch_asked, stance
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
@@ -25,8 +25,13 @@ from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
-from thesis_pin.report.info import assumptions
+from thesis_pin.report import pace
+from thesis_pin.report.info import assumptions, odd_sizes
+from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
+
+ARM = 0.1
+"""Length [m] at which a body's turning counts as its moving."""
 
 SCHEMA = "scout-pin/gait-report"
 VERSION = 2
@@ -59,11 +64,31 @@ class GaitReport(GaitNumbers):
         """The answer in plain sentences, the most important first."""
         return verdict.sentences(self)
 
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed."""
+        return self._doubts
+
+    @cached_property
+    def _doubts(self) -> list[str]:
+        seconds, speed, push = float(self.joints.time[-1] - self.joints.time[0]), 0.0, 0.0
+        for samples in blocks(len(self.joints.time)):
+            part = self.motion.part(samples)
+            for body in (part.torso, part.left_foot, part.right_foot):
+                speed = max(speed, largest(body.velocity, ARM * body.omega))
+                push = max(push, largest(body.acceleration, ARM * body.alpha))
+        return pace.doubts(seconds, speed * seconds, push)
+
     def assumptions(self) -> list[dict[str, object]]:
-        """Numbers the thesis leaves open, with their reasons."""
+        """Numbers that nothing prints, with their reasons, and sizes taken as they are."""
         assumed = assumptions(self.robot.specification.assumptions)
-        why = "the thesis leaves it open"
-        return [*assumed, {"name": "time_unit", "seconds": self.time_unit, "why": why}]
+        why = "asked for" if self.time_unit != self.gait.time_unit else "the gait's own"
+        if self.gait.source.startswith("Scout thesis"):
+            why = "the thesis leaves it open"
+        return [
+            *assumed,
+            {"name": "time_unit", "seconds": self.time_unit, "why": why},
+            *odd_sizes(implausible(self.robot.specification)),
+        ]
 
     @property
     def parameters(self) -> dict[str, object]:
@@ -140,6 +165,7 @@ class GaitReport(GaitNumbers):
             "can_walk": self.can_walk,
             "servos_carry": self.servos_carry,
             "verdict": self.verdict(),
+            "doubts": self.doubts(),
             "peak_torque": a.peak_torque,
             "rms_torque": a.rms_torque,
             "peak_speed": a.peak_speed,

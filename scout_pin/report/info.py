@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from scout_pin.implausible import implausible
 from scout_pin.model import Scout
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from scout_pin.urdf import JOINT_AXES
@@ -48,4 +49,5 @@ def document(robot: Scout) -> info.Info:
         freedom={"counted": 6 + len(joints), "by_rank": robot.model.nv, "at_pose": None},
         neutral={f"{side}_sole": foot[:3, 3].copy() for side, foot in feet.items()},
         stated=spec.assumptions,
+        implausible=implausible(spec),
     )

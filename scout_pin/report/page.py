@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from scout_pin.implausible import implausible
 from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
-from scout_pin.report.implausible import implausible
 from scout_pin.report.tables import joints_table
 from scout_pin.report.verdict import digs, soles_collide
 from scout_pin.report.view import gait_scene
@@ -32,6 +32,7 @@ def gait_page(report: GaitReport) -> bytes:
             f"{len(report.joints.time)} samples. {report.gait.source}",
             good=report.within_limits,
             verdict=[
+                *(f"Warning: {one}." for one in report.doubts()),
                 *report.verdict(),
                 *(f"Note: {note}." for note in report.gait.notes),
                 *(f"Warning: {one}" for one in implausible(report.robot.specification)),

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.implausible import implausible
 from scout_pin.kinematics.branches import BRANCHES, knee
 from scout_pin.kinematics.inverse import LegSolutions
-from scout_pin.report.implausible import implausible
 from scout_pin.report.servos import servo_limits
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.report import branches
@@ -75,7 +75,8 @@ def summary(report: GaitReport) -> Iterator[Part]:
             f"{impact.energy_lost * 1e3:z.2f} mJ lost"
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
-    yield from ("", *report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
+    yield from ("", *(f"Warning: {one}." for one in report.doubts()))
+    yield from (*report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
     yield from (f"Warning: {one}" for one in implausible(s.specification))
 
 

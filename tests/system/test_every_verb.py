@@ -22,6 +22,7 @@ SEEN = {
     "workspace": {"--out"},
     "urdf": {"--out"},
     "audit": {"--html"},
+    "size": {"--out"},
     "ik": set(),
     "fk": set(),
     "info": set(),

@@ -16,6 +16,8 @@ import scout_pin
 from pollard_pin.dynamics.inverse import tree_torques
 from pollard_pin.motion import curves as pollard_curves
 from pollard_pin.motion import samples as pollard_samples
+from pollard_pin.motion.feed import at_speed
+from pollard_pin.motion.path import ToolMotion
 from pollard_pin.thesis import ExplicitModel as PollardExplicit
 from scout_pin.thesis import ExplicitModel as ScoutExplicit
 from thesis_pin.errors import BadInput, ThesisPinError
@@ -239,6 +241,33 @@ CALLS = {
     ),
     "joined": (pollard_curves.joined, {"paths": [PATH]}),
     "load_path": (pollard_pin.load_path, {"file": str(EXAMPLES / "spray_arch.toml")}),
+    "at_speed": (
+        at_speed,
+        {
+            "position": np.array([[0.4, 0, 0], [0.4, 0.1, 0], [0.4, 0.2, 0.1]]),
+            "rotation": np.stack([np.eye(3)] * 3),
+            "speed": 0.05,
+            "timing": "ramped",
+        },
+    ),
+    "through_orientations": (
+        pollard_samples.through_orientations,
+        {
+            "time": [0, 1, 2],
+            "position": np.zeros((3, 3)),
+            "rotation": np.stack([np.eye(3)] * 3),
+            "method": "cubic",
+        },
+    ),
+    "ToolMotion.of_coordinates": (
+        ToolMotion.of_coordinates,
+        {
+            "time": [0, 1],
+            "pose": np.zeros((2, 6)),
+            "rate": np.zeros((2, 6)),
+            "acceleration": np.zeros((2, 6)),
+        },
+    ),
     "trajectory_report": (
         pollard_pin.trajectory_report,
         {"robot": POLLARD, "path": PATH, "samples": 5, "branch": BRANCH, "motors": "six"},

@@ -251,6 +251,7 @@ def bad_inputs(folder):
         "backwards.csv": BACKWARDS,
         "four.csv": "0,0.45,0,0\n1,0.46,0,0\n",
         "broken.toml": "format = 1\nname = 3\n",
+        "untimed.csv": "x,y,z,a,b,c\n.4,0,0,0,0,0\n.4,.1,0,0,0,0\n",
     }
     for name, text in files.items():
         (folder / name).write_text(text)
@@ -277,6 +278,27 @@ def bad_inputs(folder):
             ("trajectory", "--path", folder / "crossing.csv", "--duration", "3"),
             "--duration belongs to appendix B",
         ),
+        "feed without a path": (("trajectory", "--feed", "0.1"), "--feed belongs to a path"),
+        "feed beside times": (
+            ("trajectory", "--path", folder / "crossing.csv", "--feed", "0.1"),
+            "the path has times",
+        ),
+        "timing beside times": (
+            ("trajectory", "--path", folder / "crossing.csv", "--timing", "ramped"),
+            "the path has times",
+        ),
+        "neither time nor feed": (
+            ("trajectory", "--path", folder / "untimed.csv", "--euler", "ZYX"),
+            "neither a column of time nor a speed",
+        ),
+        "no order of angles": (
+            ("trajectory", "--path", folder / "untimed.csv", "--feed", "0.1"),
+            "nothing says in which order the angles a, b, c turn",
+        ),
+        "no order at all": (
+            ("trajectory", "--path", folder / "untimed.csv", "--euler", "ABC"),
+            "the order of the angles is 'ABC'",
+        ),
         "missing path": (("trajectory", "--path", folder / "none.csv"), "can't read the path"),
         "broken specification": (
             ("trajectory", "--specification", folder / "broken.toml"),
@@ -302,6 +324,20 @@ def test_what_cannot_be_reached_is_answered_by_no_and_the_reason(pollard_pin, ar
     document = pollard_pin(*arguments, "--json", "-")
     assert (document.returncode, document.stderr) == (1, "")
     assert says in json.loads(document.stdout)["explanation"]
+
+
+def test_angles_of_another_order_and_a_feed_are_taken_and_told(pollard_pin, tmp_path):
+    path = tmp_path / "cam.csv"
+    path.write_text(
+        "x_mm;y_mm;z_mm;a_deg;b_deg;c_deg\n400;-50;100;0;5,5;0\n420;0;110;0;0;0\n400;50;100;0;0;9\n"
+    )
+    done = pollard_pin(
+        "trajectory", "--path", path, "--euler", "ZYX", "--feed", "0.05", "--samples", "51"
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    told = " ".join(done.stdout.split())
+    assert "Note: a, b, c are read as Rz(a) Ry(b) Rx(c)." in told
+    assert "tool speed of 50 mm/s" in told
 
 
 def straight_wrist():

@@ -44,16 +44,7 @@ def report_verb(
         samples: Default number of samples.
         breaks: When ``--strict`` exits with 1.
     """
-
-    def how_many(words: Words) -> None:
-        words.add_argument(
-            "--samples",
-            type=options.count("--samples", 2),
-            default=samples,
-            metavar="N",
-            help=f"evenly spaced samples; more stand beside abrupt changes (default: {samples})",
-        )
-
+    how_many = partial(options.add_samples, default=samples)
     add = (robot.motion, how_many, partial(options.add_report, breaks=breaks))
     run = partial(verbs.report, what=f"working out the {name}")
     return _verb(robot, name, (help, description, example), robot.report, run, *add)
@@ -63,6 +54,42 @@ def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
     """The verb that shows a motion."""
     add = (robot.motion, options.add_view)
     return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
+
+
+def size_verb(robot: Robot, help: str, description: str, example: str, *, samples: int) -> Verb:
+    """The verb that holds a list of servos or motors against a motion."""
+
+    def which(words: Words) -> None:
+        words.add_argument(
+            "servos",
+            nargs="+",
+            metavar="LIST",
+            help="lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)",
+        )
+        words.add_argument(
+            "--voltage",
+            type=options.number("--voltage", positive=True),
+            metavar="V",
+            help="take those for this voltage (default: all)",
+        )
+        words.add_argument(
+            "--factor",
+            type=options.number("--factor", positive=True),
+            default=1.0,
+            help="least safety factor against the torque-speed line (default: 1)",
+        )
+        options.add_samples(words, samples)
+        words.add_argument("--out", metavar="DIR", help="write report.json and sizes.csv")
+        options.add_json(words, "the answer")
+        words.add_argument(
+            "--strict",
+            action="store_true",
+            help="exit with 1 if some joint has no servo that carries it for long",
+        )
+
+    return _verb(
+        robot, "size", (help, description, example), robot.size, verbs.size, which, robot.motion
+    )
 
 
 def ik_verb(
@@ -82,7 +109,7 @@ def info_verb(robot: Robot, example: str) -> Verb:
         example,
     )
     json = partial(options.add_json, what="it")
-    return _verb(robot, "info", texts, robot.info, verbs.info, json)
+    return _verb(robot, "info", texts, robot.info, verbs.info, json, options.add_strict)
 
 
 def urdf_verb(robot: Robot, help: str, description: str) -> Verb:

@@ -63,6 +63,17 @@ def add_branch(words: Words, signs: str, default: str) -> None:
     words.add_argument("--branch", metavar="SIGNS", help=f"{signs} (default: {default})")
 
 
+def add_samples(words: Words, default: int) -> None:
+    """At how many samples a motion is worked out."""
+    words.add_argument(
+        "--samples",
+        type=count("--samples", 2),
+        default=default,
+        metavar="N",
+        help=f"evenly spaced samples; more stand beside abrupt changes (default: {default})",
+    )
+
+
 def add_json(words: Words, what: str) -> None:
     """Write ``what`` as JSON."""
     words.add_argument("--json", metavar="FILE|-", help=f"write {what} as JSON")
@@ -76,6 +87,13 @@ def add_report(words: Words, breaks: str) -> None:
         "--html", metavar="FILE|-", help="write the report as a page to mail: animation and plots"
     )
     words.add_argument("--strict", action="store_true", help=f"exit with 1 if {breaks}")
+
+
+def add_strict(words: Words) -> None:
+    """Refuse what is only warned of."""
+    words.add_argument(
+        "--strict", action="store_true", help="refuse sizes that nobody builds (exit code 2)"
+    )
 
 
 def add_view(words: Words) -> None:

@@ -175,6 +175,7 @@ class Robot:
         load, specification: Read a specification, with its model and without.
         info: What it describes, see :mod:`thesis_pin.report.info`.
         urdf, files: Its URDF in one reading, and everything generated from it.
+        size: Servos or motors held against a report of the motion.
         thesis, audit: The thesis ready to be audited, and the function that does it.
     """
 
@@ -194,6 +195,7 @@ class Robot:
     info: str = "report.info:document"
     urdf: str = "urdf:urdf"
     files: str = "urdf:files"
+    size: str = "study.size:size"
     audit: str = "thesis.audit:audit"
     thesis: str = "thesis.audit:THESIS"
 

@@ -30,6 +30,9 @@ class Report(Protocol):
     def within_limits(self) -> bool:
         """Whether the robot can do it."""
 
+    def doubts(self) -> list[str]:
+        """What is to be asked before its numbers are believed; said on standard error too."""
+
     def document(self) -> Mapping[str, object]:
         """The whole report, JSON-ready."""
 
@@ -115,6 +118,8 @@ def deliver(
     write_results(arguments, files | drawn, content)
     if arguments.html:
         put(arguments.html, written)
+    for doubt in answer.doubts():
+        say(f"warning: {doubt}")
     if free(arguments):
         print_parts(_called(table)(answer))
     refused = arguments.strict and not answer.within_limits

@@ -88,7 +88,8 @@ def targets(parsed: argparse.Namespace) -> Iterator[None]:
 def _sources(parsed: argparse.Namespace) -> list[str]:
     """Files that the arguments name and that aren't outputs."""
     values = [value for option, value in vars(parsed).items() if option not in (*_FILES, "out")]
-    words = [value for value in values if isinstance(value, str) and "\0" not in value]
+    every = [one for value in values for one in (value if isinstance(value, list) else [value])]
+    words = [one for one in every if isinstance(one, str) and "\0" not in one]
     return [word for word in words if os.path.isfile(word)]
 
 

@@ -9,15 +9,26 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, Protocol
 
 from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Robot, found
-from thesis_pin.command.results import Answer, Report, deliver, give, put, put_folder, said
+from thesis_pin.command.results import (
+    Answer,
+    Report,
+    deliver,
+    give,
+    put,
+    put_folder,
+    said,
+    write_results,
+)
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
-from thesis_pin.errors import ModelWarning
+from thesis_pin.errors import BadInput, ModelWarning
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
+    from thesis_pin.sizing.document import Sizing
 
 
 class MakeReport(Protocol):
@@ -93,6 +104,27 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     return ExitCode.DONE
 
 
+def size(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Hold lists of servos against a motion."""
+    from thesis_pin.report.writers import csv_bytes, json_bytes
+    from thesis_pin.sizing.catalogue import read_catalogue
+    from thesis_pin.sizing.tables import summary
+
+    catalogue = read_catalogue(arguments.servos, voltage=arguments.voltage)
+    files: dict[str, bytes] = {}
+    with Bar("working out the motion") as bar:
+        report = _report(robot, arguments, lambda _: arguments.samples, bar)
+        found: Sizing = _hook(robot, robot.size)(report, catalogue, arguments.factor)
+        wanted = arguments.json or arguments.out
+        content = json_bytes(found.document(robot.command)) if wanted else b""
+        if arguments.out:
+            files = {"report.json": content, "sizes.csv": csv_bytes(found.columns())}
+    write_results(arguments, files, content)
+    if free(arguments):
+        print_parts(summary(found))
+    return ExitCode.NO if arguments.strict and not found.yes else ExitCode.DONE
+
+
 def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Inverse kinematics of one pose."""
     return give(arguments, lambda: _hook(robot, robot.solves)(arguments, _load(robot, arguments)))
@@ -151,11 +183,16 @@ def _hook(robot: Robot, name: str) -> Any:
 
 
 @contextlib.contextmanager
-def _said() -> Iterator[None]:
-    """Say what the library warns of in the words of a command."""
+def _said(strict: bool = False) -> Iterator[None]:
+    """Say what the library warns of in the words of a command, or refuse it."""
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always", ModelWarning)
         yield
+    odd = [str(one.message) for one in found if issubclass(one.category, ModelWarning)]
+    if strict and odd:
+        raise BadInput(
+            "; ".join(odd), where="--strict", remedy="Correct the sizes, or leave --strict out"
+        )
     for one in found:
         if issubclass(one.category, ModelWarning):
             say(f"warning: {one.message}")
@@ -164,7 +201,7 @@ def _said() -> Iterator[None]:
 
 
 def _load(robot: Robot, arguments: argparse.Namespace) -> Any:
-    with _said():
+    with _said(strict=getattr(arguments, "strict", False)):
         return _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
 
 

@@ -29,7 +29,7 @@ def torque_page(report: TorqueReport) -> bytes:
             title=f"{report.robot.model.name}: {report.motion.name}",
             subtitle=f"{time[-1] - time[0]:.4g} s, {len(time)} samples, {len(report.names)} motors",
             good=report.within_limits,
-            verdict=[*report.verdict(), *report.warnings()],
+            verdict=[*report.doubts(), *report.verdict(), *report.warnings()],
             tiles=_tiles(report),
             plots=plots(report, thinned(time, MOST_SAMPLES)),
             tables=_tables(report),

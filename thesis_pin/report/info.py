@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, TypedDict
 
 import numpy as np
@@ -65,6 +65,7 @@ class Info(TypedDict):
     freedom: Freedom
     neutral: dict[str, np.ndarray]
     assumptions: list[dict[str, object]]
+    implausible: list[str]
     thesis_pin: str
 
 
@@ -99,6 +100,11 @@ def assumptions(stated: BaseModel) -> list[dict[str, object]]:
     ]
 
 
+def odd_sizes(implausible: Iterable[str]) -> list[dict[str, object]]:
+    """Sizes that nobody builds, as assumptions: what was written is taken as it is."""
+    return [{"name": "implausible size", "why": one} for one in implausible]
+
+
 def document(
     command: str,
     robot: str,
@@ -112,6 +118,7 @@ def document(
     freedom: Freedom,
     neutral: Mapping[str, np.ndarray],
     stated: BaseModel,
+    implausible: Sequence[str] = (),
 ) -> Info:
     """A robot's joints, bodies, loops, freedom and assumptions, JSON-ready.
 
@@ -127,6 +134,7 @@ def document(
         freedom: Degrees of freedom.
         neutral: Where each end is in the neutral or usual pose [m], ``(3,)`` each.
         stated: The specification's assumptions.
+        implausible: Sizes that nobody builds, a sentence each.
     """
     return {
         "schema": f"{command}/info",
@@ -140,7 +148,8 @@ def document(
         "loops": list(loops),
         "freedom": freedom,
         "neutral": dict(neutral),
-        "assumptions": assumptions(stated),
+        "assumptions": [*assumptions(stated), *odd_sizes(implausible)],
+        "implausible": list(implausible),
         "thesis_pin": __version__,
     }
 
@@ -200,7 +209,8 @@ def told(info: Info) -> list[Part]:
             for loop in info["loops"]
         ),
         *(_place(end, place) for end, place in info["neutral"].items()),
-        *(_assumed(one) for one in info["assumptions"]),
+        *(_assumed(one) for one in info["assumptions"] if one["name"] != "implausible size"),
+        *(f"Warning: {one}" for one in info["implausible"]),
     ]
 
 

@@ -83,8 +83,8 @@ class Actuator:
             if much > most:
                 yield (
                     f"{self.name}: {self.stall_torque:g} N·m and {self.no_load_speed:g} rad/s make "
-                    f"{much:.2g} {unit} from {of}, and no actuator gives more than {most:.2g} "
-                    f"{unit} from that. If the torque is in kg·cm it is "
+                    f"{_round(much)} {unit} from {of}, and no actuator gives more than "
+                    f"{_round(most)} {unit} from that. If the torque is in kg·cm it is "
                     f"{self.stall_torque * KILOGRAM_CENTIMETRE:.3g} N·m; if the speed is in rpm "
                     f"it is {self.no_load_speed * RPM:.3g} rad/s."
                 )
@@ -94,3 +94,7 @@ class Actuator:
                 f"{self.name}: its rated torque of {self.rated_torque:g} N·m is above its stall "
                 f"torque of {self.stall_torque:g} N·m."
             )
+
+
+def _round(value: float) -> str:
+    return f"{value:.0f}" if value >= 10 else f"{value:.2g}"

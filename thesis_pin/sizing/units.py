@@ -15,9 +15,6 @@ KILOGRAM_CENTIMETRE = STANDARD_GRAVITY / 100
 """A kilogram-force at a centimetre [N·m]."""
 RPM = 2 * math.pi / 60
 """A turn a minute [rad/s]."""
-SIXTY = "s/60deg"
-"""The unit of a speed that is told by the time for 60°."""
-
 _TORQUE = {
     "nm": 1.0,
     "mnm": 1e-3,
@@ -57,32 +54,40 @@ class Quantity:
     Attributes:
         names: What it is called, letters and digits only.
         units: Unit → its size in SI, written likewise; NaN for seconds in 60°.
-        si: What it is taken for without a unit.
+        si: What it is taken for without a unit; empty if nobody has to be told.
+        example: Units that people write behind it, for messages.
     """
 
     names: tuple[str, ...]
     units: Mapping[str, float]
     si: str = ""
+    example: str = ""
 
 
 QUANTITIES = {
     "name": Quantity(("name", "servo", "motor", "actuator", "model", "part", "type"), {}),
     "stall_torque": Quantity(
-        ("stalltorque", "torque", "maxtorque", "peaktorque", "maximumtorque"), _TORQUE, "N·m"
+        ("stalltorque", "torque", "maxtorque", "peaktorque", "maximumtorque"),
+        _TORQUE,
+        "N·m",
+        "_Nm, _kgcm, [oz·in] and the like",
     ),
     "no_load_speed": Quantity(
-        ("noloadspeed", "speed", "maxspeed", "maximumspeed"), _SPEED, "rad/s"
+        ("noloadspeed", "speed", "maxspeed", "maximumspeed"),
+        _SPEED,
+        "rad/s",
+        "_rad_s, _rpm, [s/60°] and the like",
     ),
     "rated_torque": Quantity(("ratedtorque", "nominaltorque", "continuoustorque"), _TORQUE, "N·m"),
-    "voltage": Quantity(("voltage", "volts", "supply"), _VOLTAGE, "V"),
+    "voltage": Quantity(("voltage", "volts", "supply"), _VOLTAGE),
     "mass": Quantity(("mass", "weight"), _MASS, "kg"),
-    "rotor_inertia": Quantity(("rotorinertia", "motorinertia", "inertia"), _INERTIA, "kg·m²"),
-    "armature": Quantity(("armature", "reflectedinertia"), _INERTIA, "kg·m²"),
+    "rotor_inertia": Quantity(("rotorinertia", "motorinertia", "inertia"), _INERTIA),
+    "armature": Quantity(("armature", "reflectedinertia"), _INERTIA),
     "gear_ratio": Quantity(("gearratio", "gear", "reduction", "ratio"), {}),
-    "size": Quantity(("size", "dimensions"), _LENGTH, "m"),
-    "length": Quantity(("length",), _LENGTH, "m"),
-    "width": Quantity(("width",), _LENGTH, "m"),
-    "height": Quantity(("height", "depth"), _LENGTH, "m"),
+    "size": Quantity(("size", "dimensions"), _LENGTH),
+    "length": Quantity(("length",), _LENGTH),
+    "width": Quantity(("width",), _LENGTH),
+    "height": Quantity(("height", "depth"), _LENGTH),
 }
 """Quantity → how it is called and in which units."""
 

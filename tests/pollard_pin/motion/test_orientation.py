@@ -156,7 +156,7 @@ def test_half_a_turn_goes_as_the_angles_are_written(way):
 
 def test_half_a_turn_that_may_be_either_way_is_refused():
     matrices = Rotation.from_rotvec(np.outer([0, 0, np.pi], [1, 0, 0])).as_matrix()
-    with pytest.raises(TrajectoryError, match="orientations 1 and 2"):
+    with pytest.raises(TrajectoryError, match=r"t = 1 s to t = 2 s: the tool turns by half a turn"):
         through_orientations([0, 1, 2], np.ones((3, 3)), matrices)
 
 

@@ -7,6 +7,7 @@ import pinocchio as pin
 import pytest
 
 import scout_pin
+import thesis_pin
 from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import touchdown_impact
 from scout_pin.dynamics.inverse import inverse_dynamics
@@ -14,6 +15,7 @@ from scout_pin.motion.files import load_gait
 from scout_pin.report.document import gait_report
 from scout_pin.specification import JOINT_NAMES, Specification
 from scout_pin.thesis.explicit import ExplicitModel
+from scout_pin.urdf import files, write
 from thesis_pin.errors import BadInput
 
 from ..conftest import EXAMPLES, sole_jacobians
@@ -118,3 +120,16 @@ def test_a_report_counts_the_rotors_and_says_them(gait):
     summary = report.summary()
     np.testing.assert_allclose(summary["armature"], [REFLECTED] * 6 + [0.0] * 6)
     assert summary["implausible"] == []
+
+
+def test_what_is_generated_has_the_rotors_for_any_reader_of_ours(tmp_path, rng):
+    robot = geared(left_only=True)
+    write(robot.specification, tmp_path)
+    pair = thesis_pin.load(tmp_path / "scout.urdf", tmp_path / "scout.closures.yaml")
+    assert pair.actuators == JOINT_NAMES
+    np.testing.assert_allclose(pair.model.armature, robot.model.armature)
+    q, v, a = robot.to_free_flyer(*rng.uniform(-1, 1, (3, 18)))
+    expected = pin.rnea(robot.model, robot.data, q, v, a)
+    found = thesis_pin.inverse_dynamics(pair, q, v, a)
+    np.testing.assert_allclose(found.torque, expected[6:], atol=1e-12)
+    assert "scout.closures.yaml" not in files(Specification.read())

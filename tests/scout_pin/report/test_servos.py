@@ -3,9 +3,9 @@
 import pytest
 
 import scout_pin
+from scout_pin.implausible import implausible
 from scout_pin.motion.files import load_gait
 from scout_pin.report.document import gait_report
-from scout_pin.report.implausible import implausible
 from scout_pin.report.page import gait_page
 from scout_pin.report.servos import servo_limits
 from scout_pin.report.tables import summary

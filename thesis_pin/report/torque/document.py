@@ -20,6 +20,9 @@ from thesis_pin.report.torque import decision
 from thesis_pin.report.torque.drawn import Way, drawn
 from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.report.torque.uncertainty import uncertainty
+from thesis_pin.report import pace
+from thesis_pin.report.torque.numbers import TorqueNumbers
+from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
 SCHEMA, VERSION = "thesis-pin/torque", 2
@@ -48,6 +51,19 @@ class TorqueReport(TorqueNumbers):
     def reason(self) -> str | None:
         """Why the motion's samples carry no verdict; None if they do, or it is exact."""
         return decision.reason(self)
+
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed."""
+        motion = self.motion
+        found = []
+        for unit in ("m", "rad"):
+            here = [singles(self.robot.model)[name].unit == unit for name in motion.joints]
+            travel = float(np.ptp(motion.position[:, here], axis=0).max(initial=0.0))
+            push = float(np.abs(motion.acceleration[:, here]).max(initial=0.0))
+            if push >= TOLERANCES.inertia_unfelt:
+                return []
+            found += pace.doubts(float(motion.time[-1] - motion.time[0]), travel, push, unit)
+        return found
 
     def warnings(self) -> list[str]:
         """What may make the numbers wrong: of the motion, then of the description."""
@@ -142,6 +158,7 @@ class TorqueReport(TorqueNumbers):
             "within_limits": self.within_limits,
             "verdict": None if self.within_limits is None else self.verdict(),
             "reason": self.reason,
+            "doubts": self.doubts(),
             "warnings": self.warnings(),
             **self.actuators.document(),
             "effort_limits": [

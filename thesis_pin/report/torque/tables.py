@@ -53,6 +53,7 @@ def summary(report: TorqueReport) -> Iterator[Part]:
     yield f"Unexplained load: {report.unexplained.max():.1e} of the largest."
     if report.headlines is not None:
         yield open_table(report.headlines, report.names)
+    yield from (f"Warning: {one}." for one in report.doubts())
     yield from report.verdict()
     yield from (f"Note: {note}." for note in report.motion.notes)
     yield from (f"Warning: {one}" for one in report.warnings())

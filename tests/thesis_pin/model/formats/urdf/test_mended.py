@@ -74,3 +74,35 @@ def test_limits_of_joints_that_have_none_are_left_alone(kind, capfd):
 def test_a_negative_limit_is_refused_with_its_joint_and_line(key, value):
     with pytest.raises(ModelError, match=rf"URDF:5: joint 'j': its greatest {key} is -1"):
         LoadedRobot(TEXT.replace(f'{key}="{value}"', f'{key}="-1"'), {})
+
+
+@pytest.mark.parametrize(
+    ("solid", "says"),
+    [
+        ('<box size="1 1"/>', "size='1 1' of a <box> isn't right"),
+        ('<sphere radius="a"/>', "radius='a' of a <sphere> isn't right"),
+        ("<sphere/>", "radius='' of a <sphere> isn't right"),
+        ('<cylinder radius="1"/>', "length='' of a <cylinder> isn't right"),
+        ('<capsule radius="1" length="2"/>', "a URDF has no <capsule>"),
+        ('<mesh filename=""/>', "a <mesh> without a filename"),
+        ('<mesh filename="a.stl" scale="1"/>', "scale='1' of a <mesh> isn't right"),
+        ("", "a shape without <geometry>"),
+    ],
+)
+@pytest.mark.parametrize("tag", ["visual", "collision"])
+def test_a_shape_that_nobody_can_draw_is_left_out_and_named(solid, says, tag, capfd):
+    text = TEXT.replace('<sphere radius="1"/>', solid).replace("visual>", f"{tag}>")
+    robot = LoadedRobot(text, {})
+    assert len(robot.visual_model.geometryObjects) == 0
+    assert len(robot.collision_model.geometryObjects) == 0
+    said = f"URDF:4: link 'a': {says}; its <{tag}> is left out"
+    assert robot.description.warnings == (said,)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_material_without_a_name_takes_no_shape_with_it(capfd):
+    colour = '</geometry><material><color rgba="1 0 0 1"/></material>'
+    robot = LoadedRobot(TEXT.replace("</geometry>", colour), {})
+    (shape,) = robot.visual_model.geometryObjects
+    assert shape.meshColor.tolist() == [1, 0, 0, 1]
+    assert capfd.readouterr() == ("", "")

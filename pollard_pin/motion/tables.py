@@ -1,0 +1,200 @@
+"""Poses of the tool from a table: which columns hold the orientation, time or speed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from pollard_pin.motion import naming
+from thesis_pin.errors import BadInput, TrajectoryError
+from thesis_pin.tables.meaning import Chosen, chosen, known_names, time_column, time_names
+from thesis_pin.tables.reading import read_table
+from thesis_pin.tables.table import Column, Table
+from thesis_pin.tables.units import ANGLE, LENGTH, PLAIN, TIME, Unit, headings
+
+_PLACE = ("x", "y", "z")
+_BARE = ("time_s", "x_m", "y_m", "z_m", "psi_rad", "theta_rad", "phi_rad")
+
+FORMS = {
+    ("psi", "theta", "phi"): ANGLE,
+    ("qx", "qy", "qz", "qw"): PLAIN,
+    ("rx", "ry", "rz"): ANGLE,
+    ("roll", "pitch", "yaw"): ANGLE,
+    ("a", "b", "c"): ANGLE,
+}
+"""Columns that hold an orientation: one of these sets, and the units of its columns."""
+
+SPEEDS = (
+    Unit("_m_s"),
+    Unit("_mm_s", -3),
+    Unit("_m_min", factor=1 / 60),
+    Unit("_mm_min", -3, 1 / 60),
+)
+"""Units of a tool speed; which one always has to be said."""
+
+_UNITS = {
+    "t": TIME,
+    **dict.fromkeys(_PLACE, LENGTH),
+    **{name: units for form, units in FORMS.items() for name in form},
+}
+_KNOWN = {
+    **time_names(),
+    **known_names((name, units) for name, units in _UNITS.items() if name != "t"),
+    **known_names((name, SPEEDS) for name in ("feed", "speed")),
+}
+
+
+@dataclass(frozen=True)
+class PoseTable:
+    """Poses of the tool as a table holds them.
+
+    Attributes:
+        table: The table, for places in messages.
+        time: [s]; None if there is none.
+        speed: Of the spray tip [m/s]; None if there is none, or there is time.
+        position: x, y, z [m].
+        orientation: The columns it was read from, as :data:`FORMS` orders them.
+        rotation: Orientations, shape ``(n, 3, 3)``.
+        written: ψ, θ, φ [rad] if these were given, shape ``(n, 3)``.
+        notes: What was chosen, in plain words.
+    """
+
+    table: Table
+    time: Column | None
+    speed: Column | None
+    position: tuple[Column, ...]
+    orientation: tuple[Column, ...]
+    rotation: np.ndarray
+    written: np.ndarray | None
+    notes: tuple[str, ...]
+
+
+def read_poses(file: str | Path, euler: str | None = None) -> PoseTable:
+    """Poses of the tool from a table.
+
+    Args:
+        file: The table.
+        euler: Order of the angles in columns a, b, c or rx, ry, rz, see
+            :func:`pollard_pin.motion.naming.check_order`.
+
+    Raises:
+        BadInput: It can't be read, columns are missing or don't go together, or a cell isn't a
+            number.
+        TrajectoryError: Time doesn't increase, or there are fewer than two rows.
+    """
+    if euler is not None:
+        naming.check_order(euler)
+    table = read_table("path", file, bare=_BARE)
+    columns, unused = chosen(table, _KNOWN, tuple(_UNITS), lenient=True)
+    form = _form(table, columns)
+    timed = "t" in columns
+    speeds = [name for name in ("feed", "speed") if name in columns]
+    if len(speeds) > 1 and not timed:
+        raise BadInput("columns 'feed' and 'speed' say the same", where=table.file)
+    left_out = {*columns} - {"t", *_PLACE, *form} - (set() if timed else {*speeds})
+    unused += [table.header[columns[name][0]] for name in left_out]
+    time = time_column(table, columns) if timed else None
+    position = tuple(table.column(*columns[name], name) for name in _PLACE)
+    orientation = tuple(table.column(*columns[name], name) for name in form)
+    if len(table) < 2:
+        raise TrajectoryError(f"{len(table)} poses", where=table.file, allowed="at least 2")
+    values = np.stack([column.values for column in orientation], axis=-1)
+    rotation, said = _oriented(table, form, values, euler)
+    notes = [*table.dialect.notes, *said]
+    if unused:
+        names = ", ".join(sorted(unused, key=table.header.index))
+        notes.append(f"these columns mean nothing here and aren't used: {names}")
+    return PoseTable(
+        table,
+        time,
+        table.column(*columns[speeds[0]], "the speed") if speeds and not timed else None,
+        position,
+        orientation,
+        rotation,
+        values if form[0] == "psi" else None,
+        tuple(notes),
+    )
+
+
+def _form(table: Table, columns: Mapping[object, object] | Chosen) -> tuple[str, ...]:
+    """Which set of columns holds the orientation."""
+    whole = [form for form in FORMS if all(name in columns for name in form)]
+    if len(whole) > 1:  # a table may hold anything called a, b, c
+        whole = [form for form in whole if form[0] != "a"]
+    missing = [name for name in _PLACE if name not in columns]
+    if not whole:
+        nearest = max(FORMS, key=lambda form: sum(name in columns for name in form))
+        missing += [name for name in nearest if name not in columns]
+    if missing:
+        names = (" or ".join(headings(name, _UNITS[name])) for name in missing)
+        raise BadInput(
+            f"{len(table.header)} columns ({', '.join(table.header)}); missing: {', '.join(names)}",
+            where=table.file,
+            allowed="one column each for time, x, y, z and the orientation: "
+            + ", or ".join(" ".join(form) for form in FORMS),
+        )
+    if len(whole) > 1:
+        both = " and as ".join(", ".join(form) for form in whole)
+        raise BadInput(
+            f"the orientation is given as {both}",
+            where=table.file,
+            remedy="Leave all but one of them out",
+        )
+    return whole[0]
+
+
+def _oriented(
+    table: Table, form: tuple[str, ...], values: np.ndarray, euler: str | None
+) -> tuple[np.ndarray, list[str]]:
+    """Orientations of the columns of a form, and what has to be said of them."""
+    names = ", ".join(form)
+    kind = form[0]
+    if kind in ("rx", "a") and euler is not None:
+        if kind == "a":
+            return naming.from_euler(euler, values), [
+                f"{names} are read as {naming.said_order(euler, form)}"
+            ]
+        places = ["xyz".index(letter) for letter in euler.lower()]
+        if len({*places}) < 3:
+            raise BadInput(
+                f"{names} are angles about three axes, and the order {euler} takes one twice",
+                where=table.file,
+                remedy="Call the columns a, b and c, in the order of its letters",
+            )
+        said = naming.said_order(euler, [form[place] for place in places])
+        return naming.from_euler(euler, values[:, places]), [f"{names} are read as {said}"]
+    if euler is not None:
+        reason = f"are ours: {naming.OURS}" if kind == "psi" else "have no order to choose"
+        raise BadInput(
+            f"an order of angles is given ({euler}), and {names} {reason}",
+            where=table.file,
+            remedy="Leave the order out, or call the angles a, b and c in the order of its letters",
+        )
+    if kind == "psi":
+        return naming.from_angles(values), []
+    if kind == "qx":
+        off = naming.not_unit(values)
+        if off is not None:
+            raise BadInput(
+                f"the quaternion's length is {np.linalg.norm(values[off]):.6g}",
+                where=table.where(off),
+                allowed="unit quaternions, 1 up to rounding",
+                remedy="Columns qx, qy, qz, qw hold one, qw its real part",
+            )
+        return naming.from_quaternions(values), []
+    if kind == "roll":
+        return naming.from_euler("xyz", values), [f"{names} are read as Rz(yaw) Ry(pitch) Rx(roll)"]
+    if kind == "rx":
+        return naming.from_rotation_vectors(values), [
+            f"{names} are read as a rotation vector, its axis times its angle; "
+            "an order of angles (euler) reads them otherwise"
+        ]
+    raise BadInput(
+        f"nothing says in which order the angles {names} turn",
+        where=table.file,
+        allowed="an order as ZYX (euler), the first letter's angle in a",
+        remedy=f"psi, theta and phi are ours: {naming.OURS}",
+    )

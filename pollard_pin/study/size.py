@@ -1,0 +1,44 @@
+"""Which motors of a list carry a path."""
+
+from __future__ import annotations
+
+from pollard_pin.report.document import TrajectoryReport
+from pollard_pin.specification import ACTUATOR_NAMES, ACTUATORS
+from thesis_pin.errors import BadInput
+from thesis_pin.numeric.checks import instance
+from thesis_pin.numeric.long import gathered
+from thesis_pin.sizing.catalogue import Catalogue
+from thesis_pin.sizing.document import Sizing
+from thesis_pin.sizing.document import size as size_loads
+from thesis_pin.sizing.loads import Loads
+
+
+def size(report: TrajectoryReport, catalogue: Catalogue, factor: float = 1.0) -> Sizing:
+    """Hold motors against what a path asks of each joint.
+
+    Args:
+        report: From :func:`pollard_pin.trajectory_report`, with six motors.
+        catalogue: From :func:`thesis_pin.sizing.catalogue.read_catalogue`.
+        factor: Least safety factor.
+
+    Raises:
+        BadInput: The report is of the thesis's three motors, which leave part of the load.
+    """
+    instance("report", report, TrajectoryReport, "pollard_pin.trajectory_report()")
+    if report.three is not None:
+        raise BadInput(
+            "three motors don't carry the whole load, so that their torques size nothing",
+            allowed="six",
+        )
+    joints, count = report.joints, len(report.joints.time)
+    loads = Loads.of(
+        report.robot.specification.name,
+        report.path.name,
+        ACTUATOR_NAMES,
+        joints.time,
+        report.torque,
+        gathered(count, joints.part, lambda part: part.v[:, ACTUATORS]),
+        gathered(count, joints.part, lambda part: part.a[:, ACTUATORS]),
+        report.robot.specification.motors.armature(),
+    )
+    return size_loads(loads, catalogue, factor)

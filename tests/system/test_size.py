@@ -1,0 +1,69 @@
+"""The verb ``size`` of both commands: answers, exit codes, files, refusals."""
+
+import csv
+import json
+
+import pytest
+from commands import ROOT, run
+
+LIST = "name,torque_Nm,speed_rpm,mass_g,price\nweak,0.1,50,10,3\nstrong,9,60,90,40\n"
+MOTIONS = {
+    "scout-pin": ["--gait", str(ROOT / "examples" / "walk.toml"), "--samples", "41"],
+    "pollard-pin": ["--path", str(ROOT / "examples" / "spray_arch.toml"), "--samples", "41"],
+}
+
+
+@pytest.fixture(params=MOTIONS)
+def size(request, tmp_path, capfd):
+    def call(*words, text=LIST):
+        servos = tmp_path / "servos.csv"
+        servos.write_text(text, encoding="utf-8")
+        name = request.param
+        return run(f"{name} size", ["size", str(servos), *MOTIONS[name], *words], capfd)
+
+    call.command = request.param
+    return call
+
+
+def test_the_smallest_that_carries_it_is_named(size):
+    code, out, err = size()
+    assert (code, err) == (0, "")
+    assert "strong is the smallest of 2 (by mass) that carries every joint for" in out
+    assert "Not counted: masses" in " ".join(out.split())
+
+
+def test_where_none_carries_it_strict_says_no(size):
+    text = LIST.replace("strong,9", "strong,0.11")
+    code, out, _ = size(text=text)
+    assert code == 0
+    assert "No servo of 2 carries every joint for long." in out
+    assert size("--strict", text=text)[0] == 1
+    assert size("--strict")[0] == 0
+    assert size("--strict", "--factor", "1000")[0] == 1
+
+
+def test_files_have_every_servo_at_every_joint(size, tmp_path):
+    code, out, err = size("--json", "-", "--out", str(tmp_path / "out"))
+    document = json.loads(out)
+    assert code == 0
+    assert document["schema"] == f"{size.command}/size"
+    joints = len(document["joints"])
+    assert [len(row) for row in document["fits"]["factor"]] == [joints] * 2
+    assert document["servos"][1]["extra"] == {"price": "40"}
+    text = (tmp_path / "out" / "sizes.csv").read_text(encoding="utf-8")
+    rows = list(csv.DictReader(text.splitlines()))
+    assert len(rows) == 2 * joints
+    assert f"wrote {tmp_path / 'out'}: report.json, sizes.csv" in err
+
+
+def test_a_bad_list_is_one_error_with_its_line(size):
+    code, out, err = size(text=LIST.replace("60", "fast"))
+    assert (code, out) == (2, "")
+    assert "servos.csv:3: speed_rpm: 'fast' isn't a number" in err
+
+
+def test_a_list_isn_t_replaced_by_an_answer(size, tmp_path):
+    code, _, err = size("--json", str(tmp_path / "servos.csv"))
+    assert code == 2
+    assert "would replace" in err
+    assert (tmp_path / "servos.csv").read_text(encoding="utf-8") == LIST

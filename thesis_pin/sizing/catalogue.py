@@ -1,0 +1,136 @@
+"""Lists of servos and motors as people have them → actuators.
+
+A table (CSV in whatever dialect) with a row a servo, a TOML file with a table
+``[servos.NAME]`` each, or parameter files of :mod:`thesis_pin.sizing.bam`. Columns and keys say
+their units (:mod:`thesis_pin.sizing.units`); others are carried along.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+from pydantic import Field
+
+from thesis_pin.errors import BadInput
+from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.source import read_text
+from thesis_pin.model.specification import Strict, read_toml
+from thesis_pin.sizing.actuator import Actuator
+from thesis_pin.sizing.bam import read_identified
+from thesis_pin.sizing.rows import Cell, actuators_of, meanings_of, unsaid
+from thesis_pin.tables.reading import read_table
+
+KIND = "list of servos"
+
+
+class ServoList(Strict):
+    """A list in TOML: a table a servo, its keys as the columns of a table."""
+
+    format: Literal[1] = 1
+    servos: dict[str, dict[str, Cell]] = Field(default_factory=dict)
+    motors: dict[str, dict[str, Cell]] = Field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Catalogue:
+    """Actuators to choose from.
+
+    Attributes:
+        actuators: In the order of their files and rows.
+        notes: What was taken for granted, and what was left out.
+    """
+
+    actuators: tuple[Actuator, ...]
+    notes: tuple[str, ...] = ()
+
+
+def read_catalogue(
+    files: str | Path | Sequence[str | Path], *, voltage: float | None = None
+) -> Catalogue:
+    """Read lists of servos.
+
+    Args:
+        files: One or several; see the head of this module.
+        voltage: Take those that are for it [V], or for none in particular; None takes all.
+
+    Raises:
+        BadInput: A file can't be read, has no stall torque or speed, or a cell is no number.
+        SpecificationError: A TOML file has other keys.
+    """
+    paths = [files] if isinstance(files, str | Path) else list(files)
+    found: list[Actuator] = []
+    notes: list[str] = []
+    for path in paths:
+        some, said = _read(path, voltage)
+        found += some
+        notes += said
+    kept = [one for one in found if None in (voltage, one.voltage) or one.voltage == voltage]
+    if len(kept) > LIMITS.entries:
+        raise BadInput(
+            f"there are {len(kept):,} servos",
+            where=", ".join(map(str, paths)),
+            allowed=f"at most {LIMITS.entries:,}",
+        )
+    if len(kept) < len(found):
+        notes.append(f"{len(found) - len(kept)} are left out: they are for another voltage")
+    if not kept:
+        raise BadInput(
+            "there is no servo" + (f" for {voltage:g} V" if found and voltage else ""),
+            where=", ".join(map(str, paths)),
+        )
+    return Catalogue(tuple(_apart(kept)), tuple(dict.fromkeys(notes)))
+
+
+def _read(path: str | Path, voltage: float | None) -> tuple[list[Actuator], list[str]]:
+    where = str(path)
+    if where.lower().endswith(".toml"):
+        listed = read_toml(KIND, ServoList, path)
+        tables = {**listed.servos, **listed.motors}
+        found: list[Actuator] = []
+        notes: list[str] = []
+        for name, entry in tables.items():
+            here = f"{where}: {name}"
+            entry = {**entry, "name": name}
+            meanings = meanings_of(list(entry), here)
+            notes += unsaid(meanings, where)
+            found += actuators_of(entry, meanings, here)
+        return found, notes
+    if where.lower().endswith(".json"):
+        return [read_identified(read_text(KIND, path), where, voltage)], []
+    table = read_table(KIND, path)
+    meanings = meanings_of(table.header, where)
+    notes = [f"{where}: {one}" for one in table.dialect.notes] + unsaid(meanings, where)
+    found = []
+    for number, cells in enumerate(table.rows):
+        row: dict[str, Cell] = dict(zip(table.header, cells, strict=True))
+        if table.dialect.decimal == ",":
+            row = {key: _pointed(cell) for key, cell in row.items()}
+        found += actuators_of(row, meanings, table.where(number))
+    return found, notes
+
+
+def _pointed(cell: Cell) -> Cell:
+    numeric = isinstance(cell, str) and re.fullmatch(r"[-+]?\d*,\d+([eE][-+]?\d+)?", cell)
+    return cell.replace(",", ".") if isinstance(cell, str) and numeric else cell
+
+
+def _apart(actuators: Sequence[Actuator]) -> Iterator[Actuator]:
+    """The same with names that differ: by their voltage, or by where they stand."""
+    count = Counter(one.name for one in actuators)
+    volts = Counter((one.name, one.voltage) for one in actuators)
+    for one in actuators:
+        if count[one.name] == 1:
+            yield one
+        elif one.voltage is not None and volts[one.name, one.voltage] == 1:
+            yield replace(one, name=f"{one.name} at {one.voltage:g} V")
+        else:
+            raise BadInput(
+                f"{one.name!r} is listed {count[one.name]} times",
+                where=one.where,
+                allowed="each servo once for each voltage",
+            )

@@ -1,0 +1,73 @@
+"""What a motion asks of each joint, apart from who drives it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Loads:
+    """Torques, speeds and accelerations of joints over a motion.
+
+    Attributes:
+        robot, motion: What they are called.
+        joints: Names of the joints, ``k`` of them.
+        time: Sample times [s], shape ``(n,)``.
+        torque: What the motors give at the joints without any rotor [N·m], ``(n, k)``.
+        speed: [rad/s], the same shape.
+        acceleration: [rad/s²], the same shape.
+        notes: What is left out of them, whole sentences.
+    """
+
+    robot: str
+    motion: str
+    joints: tuple[str, ...]
+    time: Array
+    torque: Array
+    speed: Array
+    acceleration: Array
+    notes: tuple[str, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        robot: str,
+        motion: str,
+        joints: Sequence[str],
+        time: Array,
+        torque: Array,
+        speed: Array,
+        acceleration: Array,
+        armature: Array,
+        notes: Sequence[str] = (),
+    ) -> Loads:
+        """Loads from torques that hold rotors; in a given motion these are N² J θ̈ each.
+
+        Args:
+            robot: What it is called.
+            motion: The same of the motion.
+            joints: Names.
+            time: [s], shape ``(n,)``.
+            torque: With the rotors [N·m], shape ``(n, k)``.
+            speed: [rad/s], the same shape.
+            acceleration: [rad/s²], the same shape.
+            armature: Of the rotors that they hold, N² J [kg·m²], shape ``(k,)``.
+            notes: What is left out.
+        """
+        bare = torque - armature * acceleration
+        return cls(robot, motion, tuple(joints), time, bare, speed, acceleration, tuple(notes))
+
+    def with_rotor(self, armature: float) -> Array:
+        """Torques of motors with such a rotor at each joint [N·m], shape ``(n, k)``."""
+        return np.asarray(self.torque + armature * self.acceleration)
+
+    def rms(self, values: Array) -> Array:
+        """Root mean square over time of values ``(n, k)``: ``(k,)``."""
+        duration = self.time[-1] - self.time[0]
+        return np.asarray(np.sqrt(np.trapezoid(values**2, self.time, axis=0) / duration))
