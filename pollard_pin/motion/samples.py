@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -14,8 +14,9 @@ from pollard_pin.motion.path import Sampled, ToolPath
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.numeric import quaternions
 from thesis_pin.numeric.arrays import finite_array
-from thesis_pin.numeric.interpolation import interpolate
+from thesis_pin.numeric.interpolation import free_quintic, interpolate
 from thesis_pin.numeric.trajectory import BodyMotion
+from thesis_pin.tolerances import TOLERANCES
 
 
 def through(
@@ -55,6 +56,7 @@ def through_orientations(
 
     From one orientation to the next the tool turns the shorter way: unit quaternions,
     continuous in sign, are interpolated and the curve's own quaternion is brought to unit length.
+    Method ``"free"`` is a cubic spline of the positions and a quintic one of the quaternions.
 
     Args:
         time: [s], strictly increasing, shape ``(n,)``; the path begins at its first.
@@ -86,21 +88,45 @@ def through_orientations(
         k = error.step
         raise quaternions.HalfTurn(k, f"{place(k)} to {place(k + 1)}") from None
     quaternion = quaternions.continuous(rotation, turn)
-    curves += [interpolate(time - begin, column, method) for column in quaternion.T]
+    # A quaternion bends with the square of the rate of its turn, where angles would stay
+    # straight: two degrees more keep what a cubic spline of the angles is worth.
+    turned = free_quintic if method == "free" else partial(interpolate, method=method)
+    curves += [turned(time - begin, column) for column in quaternion.T]
     size = np.linalg.norm(turn, axis=-1)
-    k = int(np.argmax(size))
-    note = (
-        f"from {place(k)} to {place(k + 1)} the tool turns by {np.degrees(size[k]):.4g}°, the "
-        "shorter way between samples so far apart"
-    )
     angles = named_alike(rotation, np.zeros(3) if written is None else written[0])
     return along_curves(
         curves[:3],
         curves[3:],
         (time - begin, angles),
-        {"path": name, "nodes": len(time), "interpolation": method, "largest_turn": float(size[k])},
-        (note,) if size[k] > FAR else (),
+        {
+            "path": name,
+            "nodes": len(time),
+            "interpolation": method,
+            "largest_turn": float(size.max()),
+        },
+        tuple(_notes(size, written, place)),
     )
+
+
+def _notes(
+    size: np.ndarray, written: np.ndarray | None, place: Callable[[int], str]
+) -> Iterator[str]:
+    """What the shorter way makes of the turns between samples, if that may surprise."""
+    k = int(np.argmax(size))
+    if size[k] > FAR:
+        yield (
+            f"from {place(k)} to {place(k + 1)} the tool turns by {np.degrees(size[k]):.4g}°, the "
+            "shorter way between samples so far apart"
+        )
+    if written is None:
+        return
+    jump = np.abs(np.diff(written, axis=0)).max(axis=-1)
+    k = int(np.argmax(jump))
+    if jump[k] > np.pi + TOLERANCES.half_turn:
+        yield (
+            f"from {place(k)} to {place(k + 1)} the angles are written {np.degrees(jump[k]):.4g}° "
+            f"apart, and the tool turns the shorter way, by {np.degrees(size[k]):.4g}°"
+        )
 
 
 def along_curves(

@@ -85,6 +85,14 @@ def quintic(t: ArrayLike, value: ArrayLike) -> PPoly:
     return PPoly.from_spline(make_interp_spline(*_nodes(t, value), k=5, bc_type=(ends, ends)))
 
 
+def free_quintic(t: ArrayLike, value: ArrayLike) -> PPoly:
+    """Quintic spline through samples of a motion that goes on at both ends, C⁴; cubic below six."""
+    nodes, values = _nodes(t, value)
+    if len(nodes) < 6:
+        return free(nodes, values)
+    return PPoly.from_spline(make_interp_spline(nodes, values, k=5))
+
+
 METHODS: dict[str, Callable[[ArrayLike, ArrayLike], PPoly]] = {
     "linear": linear,
     "quadratic": quadratic,

@@ -55,17 +55,17 @@ def test_a_nod_through_straight_down_needs_the_true_torque_at_every_rate(pollard
         np.testing.assert_allclose(peaks(pollard, path.at(fine)), truth, rtol=0.01)
 
 
-def test_the_error_of_samples_falls_with_the_square_of_their_step(pollard):
-    """A cubic spline's acceleration is of second order, through the singular angles as well."""
+def test_the_error_of_samples_falls_with_the_fourth_power_of_their_step():
+    """As a quintic spline's acceleration does, through the singular angles as well."""
     at = np.linspace(0.5, 2.5, 401)
     truth = ToolMotion.of_coordinates(at, *nod(at)).tool.alpha
     errors = []
-    for rate in (10, 20, 40):
+    for rate in (20, 40, 80):
         time = np.arange(0, 3 * rate + 1) / rate
         path = through(time, converted(nod(time)[0]), "free")
         errors.append(np.abs(path.at(at).tool.alpha - truth).max())
-    assert 3 < errors[0] / errors[1] < 5.5
-    assert 3 < errors[1] / errors[2] < 5.5
+    assert 12 < errors[0] / errors[1] < 22
+    assert 12 < errors[1] / errors[2] < 22
 
 
 @settings(max_examples=25, deadline=None)
@@ -132,9 +132,7 @@ def test_a_turn_of_more_than_half_goes_the_shorter_way_and_says_so(make):
     turned = Rotation.from_matrix(path.sample(101).tool.rotation)
     total = sum((turned[1:] * turned[:-1].inv()).magnitude())
     assert np.degrees(total) == pytest.approx(139, abs=1e-6)
-    assert len(path.notes) == 1
-    assert "139°" in path.notes[0]
-    assert "shorter way" in path.notes[0]
+    assert any("written 499° apart" in note and "by 139°" in note for note in path.notes)
     key = "turn" if "turn" in path.parameters else "largest_turn"
     assert path.parameters[key] == pytest.approx(np.radians(139))
 
@@ -142,7 +140,19 @@ def test_a_turn_of_more_than_half_goes_the_shorter_way_and_says_so(make):
 def test_small_turns_need_no_note():
     assert not line(START, START + np.array([0, 0, 0, 0.3, 0.2, 3.0]), 2).notes
     time = np.linspace(0, 3, 31)
-    assert not through(time, converted(nod(time)[0])).notes
+    assert not through(time, nod(time)[0]).notes
+
+
+def test_angles_written_more_than_half_a_turn_apart_are_told():
+    """A wrap from 175° to −175° is a turn of 10°, in samples as on a line."""
+    wrapped = np.radians([[0, 0, 165], [0, 0, 175], [0, 0, -175], [0, 0, -165]])
+    poses = np.column_stack([np.tile(START[:3], (4, 1)), wrapped])
+    (note,) = through(np.arange(4), poses).notes
+    assert note.startswith("from t = 1 s to t = 2 s the angles are written 350° apart")
+    assert note.endswith("by 10°")
+    (note,) = line(poses[1], poses[2], 1.0).notes
+    assert "350° apart" in note
+    assert note.endswith("by 10°")
 
 
 @pytest.mark.parametrize("way", [1, -1])

@@ -9,6 +9,7 @@ from thesis_pin.errors import NotFinite, TrajectoryError, UnknownName
 from thesis_pin.numeric.interpolation import (
     METHODS,
     constant,
+    free_quintic,
     interpolate,
     join,
     jumps,
@@ -75,6 +76,17 @@ def test_samples_of_a_cubic_give_it_back_when_the_ends_are_free():
     probe = np.linspace(0, 2, 31)
     np.testing.assert_allclose(curve(probe), probe**3 - probe, atol=1e-13)
     np.testing.assert_allclose(curve(probe, 1), 3 * probe**2 - 1, atol=1e-12)
+
+
+def test_samples_of_a_quintic_give_it_back():
+    t = np.array([0, 0.3, 1.1, 1.5, 2.4, 3.0, 3.1])
+    true = np.polynomial.Polynomial([1, -2, 0.5, 0.3, -0.4, 0.1])
+    curve, at = free_quintic(t, true(t)), np.linspace(0, 3.1, 50)
+    for order in range(4):
+        expected = true.deriv(order)(at) if order else true(at)
+        np.testing.assert_allclose(curve(at, order), expected, atol=1e-9)
+    few = free_quintic(t[:5], true(t[:5]))
+    np.testing.assert_array_equal(few(at), interpolate(t[:5], true(t[:5]), "free")(at))
 
 
 def test_jumps_are_found_at_inner_knots():
