@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from thesis_pin.smoothing.stated import Stated, stated
 
 from pollard_pin.motion.feed import at_speed
 from pollard_pin.motion.path import Timing, ToolPath
@@ -21,7 +22,6 @@ from pollard_pin.motion.tables import PoseTable, read_poses
 from pollard_pin.motion.toml import read_toml_path
 from thesis_pin.errors import BadInput
 from thesis_pin.files import name_as_text
-from thesis_pin.smoothing.stated import Stated, stated
 from thesis_pin.tables.reading import TABLES
 
 _G_CODE = (".nc", ".ngc", ".gcode", ".tap")
@@ -98,7 +98,6 @@ def read_csv(
     """
     poses = read_poses(file, euler)
     name, where = name_as_text(Path(file).name), poses.table.where
-    position = np.stack([column.values for column in poses.position], axis=-1)
     if poses.time is not None:
         for what, given in (("a tool speed", feed), ("a timing law", timing)):
             if given is not None:
@@ -110,7 +109,7 @@ def read_csv(
         path = timed(poses, poses.time, method, how or Stated(), name)
     else:
         path = at_speed(
-            position,
+            np.stack([column.values for column in poses.position], axis=-1),
             poses.rotation,
             _speed(poses, feed),
             timing or "ramped",

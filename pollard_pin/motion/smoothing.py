@@ -11,17 +11,17 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from thesis_pin.smoothing.stated import Stated
 
 from pollard_pin.motion.orientation import named_alike
 from pollard_pin.motion.path import ToolPath
-from pollard_pin.motion.samples import along_curves, through_orientations, turned
+from pollard_pin.motion.samples import along_curves, continued, through_orientations
 from pollard_pin.motion.tables import PoseTable
 from pollard_pin.motion.variants import PLACE, Variants
 from thesis_pin.smoothing.curve import SEED, SmoothCurve, fitted, generator
 from thesis_pin.smoothing.noise import ROUNDING
 from thesis_pin.smoothing.orientation import component_steps, shared_runs
 from thesis_pin.smoothing.resolution import Resolution
-from thesis_pin.smoothing.stated import Stated
 from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, warning
 from thesis_pin.tables.table import Column
 
@@ -34,9 +34,7 @@ _TURN = tuple(f"the orientation's {name}" for name in ("x", "y", "z", "w"))
 _TWICE = 2.0  # a turn by ε moves a component of the quaternion by at most ε / 2
 
 
-def timed(
-    poses: PoseTable, time: Column, method: str | None, how: Stated, name: str
-) -> ToolPath:
+def timed(poses: PoseTable, time: Column, method: str | None, how: Stated, name: str) -> ToolPath:
     """The path of a table with times: through samples that are exact enough, else smoothed.
 
     Args:
@@ -50,7 +48,7 @@ def timed(
         TrajectoryError: Too few poses, or half a turn between two.
     """
     where = poses.table.where
-    _, quaternion = turned(time.values, poses.rotation, poses.written, where)
+    quaternion, _, _ = continued(poses.rotation, poses.written, where)
     samples = _samples(poses, time, quaternion)
     resolved = quanta(_part(samples, poses.position), how)
     coarsest = _coarsest(poses, how)
@@ -118,7 +116,7 @@ def _smoothed(
     poses: PoseTable, samples: Samples, resolved: dict[str, float], coarsest: float, name: str
 ) -> ToolPath:
     time = samples.time.values - samples.time.values[0]
-    turn, quaternion = turned(samples.time.values, poses.rotation, poses.written, poses.table.where)
+    quaternion, largest, notes = continued(poses.rotation, poses.written, poses.table.where)
     moving = [one.values for one in poses.orientation if np.ptp(one.values) > 0]
     runs = None if poses.quaternion else shared_runs(moving)
     curves = [
@@ -141,7 +139,9 @@ def _smoothed(
             columns.append(_resolution(column, column.quantum, curves[whole[k]]))
             parts.append((whole[k],))
         elif np.ptp(column.values) > 0:  # angles make all of a quaternion together
-            columns.append(Resolution(column.name, max(column.quantum, coarsest), noise, True, True))
+            columns.append(
+                Resolution(column.name, max(column.quantum, coarsest), noise, True, True)
+            )
             parts.append(whole)
     rate = 1.0 / float(np.median(np.diff(time)))
     variants = Variants(
@@ -157,8 +157,9 @@ def _smoothed(
             "path": name,
             "nodes": len(time),
             "interpolation": "smoothed",
-            "largest_turn": float(np.linalg.norm(turn, axis=-1).max()),
+            "largest_turn": largest,
         },
+        notes,
     )
     return replace(path, variants=variants)
 

@@ -16,12 +16,11 @@ from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.loops.motion.whole import whole_motion
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
+from thesis_pin.report import pace
 from thesis_pin.report.torque import decision
 from thesis_pin.report.torque.drawn import Way, drawn
 from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.report.torque.uncertainty import uncertainty
-from thesis_pin.report import pace
-from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
