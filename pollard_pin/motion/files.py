@@ -13,7 +13,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from thesis_pin.smoothing.stated import Stated, stated
 
 from pollard_pin.motion.feed import at_speed
 from pollard_pin.motion.path import Timing, ToolPath
@@ -22,6 +21,7 @@ from pollard_pin.motion.tables import PoseTable, read_poses
 from pollard_pin.motion.toml import read_toml_path
 from thesis_pin.errors import BadInput
 from thesis_pin.files import name_as_text
+from thesis_pin.smoothing.stated import Stated, stated
 from thesis_pin.tables.reading import TABLES
 
 _G_CODE = (".nc", ".ngc", ".gcode", ".tap")

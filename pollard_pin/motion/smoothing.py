@@ -11,7 +11,6 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from thesis_pin.smoothing.stated import Stated
 
 from pollard_pin.motion.orientation import named_alike
 from pollard_pin.motion.path import ToolPath
@@ -22,6 +21,7 @@ from thesis_pin.smoothing.curve import SEED, SmoothCurve, fitted, generator
 from thesis_pin.smoothing.noise import ROUNDING
 from thesis_pin.smoothing.orientation import component_steps, shared_runs
 from thesis_pin.smoothing.resolution import Resolution
+from thesis_pin.smoothing.stated import Stated
 from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, warning
 from thesis_pin.tables.table import Column
 
