@@ -19,10 +19,11 @@ ROOT = Path(__file__).resolve().parents[1]
 def gaits() -> Iterator[str]:
     """What the report says of the gaits that come with the package."""
     import scout_pin
+    from scout_pin.report.limits import headline
 
     yield (
         "| gait | on | can it walk? | ZMP margin, worst | peak torque | servo line "
-        "| fastest time unit |"
+        "| walks and is carried at |"
     )
     yield "| --- | --- | --- | --- | --- | --- | --- |"
     examples = ROOT / "examples"
@@ -35,6 +36,7 @@ def gaits() -> Iterator[str]:
         report = scout_pin.gait_report(robot, scout_pin.load_gait(gait))
         name = gait if isinstance(gait, str) else f"`examples/{gait.name}`"
         peak = report.actuators.peak_torque.max()
+        units = headline(report.time_units, report.time_unit)
         cells = (
             name,
             robot.specification.name,
@@ -42,7 +44,7 @@ def gaits() -> Iterator[str]:
             f"{report.margin.min() * 1e3:.1f} mm",
             f"{peak:.3f} N·m",
             f"{report.servo_use.max():.0%}",
-            f"{report.fastest.line * 1e3:.1f} ms" if report.fastest.line else "none",
+            f"{units.shortest * 1e3:.1f} to {units.longest * 1e3:.0f} ms" if units else "none",
         )
         yield f"| {' | '.join(cells)} |"
 

@@ -24,7 +24,13 @@ def report(
     from scout_pin.motion.files import load_gait
     from scout_pin.report.document import gait_report
 
-    gait = load_gait(arguments.gait, arguments.interpolation, robot=robot)
+    gait = load_gait(
+        arguments.gait,
+        arguments.interpolation,
+        robot=robot,
+        smooth=arguments.smooth,
+        time_unit=arguments.time_unit,
+    )
     if arguments.cycle:
         gait = replace(gait, cycle=True)
     one = gait.end - gait.start

@@ -1,4 +1,4 @@
-"""Figures of a trajectory report: the thesis's 4.1 to 4.4 for any path, loop forces, margins."""
+"""Figures of a trajectory report: 4.1 to 4.4 for any path, loop forces, margins, tool."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ def figures(report: TrajectoryReport) -> dict[str, bytes]:
         drawn[name] = panels([chains[:2], chains[2:]], 10, 7)
     margins = (curves.loop_reactions, curves.conditioning, curves.reach_margin)
     drawn["margins"] = panels([[plot(report, keep)] for plot in margins], 8, 8)
+    drawn["tool"] = panels([[curves.tool_speed(report, keep)]], 8, 3)
     files: dict[str, bytes] = {}
     for name, figure in drawn.items():
         files |= figure_files(name, figure)

@@ -8,8 +8,7 @@ from scout_pin.kinematics.forward import leg_frames
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
-from thesis_pin.contacts import sharing
-from thesis_pin.contacts.sharing import scaled_sole_maps
+from thesis_pin.contacts.sharing import LoadSharing, scaled_sole_maps
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 
@@ -33,6 +32,17 @@ def share_load(
         Wrenches about the torso's origin in its axes, ``(m, 2, 6)``, and their
         violation [N·m, forces scaled], ``(m,)``.
     """
+    return sharing_problem(robot, motion, joints, forces, double).solve()
+
+
+def sharing_problem(
+    robot: Scout,
+    motion: GaitMotion,
+    joints: JointTrajectory,
+    forces: np.ndarray,
+    double: np.ndarray,
+) -> LoadSharing:
+    """The problem that :func:`share_load` solves; same arguments."""
     jacobians, maps, contacts = [], [], robot.contacts
     for k, foot in enumerate((motion.left_foot, motion.right_foot)):
         frames = leg_frames(robot.legs[SIDES[k]], joints.q[double, 6 * k : 6 * k + 6])
@@ -41,7 +51,7 @@ def share_load(
         turn = np.swapaxes(foot.rotation[double], 1, 2) @ motion.torso.rotation[double]
         maps.append(scaled_sole_maps(turn, frames.sole.T, contacts[k].length))
     torques = forces[double, 6:12], forces[double, 12:18]
-    return sharing.share_load(
+    return LoadSharing.of(
         contacts,
         (jacobians[0], jacobians[1]),
         (maps[0], maps[1]),

@@ -1,27 +1,27 @@
-"""How fast a gait may be run before a servo's limit is met."""
+"""How fast a gait may be run: where its servos carry it, and where it walks as well."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from scout_pin.dynamics.inverse import inverse_dynamics, joint_friction
-from scout_pin.model import Scout
-from scout_pin.motion.gait import Gait, GaitMotion
-from thesis_pin.contacts.dynamics import ContactDynamics
+from scout_pin.motion.cycles import Gap, closure
+from scout_pin.motion.gait import Gait
+from scout_pin.motion.variants import RateJump
+from scout_pin.report.speeds import CAUSES, Cause, Speeds, stretches
+from scout_pin.specification import JOINT_NAMES
 from thesis_pin.numeric.elementwise import blocks
-from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.numeric.inequalities import Intervals
 from thesis_pin.tolerances import TOLERANCES
 
-_TRIED = 32  # samples of double support added at a time to those it is bisected on
-_MOST = 2048  # samples of double support among which they are chosen
+SPEEDS = (0.2, 5.0)
+"""How many times faster than given a gait is looked at."""
 
 
 @dataclass(frozen=True)
 class FastestTimeUnit:
-    """Smallest time unit [s] each servo limit allows; None if none does.
+    """Smallest time unit [s] each servo limit allows; None if gravity alone passes it.
 
     Attributes:
         speed: The no-load speed alone.
@@ -34,118 +34,150 @@ class FastestTimeUnit:
     line: float | None
 
 
-def fastest_time_unit(
-    robot: Scout,
-    gait: Gait,
-    motion: GaitMotion,
-    joints: JointTrajectory,
-    dynamics: ContactDynamics,
-    unit: float,
-) -> FastestTimeUnit:
-    """Smallest time unit that the servos' limits allow.
+def fastest_time_unit(speeds: Speeds, unit: float) -> FastestTimeUnit:
+    """Smallest time unit that the servos' limits allow, coming from standstill.
 
-    Running the gait s times faster multiplies speeds by s and the part of the
-    torques that comes from motion by s²; gravity's part stays. In single support
-    the smallest s at which a limit is met is therefore a root of a quadratic. In
-    double support the sharing rule isn't quadratic in s: at the speed that single
-    support allows, the samples that ask most are found, and s is bisected on them.
+    Args:
+        speeds: The gait at any speed.
+        unit: Seconds in the gait's unit of t at s = 1.
     """
     speed = 0.0
-    for part in blocks(len(joints.time)):
-        share = np.abs(joints.part(part).v) / robot.no_load_speed
+    for part in blocks(len(speeds.joints.time)):
+        share = np.abs(speeds.joints.part(part).v) / speeds.robot.no_load_speed
         speed = max(speed, float(unit * share.max()))
-    single = np.flatnonzero(~motion.support.all(axis=1))
-    double = np.flatnonzero(motion.support.all(axis=1))
-    double = double[:: 1 + len(double) // _MOST]
-    chosen = (motion.t[double], joints.part(double))
-    results = []
-    for line, factor in enumerate(_in_single_support(robot, motion, joints, dynamics, single)):
-        if double.size and factor > 0:
-            factor = _limit_in_double_support(robot, gait, chosen, unit, bool(line), factor)
-        results.append(unit / factor if factor > 0 else None)
-    return FastestTimeUnit(speed, results[0], results[1])
+    found: list[float | None] = []
+    causes: tuple[Cause, Cause] = ("stall torque", "servo")
+    for cause in causes:
+        first = next(iter(stretches(speeds.servos[cause], speeds.low, speeds.high)), None)
+        if first is None or first.low > speeds.low:
+            found.append(None)
+            continue
+        taken = speeds.settled(first, cause, stands=False)
+        left = next(iter(stretches(taken, first.low, first.high)), None)
+        found.append(None if left is None or left.low > first.low else unit / left.high)
+    return FastestTimeUnit(speed, *found)
 
 
-def _in_single_support(
-    robot: Scout,
-    motion: GaitMotion,
-    joints: JointTrajectory,
-    dynamics: ContactDynamics,
-    single: np.ndarray,
-) -> tuple[float, float]:
-    """The largest speed-up on samples of single support by torque alone, and by the line."""
-    viscous = robot.specification.assumptions.joint_friction.viscous
-    stall, slope = robot.stall_torque, robot.stall_torque / robot.no_load_speed
-    torque = line = np.inf
-    for part in blocks(len(single)):
-        some = single[part]
-        moving, at_rest = joints.part(some), motion.at_rest(some)
-        zero = np.zeros(moving.q.shape)
-        still = JointTrajectory(at_rest.time, moving.q, zero, zero)
-        static = inverse_dynamics(robot, at_rest, still).torque
-        friction, linear = joint_friction(robot, moving.v), viscous * moving.v
-        constant, square = static + friction - linear, dynamics.torque[some] - friction - static
-        torque = min(torque, _first_limit(constant, linear, square, zero, stall))
-        growth = np.abs(moving.v) * slope
-        line = min(line, _first_limit(constant, linear, square, growth, stall))
-    return torque, line
+@dataclass(frozen=True)
+class Limit:
+    """What ends an interval of time units.
+
+    Attributes:
+        cause: One of :data:`CAUSES`, ``"range"`` where the search ends.
+        t: Time in the gait's unit, None if it isn't one sample's.
+        joint: Name of the joint, or of what doesn't fit.
+    """
+
+    cause: str
+    t: float | None = None
+    joint: str = ""
+
+    @property
+    def words(self) -> str:
+        """As in "left_hip_roll's servo at t = 12"."""
+        at = "" if self.t is None else f" at t = {self.t:.4g}"
+        return {
+            "range": "as far as was looked",
+            "zmp": f"the ZMP leaves the support polygon{at}",
+            "contact": f"the floor can't give the wrench{at}",
+            "servo": f"the servo of {self.joint}{at}",
+            "rate jump": f"a rate that jumps{at} ({self.joint})",
+            "gap": f"a cycle that doesn't close ({self.joint})",
+        }[self.cause]
 
 
-def _first_limit(
-    constant: np.ndarray, linear: np.ndarray, square: np.ndarray, growth: np.ndarray, limit: Any
-) -> float:
-    """Smallest s > 0 with |constant + linear s + square s²| + growth s = limit; 0 if at rest."""
-    if (np.abs(constant) > limit).any():
-        return 0.0
-    smallest = np.inf
-    for sign in (1.0, -1.0):
-        a, b, c = sign * square, sign * linear + growth, sign * constant - limit
-        with np.errstate(divide="ignore", invalid="ignore"):
-            root = np.sqrt(b * b - 4 * a * c)
-            # c ≤ 0, so this form of the root that grows from s = 0 never cancels.
-            found = -2 * c / (b + root)
-        found = np.where(np.isfinite(found) & (found > 0), found, np.inf)
-        smallest = min(smallest, float(found.min(initial=np.inf)))
-    return smallest
+@dataclass(frozen=True)
+class TimeUnits:
+    """Time units at which the gait walks and its servos carry it.
+
+    Attributes:
+        shortest, longest: The interval [s].
+        below, above: What ends it on the fast side, and on the slow one.
+    """
+
+    shortest: float
+    longest: float
+    below: Limit
+    above: Limit
+
+    @property
+    def words(self) -> str:
+        """The interval in a clause."""
+        return (
+            f"{self.shortest:.4g} s ({self.below.words}) to {self.longest:.4g} s "
+            f"({self.above.words})"
+        )
+
+    def document(self) -> dict[str, object]:
+        """JSON-ready."""
+        ends = (("below", self.below), ("above", self.above))
+        return {
+            "shortest": self.shortest,
+            "longest": self.longest,
+            **{name: {**vars(limit), "words": limit.words} for name, limit in ends},
+        }
 
 
-def _limit_in_double_support(
-    robot: Scout,
-    gait: Gait,
-    chosen: tuple[np.ndarray, JointTrajectory],
-    unit: float,
-    line: bool,
-    factor: float,
-) -> float:
-    """The largest speed-up, at most ``factor``, at which double support keeps the limit too."""
-    t, joints = chosen
+def time_units(speeds: Speeds, gait: Gait, com: np.ndarray, unit: float) -> list[TimeUnits]:
+    """Time units between a fifth and five times the given one at which all limits are kept.
 
-    def use(some: np.ndarray, s: float) -> np.ndarray:
-        motion = gait.sample(t[some], unit / s)
-        # Run s times faster the joints pass the same angles, on the same branch.
-        q, v, a = joints.q[some], joints.v[some] * s, joints.a[some] * s**2
-        faster = JointTrajectory(motion.time, q, v, a)
-        share = np.abs(inverse_dynamics(robot, motion, faster).torque) / robot.stall_torque
-        if line:
-            share = share + np.abs(v) / robot.no_load_speed
-        return np.asarray(share.max(axis=1))
+    What happens at any speed isn't looked at: soles that collide or dig into the floor.
 
-    upper = min(factor, 1e3)
-    every = np.ones(len(t), dtype=bool)
-    active = ~every
-    share = use(every, upper)
-    if (share <= 1.0).all():
-        return factor
-    # Samples that ask most at one speed need not at another: bisect on those known
-    # to matter, and go on while some other sample breaks the limit found.
-    while (share > 1.0).any():
-        active[np.argsort(share)[-_TRIED:]] = True
-        lower = 1e-3 * upper
-        if (use(active, lower) > 1.0).any():
-            return 0.0
-        while upper / lower > 1.0 + TOLERANCES.time_unit:
-            middle = float(np.sqrt(lower * upper))
-            kept = (use(active, middle) <= 1.0).all()
-            lower, upper = (middle, upper) if kept else (lower, middle)
-        upper, share = lower, use(every, lower)
-    return upper
+    Args:
+        speeds: The gait at any speed.
+        gait: The gait.
+        com: Centre of mass at each sample [m], shape ``(n, 3)``.
+        unit: Seconds in the gait's unit of t at s = 1.
+
+    Returns:
+        Intervals, shortest units first.
+    """
+    low, high = SPEEDS
+    jump, gap = _jump(gait, unit / high), _gap(gait, unit / high)
+    taken = Intervals.joined([speeds.servos["servo"], speeds.balance(com)], 3)
+    for cause, found in (("rate jump", jump), ("gap", gap)):
+        if found is not None:
+            start = TOLERANCES.rate_jump / abs(found.size) * high
+            source = np.array([[CAUSES.index(cause), -1, -1]])
+            passed = Intervals(np.array([start]), np.array([np.inf]), source)
+            taken = Intervals.joined([taken, passed], 3)
+    more = [speeds.settled(rest, "servo", stands=True) for rest in stretches(taken, low, high)]
+    taken = Intervals.joined([taken, *more], 3)
+
+    def limit(number: int | None) -> Limit:
+        if number is None:
+            return Limit("range")
+        cause, sample, joint = taken.source[number]
+        if CAUSES[cause] == "rate jump" and jump is not None:
+            return Limit("rate jump", jump.t, f"{jump.body.replace('_', ' ')} {jump.coordinate}")
+        if CAUSES[cause] == "gap" and gap is not None:
+            return Limit("gap", None, f"{gap.body.replace('_', ' ')} {gap.coordinate} rate")
+        name = JOINT_NAMES[joint] if joint >= 0 else ""
+        return Limit(CAUSES[cause], float(speeds.motion.t[sample]), name)
+
+    return [
+        TimeUnits(unit / rest.high, unit / rest.low, limit(rest.above), limit(rest.below))
+        for rest in reversed(stretches(taken, low, high))
+    ]
+
+
+def headline(units: list[TimeUnits], unit: float) -> TimeUnits | None:
+    """The interval that holds a time unit, or else the nearest; None if there is none."""
+    return min(
+        units,
+        key=lambda one: max(one.shortest / unit, unit / one.longest, 1.0),
+        default=None,
+    )
+
+
+def _jump(gait: Gait, unit: float) -> RateJump | None:
+    """The largest jump of a planned rate at a time unit."""
+    return next(iter(gait.rate_jumps(unit)), None)
+
+
+def _gap(gait: Gait, unit: float) -> Gap | None:
+    """The rate of a cycle that fits least at a time unit."""
+    gaps = closure(gait, unit).gaps if gait.cycle else ()
+    return max(
+        (gap for gap in gaps if gap.what == "rate"), key=lambda gap: abs(gap.size), default=None
+    )

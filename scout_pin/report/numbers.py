@@ -8,16 +8,21 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.dynamics.impact import Impact
+from scout_pin.dynamics.variants import Drawn
 from scout_pin.model import Scout
-from scout_pin.motion.gait import Gait, GaitMotion, RateJump
+from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.swings import Swing, lowest_corner, sole_gap, swings
+from scout_pin.motion.variants import RateJump
 from scout_pin.report.ends import Ends, ends
-from scout_pin.report.limits import FastestTimeUnit, fastest_time_unit
+from scout_pin.report.limits import FastestTimeUnit, TimeUnits, fastest_time_unit, time_units
+from scout_pin.report.speeds import Speeds
+from scout_pin.report.uncertainty.headlines import Headlines, Worked, headlines
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks, intervals
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise_parts
+from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -36,6 +41,7 @@ class GaitNumbers:
         zmp: Zero-moment point by (6.1) [m], shape ``(n, 2)``.
         margin: Signed distance of the ZMP inside the support polygon [m], ``(n,)``.
         impacts: Touchdowns.
+        drawn: What samples of finite resolution leave open; None if the gait is exact.
     """
 
     robot: Scout
@@ -49,6 +55,15 @@ class GaitNumbers:
     zmp: np.ndarray
     margin: np.ndarray
     impacts: tuple[Impact, ...]
+    drawn: Drawn | None = None
+
+    @cached_property
+    def headlines(self) -> Headlines | None:
+        """Intervals of the numbers that count; None if the gait is exact."""
+        if self.drawn is None or self.gait.variants is None:
+            return None
+        worked = Worked(self.robot, self.motion, self.joints, self.dynamics, self.margin)
+        return headlines(worked, self.drawn, self.gait.variants)
 
     @cached_property
     def actuators(self) -> ActuatorSummary:
@@ -70,11 +85,22 @@ class GaitNumbers:
         return most
 
     @cached_property
+    def speeds(self) -> Speeds:
+        """The same gait at any speed."""
+        return Speeds(self.robot, self.motion, self.joints, self.dynamics)
+
+    @cached_property
     def fastest(self) -> FastestTimeUnit:
-        """Time units the servos allow."""
-        return fastest_time_unit(
-            self.robot, self.gait, self.motion, self.joints, self.dynamics, self.time_unit
-        )
+        """Smallest time units the servos allow."""
+        return fastest_time_unit(self.speeds, self.time_unit)
+
+    @cached_property
+    def time_units(self) -> list[TimeUnits]:
+        """Time units at which the gait walks and its servos carry it."""
+        places = self.ends.cycle and not self.ends.closure.places_fit
+        if self.digs or self.soles_collide or places:  # at any speed
+            return []
+        return time_units(self.speeds, self.gait, self.com, self.time_unit)
 
     @property
     def stable_share(self) -> float:
@@ -129,6 +155,19 @@ class GaitNumbers:
     def sole_gap(self) -> tuple[float, int]:
         """Least distance of the soles [m], and the sample at which they are nearest."""
         return sole_gap(self.robot, self.motion)
+
+    @property
+    def digs(self) -> bool:
+        """Whether a swinging sole goes into the floor, by more than samples leave open."""
+        lowest = self.lowest_corner
+        if self.headlines is not None and self.headlines.lowest is not None:
+            lowest = self.headlines.lowest.high
+        return lowest is not None and lowest < -TOLERANCES.clearance
+
+    @property
+    def soles_collide(self) -> bool:
+        """Whether the soles touch each other."""
+        return self.sole_gap[0] < TOLERANCES.sole_gap
 
     @cached_property
     def tips_towards_swing(self) -> bool:

@@ -7,12 +7,14 @@ import numpy as np
 from scout_pin.implausible import implausible
 from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
+from scout_pin.report.limits import headline
 from scout_pin.report.tables import joints_table
-from scout_pin.report.verdict import digs, soles_collide
+from scout_pin.report.uncertainty.document import columns_table, open_table
 from scout_pin.report.view import gait_scene
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
+from thesis_pin.smoothing.intervals import Interval
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -46,43 +48,69 @@ def gait_page(report: GaitReport) -> bytes:
 
 
 def _tiles(report: GaitReport) -> list[Tile]:
-    use, fastest = report.servo_use.max(), report.fastest.line
-    used = report.peak_friction_used
+    use = report.servo_use.max()
+    used, held = report.peak_friction_used, report.headlines
     return [
         Tile(
             "worst ZMP margin",
             f"{report.margin.min() * 1e3:z.1f} mm",
-            bool(report.margin.min() > 0),
+            _side(None if held is None else held.margin, float(report.margin.min()), 0.0),
         ),
         Tile(
             "samples whose wrench the floor can give",
             f"{report.dynamics.admissible.mean():.1%}",
             bool(report.dynamics.admissible.all()),
         ),
-        Tile("worst use of a servo's torque-speed line", f"{use:.0%}", bool(use <= 1)),
+        Tile("worst use of a servo's torque-speed line", f"{use:.0%}", report.servos_carry),
         Tile("peak torque", f"{report.actuators.peak_torque.max():.3f} N·m"),
         _clearance(report),
-        Tile("soles apart, least", f"{report.sole_gap[0] * 1e3:.1f} mm", not soles_collide(report)),
-        Tile("fastest time unit", "none" if fastest is None else f"{fastest:.4f} s"),
+        Tile("soles apart, least", f"{report.sole_gap[0] * 1e3:.1f} mm", not report.soles_collide),
+        _time_units(report),
         Tile("work of all servos", f"{report.actuators.positive_work.sum() * 1e3:.0f} mJ"),
         Tile("friction used, most", "–" if used is None else f"{used:.0%}"),
     ]
+
+
+def _side(held: Interval | None, value: float, limit: float) -> bool | None:
+    """Whether a number is above its limit; None if the samples can't say."""
+    if held is None:
+        return value > limit
+    return {1: True, -1: False}.get(held.side(limit))
+
+
+def _time_units(report: GaitReport) -> Tile:
+    """The interval of time units at which it walks and is carried, nearest the given one."""
+    found = headline(report.time_units, report.time_unit)
+    if found is None:
+        return Tile("time units at which it walks and is carried", "none", False)
+    inside = found.shortest <= report.time_unit <= found.longest
+    value = f"{found.shortest:.4g} to {found.longest:.4g} s"
+    return Tile("time units at which it walks and is carried", value, inside)
 
 
 def _clearance(report: GaitReport) -> Tile:
     """Mid-swing clearance; not good if a sole digs into the floor or scrapes."""
     if report.clearance is None:
         return Tile("mid-swing clearance", "no swing")
-    good = not digs(report) and not any(swing.scrapes for swing in report.swings)
+    good = not report.digs and not any(swing.scrapes for swing in report.swings)
     return Tile("mid-swing clearance", f"{report.clearance * 1e3:z.1f} mm", good)
 
 
 def _tables(report: GaitReport) -> list[Table]:
     return [
         joints_table(report),
+        *_open(report),
         *_impacts(report),
         *closing_tables(report.assumptions(), report.parameters),
     ]
+
+
+def _open(report: GaitReport) -> list[Table]:
+    """What samples of finite resolution leave open, and what they resolve."""
+    held, variants = report.headlines, report.gait.variants
+    if held is None or variants is None:
+        return []
+    return [open_table(held), columns_table(variants, report.time_unit)]
 
 
 def _impacts(report: GaitReport) -> list[Table]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.report import ends
+from scout_pin.report.limits import SPEEDS, headline
 from scout_pin.report.numbers import GaitNumbers
 from thesis_pin.tolerances import TOLERANCES
 
@@ -17,24 +18,18 @@ def servos_carry(numbers: GaitNumbers) -> bool:
 def can_walk(numbers: GaitNumbers) -> bool:
     """Whether the floor can give every wrench, feet swing clear, no rate jumps, a cycle closes."""
     return bool(
-        (numbers.margin > 0).all()
-        and numbers.dynamics.admissible.all()
-        and not digs(numbers)
-        and not soles_collide(numbers)
-        and numbers.ends.kind != "open cycle"
-        and not numbers.rate_jumps
+        (numbers.margin > 0).all() and numbers.dynamics.admissible.all() and feet_and_rates(numbers)
     )
 
 
-def digs(numbers: GaitNumbers) -> bool:
-    """Whether a swinging sole goes into the floor."""
-    lowest = numbers.lowest_corner
-    return lowest is not None and lowest < -TOLERANCES.clearance
-
-
-def soles_collide(numbers: GaitNumbers) -> bool:
-    """Whether the soles touch each other."""
-    return numbers.sole_gap[0] < TOLERANCES.sole_gap
+def feet_and_rates(numbers: GaitNumbers) -> bool:
+    """All but what the floor has to supply: feet swing clear, no rate jumps, a cycle closes."""
+    return (
+        not numbers.digs
+        and not numbers.soles_collide
+        and numbers.ends.kind != "open cycle"
+        and not numbers.rate_jumps
+    )
 
 
 def within_limits(numbers: GaitNumbers) -> bool:
@@ -42,12 +37,19 @@ def within_limits(numbers: GaitNumbers) -> bool:
     return can_walk(numbers) and servos_carry(numbers)
 
 
-def sentences(numbers: GaitNumbers) -> list[str]:
-    """The verdict, most important first: walking, contact, ends, servos, swing feet."""
+def sentences(numbers: GaitNumbers, *, walking: bool = True, servos: bool = True) -> list[str]:
+    """The verdict, most important first: walking, contact, ends, servos, speed, swing feet.
+
+    Args:
+        numbers: What it is about.
+        walking: Whether to say if the floor can supply what the gait needs.
+        servos: Whether to say if the servos can carry it.
+    """
     return [
-        *_walking(numbers),
+        *(_walking(numbers) if walking else ()),
         *ends.sentences(numbers.ends),
-        *_servos(numbers),
+        *(_servos(numbers) if servos else ()),
+        *(_speed(numbers) if walking and servos else ()),
         *_swing(numbers),
         *_smooth(numbers),
     ]
@@ -103,7 +105,7 @@ def _walking(numbers: GaitNumbers) -> list[str]:
 
 
 def _servos(numbers: GaitNumbers) -> list[str]:
-    use, fastest = numbers.servo_use, numbers.fastest
+    use = numbers.servo_use
     k = int(np.argmax(use))
     if servos_carry(numbers):
         text = (
@@ -115,19 +117,29 @@ def _servos(numbers: GaitNumbers) -> list[str]:
             f"The servos can't carry it: {numbers.actuators.names[k]} needs {use[k]:.0%} of its "
             "torque-speed line."
         )
-    if fastest.line is None:
-        text += " No time unit is slow enough: gravity alone overloads a servo."
-    else:
-        text += f" The line allows a time unit down to {fastest.line:.4f} s."
     return [text]
+
+
+def _speed(numbers: GaitNumbers) -> list[str]:
+    """At which time units it does both; the interval with the given one first."""
+    unit, found = numbers.time_unit, numbers.time_units
+    first = headline(found, unit)
+    if first is None:
+        low, high = (unit / speed for speed in reversed(SPEEDS))
+        return [f"At no time unit from {low:.4g} to {high:.4g} s does it walk and is carried."]
+    inside = first.shortest <= unit <= first.longest
+    text = "It walks, and the servos carry it, " if inside else "It would do both "
+    text += f"at time units from {first.words}"
+    others = [f"{one.shortest:.4g} to {one.longest:.4g} s" for one in found if one is not first]
+    return [f"{text}; also from {', '.join(others)}." if others else f"{text}."]
 
 
 def _swing(numbers: GaitNumbers) -> list[str]:
     said = []
-    if digs(numbers):
+    if numbers.digs:
         depth = -(numbers.lowest_corner or 0.0)
         said.append(f"A swinging sole goes {depth * 1e3:.1f} mm into the floor.")
-    if soles_collide(numbers):
+    if numbers.soles_collide:
         time = numbers.motion.t[numbers.sole_gap[1]]
         said.append(f"The soles collide (t = {time:g}).")
     scraping = [swing for swing in numbers.swings if swing.scrapes]

@@ -78,7 +78,7 @@ def test_out_writes_report_samples_and_the_thesis_figures(pollard_pin, tmp_path)
     done = pollard_pin("trajectory", "--out", tmp_path / "new" / "report", "--samples", "101")
     assert done.returncode == 0, done.stderr
     names = {file.name for file in (tmp_path / "new" / "report").iterdir()}
-    figures = ("positions", "velocities", "accelerations", "actuators", "margins")
+    figures = ("positions", "velocities", "accelerations", "actuators", "margins", "tool")
     assert names == {
         "manifest.sha256",
         "report.json",

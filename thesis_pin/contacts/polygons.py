@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-_DIRECTIONS = np.array(
+_LINES = np.array(
     [[np.cos(a), np.sin(a), 0.0] for a in np.pi * np.arange(8) / 8] + [[0.0, 0.0, 1.0]]
 )
-_TOGETHER = 256  # pairs of polygons worked on at a time
+_TOGETHER = 16  # pairs of polygons worked on at a time, those likely nearest first
 
 
 def polygon_distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -35,20 +35,42 @@ def least_distance(one: np.ndarray, other: np.ndarray) -> tuple[float, int]:
         one: Corners of one polygon at each sample [m], shape ``(n, corners, 3)``.
         other: The same of the other one.
     """
-    # How far apart their shadows on some lines are bounds the distance from below.
-    here, there = one @ _DIRECTIONS.T, other @ _DIRECTIONS.T
-    apart = np.maximum(
-        there.min(axis=1) - here.max(axis=1), here.min(axis=1) - there.max(axis=1)
-    ).max(axis=1)
+    # How far apart their shadows are bounds the distance from below: on a few fixed lines
+    # first, and where that doesn't tell, across every edge.
+    apart = _gaps(one @ _LINES.T, other @ _LINES.T)
     sample = int(np.argmin(apart))
     least = float(polygon_distance(one[[sample]], other[[sample]])[0])
     some = np.flatnonzero(apart < least)
+    apart = _apart(one[some], other[some])
     for start in range(0, len(some), _TOGETHER):
-        part = some[start : start + _TOGETHER]
+        order = np.argsort(apart)[start : start + _TOGETHER]
+        if apart[order[0]] >= least:
+            break
+        part = some[order]
         found = polygon_distance(one[part], other[part])
         if found.min() < least:
             least, sample = float(found.min()), int(part[np.argmin(found)])
     return least, sample
+
+
+def _apart(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """How far apart the shadows are at most, on the vertical and across any edge, ``(n,)``.
+
+    No more than the distance; soles side by side are just as far apart.
+    """
+    edges = [np.roll(part, -1, axis=1)[..., :2] - part[..., :2] for part in (one, other)]
+    level = np.concatenate(edges, axis=1)[..., ::-1] * (1.0, -1.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        level = np.nan_to_num(level / np.linalg.norm(level, axis=2)[..., None])
+    upright = np.zeros((len(one), level.shape[1] + 1, 3))
+    upright[:, :-1, :2], upright[:, -1, 2] = level, 1.0
+    return _gaps(*(part @ np.swapaxes(upright, 1, 2) for part in (one, other)))
+
+
+def _gaps(here: np.ndarray, there: np.ndarray) -> np.ndarray:
+    """The largest gap between shadows ``(n, corners, lines)`` of two polygons, ``(n,)``."""
+    gaps = np.maximum(there.min(1) - here.max(1), here.min(1) - there.max(1))
+    return np.asarray(gaps.max(axis=1))
 
 
 def _segment_distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:

@@ -24,6 +24,7 @@ from thesis_pin.loops.system.scale import Scale, scale_of
 from thesis_pin.loops.system.survey import Survey
 from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
 from thesis_pin.model.formats.joining import joined
+from thesis_pin.model.formats.rounding import Rounding, rounding
 from thesis_pin.model.formats.urdf.reading import read_urdf
 from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
 from thesis_pin.model.mechanism.closure_types import word_of
@@ -117,6 +118,19 @@ class ClosedRobot(LoadedRobot):
     def scale(self) -> Scale:
         """What makes the equations comparable."""
         return scale_of(self.system)
+
+    @cached_property
+    def rounding(self) -> Rounding | None:
+        """Which of its directions are nearly round; None if none is."""
+        return rounding(self.description)
+
+    @cached_property
+    def rounded(self) -> ClosedRobot:
+        """The robot that its file may have meant: nearly round directions made round."""
+        if self.rounding is None:
+            return self
+        root = pin.JointModelFreeFlyer() if len(self.base) else None
+        return ClosedRobot(self.rounding.description, root_joint=root)
 
     @property
     def constraint_models(

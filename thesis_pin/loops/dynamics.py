@@ -58,15 +58,16 @@ class LoopDynamics:
         idle_load: Load on each idle group, relative to the largest force, ``(..., groups)``.
         freedom: Degrees of freedom by rank, shape ``(...)``.
         condition: Condition number of Nᵀ B, shape ``(...)``.
-        uncertainty: How far the torques may be off because of ``noise``, relative to the
-            largest of them, at most, shape ``(...)``. Where all equations are independent a
-            file's digits show no noise, and what they do to the torques isn't in here.
+        uncertainty: How far the torques may be off because of ``noise`` and ``digits``,
+            relative to the largest of them, shape ``(...)``: an estimate. Noise that shows
+            neither in dependent equations nor in nearly round directions isn't in here.
         gaps: Opening of each loop [m], [rad], shape ``(..., loops, 2)``.
         unique: Whether the motors' torques are determined (as many as freedoms).
         determined: Whether the loop forces are (independent equations), shape ``(...)``.
         noise: How far the file's digits let dependent equations differ, or loops stay open
             [rad].
         idle: Motions that no motor holds.
+        digits: Directions of the file that are nearly round, the furthest first.
     """
 
     torque: np.ndarray
@@ -86,6 +87,7 @@ class LoopDynamics:
     determined: np.ndarray
     noise: float
     idle: tuple[IdleGroup, ...]
+    digits: tuple[str, ...] = ()
 
 
 def inverse_dynamics(
@@ -144,4 +146,5 @@ def inverse_dynamics(
         parts.append(work.chunk(first, q[some], v[some], a[some], pushed))
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     shaped = {name: x.reshape((*stack, *x.shape[1:])) for name, x in joined.items()}
-    return LoopDynamics(**shaped, noise=survey.noise, idle=survey.idle)
+    digits = () if robot.rounding is None else robot.rounding.digits
+    return LoopDynamics(**shaped, noise=survey.noise, idle=survey.idle, digits=digits)

@@ -18,10 +18,15 @@ WORLD = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
 def tilted(robot, noise, seed):
     """The robot with every axis off by a normal error in each component [rad]."""
-    random = np.random.default_rng(seed)
+    return leaning(robot, noise * np.random.default_rng(seed).normal(size=(12, 3)))
+
+
+def leaning(robot, errors):
+    """The robot with errors ``(12, 3)`` added to its axes [rad]."""
+    rows = iter(errors)
 
     def lean(match):
-        axis = np.array(match[1].split(), float) + noise * random.normal(size=3)
+        axis = np.array(match[1].split(), float) + next(rows)
         return f'<axis xyz="{" ".join(repr(float(x)) for x in axis)}"/>'
 
     text, count = re.subn(r'<axis xyz="([^"]*)"/>', lean, robot.urdf)
@@ -79,3 +84,43 @@ def test_axes_off_by_up_to_1e_5_rad_are_answered_and_right(robot, exact, noise):
             moved = dynamics.forward_dynamics(other, found.q[k], found.v[k], pushed)
             expected = accelerations(other, found.q[k], found.v[k], pushed)
             np.testing.assert_allclose(moved, expected, rtol=0, atol=1e-9 * np.abs(moved).max())
+
+
+def test_accelerations_feel_axes_as_the_true_robot_does(robot, exact):
+    """Of the roll axis most: a moment across a light body's axis becomes one about it.
+
+    Pollard's nozzle of 35 g reaches 30 mm along its axis and has 1.7e-6 kg·m² about it: noise n
+    moves accelerations by 126 n of the largest a component, up to 244 n in 20 seeds. That is
+    no fault of a solver.
+    """
+    time, (q, v, a), torque = exact
+    motors, pushed = robot.actuated, 0.3 * torque[1]
+
+    def moved(errors, solver):
+        other = leaning(robot, errors)
+        rows = (x[1:2, motors] for x in (q, v, a))
+        found = loops.follow(other, time[1:2], *rows, q[1])
+        return solver(other, found.q[0], found.v[0], pushed)
+
+    still = moved(np.zeros((12, 3)), accelerations)
+    slope = np.empty((12, 3, 12))
+    for axis, part in np.ndindex(12, 3):
+        step = np.zeros((12, 3))
+        step[axis, part] = 1e-6
+        ends = (moved(sign * step, accelerations) for sign in (1, -1))
+        slope[axis, part] = (next(ends) - next(ends)) / 2e-6
+    for seed in range(3):
+        errors = 1e-7 * np.random.default_rng(seed).normal(size=(12, 3))
+        got = moved(errors, dynamics.forward_dynamics) - still
+        expected = np.einsum("ij,ijk->k", errors, slope)
+        np.testing.assert_allclose(got, expected, rtol=0, atol=1e-4 * np.abs(expected).max())
+    size = np.abs(still[motors]).max()
+    roll = robot.model.getJointId("tool_roll")
+    place = robot.model.joints[roll].idx_v
+    felt = np.linalg.norm(slope[:, :, motors], axis=1).max(axis=1) / size
+    assert felt.argmax() == place
+    pin.rnea(robot.model, robot.data, q[1], v[1], still)
+    across = robot.data.f[roll].angular[1:]
+    inertia = robot.model.inertias[roll].inertia[0, 0]
+    by_hand = np.linalg.norm(across) / inertia
+    assert np.linalg.norm(slope[place, :, place]) == pytest.approx(by_hand, rel=0.05)

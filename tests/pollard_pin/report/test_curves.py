@@ -71,8 +71,14 @@ def test_the_path_is_the_spray_tips_in_millimetres(report):
 
 
 def test_every_figure_comes_as_png_and_svg(report):
-    names = ("positions", "velocities", "accelerations", "actuators", "margins")
+    names = ("positions", "velocities", "accelerations", "actuators", "margins", "tool")
     files = figures(report)
     assert set(files) == {f"{name}.{kind}" for name in names for kind in ("png", "svg")}
     for name, content in files.items():
         assert content.startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
+
+
+def test_the_tool_s_speed_is_drawn_in_metres_a_second(report):
+    (plot,) = [plot for plot in curves.plots(report, KEEP) if plot.label == "speed [m/s]"]
+    (curve,) = plot.curves
+    np.testing.assert_array_equal(curve.y, report.tool_speed[KEEP])

@@ -32,6 +32,7 @@ def chained(
     motors: Array,
     base: Array,
     precision: float | None,
+    alone: bool,
 ) -> tuple[Array, str]:
     """Closed configurations of as many samples as agree with the chain, at least one.
 
@@ -42,6 +43,8 @@ def chained(
         motors: Positions of the motors, shape ``(n, motors)``.
         base: Poses of a free flyer, shape ``(n, 7)``; not used without one.
         precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
+        alone: Close one sample after another: where rods idle, how far each has turned hangs
+            on the whole way.
 
     Returns:
         Configurations, shape ``(k, nq)``, and why the first one isn't closed; empty if it is.
@@ -56,6 +59,16 @@ def chained(
         found, reasons = close_stack(robot, data, placed, robot.passive, _STEPS, precision)
         return found.q, reasons
 
+    if alone:
+        rows: list[Array] = []
+        for k in range(near):
+            placed = place(robot, before[None], motors[k : k + 1], base[k : k + 1])
+            found, why = close_stack(robot, data, placed, robot.passive, _STEPS, precision)
+            if why[0]:
+                return np.array(rows or [found.q[0]]), "" if rows else why[0]
+            before = found.q[0]
+            rows.append(before)
+        return np.array(rows), ""
     first, reasons = closed(np.tile(before, (near, 1)))
     count = _leading(np.array([not reason for reason in reasons]))
     if near == 1 or not count:

@@ -127,12 +127,12 @@ def _followed(
     if not (robot.equations or len(robot.passive)):  # a tree of motors: nothing to close
         q[:] = place(robot, np.tile(current, (len(times), 1)), columns[0], flying[0])
         return Following(JointTrajectory(times, q, v, a), np.ones(len(times), bool), tuple(reasons))
-    k, many = 0, 1  # the survey is made at the first sample
+    k, many, alone = 0, 1, False  # the survey is made at the first sample
     while k < len(times):
         some = slice(k, k + many)
         try:
             closed, reason = chained(
-                robot, data, current, columns[0][some], flying[0][some], precision
+                robot, data, current, columns[0][some], flying[0][some], precision, alone
             )
             done = slice(k, k + len(closed))
             q[done] = closed
@@ -145,7 +145,7 @@ def _followed(
                 current, k = closed[good - 1], k + good
             if good < len(closed):
                 raise errors[good] or SingularPose("")
-            many = 1 if survey.idle else min(max(4 * good, many), MOST)
+            many, alone = min(max(4 * good, many), MOST), bool(survey.idle)
         except ThesisPinError as error:
             if strict:
                 raise _at(error, k) from None

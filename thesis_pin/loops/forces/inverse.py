@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import fields, replace
 
 import numpy as np
-import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput, NoSolution, SingularPose
@@ -15,15 +14,14 @@ from thesis_pin.loops.configurations.surveying import surveyed
 from thesis_pin.loops.forces.judging import (
     REFUSED,
     Contradiction,
-    is_uncertain,
     refuse_opening,
     refuse_singular,
-    weakest_motion,
 )
 from thesis_pin.loops.forces.loads import (
     external_forces,
     open_tree_forces,
 )
+from thesis_pin.loops.forces.uncertainty import State, by_noise, by_rounding
 from thesis_pin.loops.forces.wrenches import base_wrenches, loop_wrenches
 from thesis_pin.loops.system.equations import Poses
 from thesis_pin.loops.system.idle import HARMLESS_LOAD
@@ -66,7 +64,8 @@ class InverseWork:
         )
         for k in np.flatnonzero(doubtful):
             rank[k] = self._judge(first, int(k), poses, matrices, tau, solved)
-        uncertainty = self._uncertainty(first, q, v, a, matrices, tau, solved)
+        state = State(q, v, a, wrenches)
+        uncertainty = self._uncertainty(first, state, matrices, tau, solved)
         return self._arrays(first, poses, tau, solved, rank, uncertainty)
 
     def _judge(
@@ -110,57 +109,28 @@ class InverseWork:
         return replace(self.survey, rank=rank, passive_rank=-1, idle=())
 
     def _uncertainty(
-        self,
-        first: int,
-        q: Array,
-        v: Array,
-        a: Array,
-        matrices: Array,
-        tau: Array,
-        solved: Solved,
+        self, first: int, state: State, matrices: Array, tau: Array, solved: Solved
     ) -> Array:
-        """Five times what moving along the weakest motion, by the noise, does to the torques.
-
-        Where that is little, its estimate from the weakest singular value alone.
-        """
-        robot, survey, scale = self.robot, self.survey, self.robot.scale
-        with np.errstate(divide="ignore"):
-            result = np.asarray(5 * survey.blur / solved.weakest**2)
-        some = np.flatnonzero(is_uncertain(survey, solved.weakest))
-        if not some.size or not survey.rank:
-            return result
-        scaled = scale.rows[:, None] * matrices[some] * scale.columns
-        values, motions = weakest_motion(robot, survey, scaled)
-        motors = len(robot.actuators)
-        largest = np.abs(solved.driven[some, :motors]).max(axis=1, initial=0.0)
-        largest = np.maximum(largest, 1e-3 * np.abs(tau[some]).max(axis=1))
-        largest_share = np.zeros(len(some))
-        step = survey.blur / values
-        for sign in (1.0, -1.0):
-            moves = sign * step[:, None] * motions * scale.columns
-            moved = np.array(
-                [
-                    pin.integrate(robot.model, q[k], move)
-                    for k, move in zip(some, moves, strict=True)
-                ]
-            )
-            other = robot.system.jacobian(robot.system.poses(self.data, moved))
-            forces = open_tree_forces(robot, self.data, moved, v[some], a[some])
-            again = solve(survey, scale, other, forces, self.driven, robot.passive).driven
-            change = np.abs(again - solved.driven[some])[:, :motors].max(axis=1, initial=0.0)
-            share = 5 * change / np.where(largest > 0, largest, 1.0)
-            largest_share = np.maximum(largest_share, share)
-        # A step as long as the way to the singularity may end beyond it: nothing is known.
-        result[some] = np.where(step > 0.5 * values, np.inf, largest_share)
+        """How far the file's noise may move the torques; refused where it turns them over."""
+        robot, survey, weakest = self.robot, self.survey, solved.weakest
+        torque = solved.driven[:, : len(robot.actuators)]
+        largest = np.abs(torque).max(axis=1, initial=0.0)
+        largest = np.maximum(largest, 1e-3 * np.abs(tau).max(axis=1, initial=0.0))
+        shown = by_noise(robot, survey, self.data, state, matrices, torque, largest, weakest)
+        digits = by_rounding(robot, survey, state, torque, largest, weakest, self.precision)
+        result = np.maximum(shown, digits)
         if self.check and (result > REFUSED).any():
             k = int(np.argmax(result > REFUSED))
+            cause, remedy = f"noise {survey.noise:.1e} rad", "write the file with more digits"
+            if shown[k] <= REFUSED and robot.rounding is not None:
+                cause = f"nearly round in the file: {', '.join(robot.rounding.digits)}"
+                remedy = "write these with all digits"
             raise SingularPose(
                 f"the file's digits may turn the torques over: uncertainty {result[k]:.0%}, "
-                f"noise {survey.noise:.1e} rad, weakest motion "
-                f"{values[np.searchsorted(some, k)]:.1e} rad",
+                f"{cause}, weakest motion {weakest[k]:.1e} rad",
                 where=f"sample {first + k}",
                 allowed=f"{REFUSED:.0%}",
-                remedy="Keep away from this pose, or write the file with more digits",
+                remedy=f"Keep away from this pose, or {remedy}",
             )
         return result
 

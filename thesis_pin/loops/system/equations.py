@@ -42,8 +42,6 @@ class Poses:
 
     def at(self, some: NDArray[np.bool_]) -> Poses:
         """Those of some samples ``(n,)``."""
-        if some.all():
-            return self
         rates = None if self.rates is None else self.rates[some]
         return Poses(self.q[some], self.columns[some], rates, self.turns[some], self.points[some])
 

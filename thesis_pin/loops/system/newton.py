@@ -141,27 +141,27 @@ def settle(
             done |= (taken - marked >= patience) & (best.scaled[on] > WIDE)
         done |= taken == iterations
         best.step[on[done]] = np.where(exact, 0.0, last)[done]
-        going = ~done
-        if not going.any():
-            return best
-        raw = equations.jacobian(poses.at(going))[:, :, movable]
-        matrices = scale.rows[:, None] * raw * columns
-        inverse, _ = parts.pseudo_inverses(matrices, cut, rank)
-        steps = -(inverse @ (scale.rows * gap[going])[:, :, None])[:, :, 0]
+        if done.any():
+            going = ~done
+            if not going.any():
+                return best
+            on, q, poses, gap = on[going], q[going], poses.at(going), gap[going]
+            last, mark, marked = last[going], mark[going], marked[going]
+        raw = equations.jacobian(poses)[:, :, movable]
+        inverse, _ = parts.pseudo_inverses(scale.rows[:, None] * raw * columns, cut, rank)
+        steps = -(inverse @ (scale.rows * gap)[:, :, None])[:, :, 0]
         length = np.sqrt((steps**2).sum(axis=1))
         # Quadratic convergence ends in rounding: stop when a step no longer helps.
-        on, q, mark, marked = on[going], q[going], mark[going], marked[going]
-        ended = (length >= last[going]) & (last[going] < _VANISHED)
-        best.step[on[ended]] = last[going][ended]
+        ended = (length >= last) & (last < _VANISHED)
+        if ended.any():
+            best.step[on[ended]] = last[ended]
+            going = ~ended
+            if not going.any():
+                return best
+            on, q, steps, length = on[going], q[going], steps[going], length[going]
+            mark, marked = mark[going], marked[going]
         last, taken = length, taken + 1
         moves = np.zeros((len(on), model.nv))
-        moves[:, movable] = (
-            columns * steps * np.minimum(1.0, _LONGEST / np.maximum(length, 1e-300))[:, None]
-        )
-        if ended.any():
-            going = ~ended
-            on, q, moves = on[going], q[going], moves[going]
-            last, mark, marked = last[going], mark[going], marked[going]
-            if not len(on):
-                return best
+        shorter = np.minimum(1.0, _LONGEST / np.maximum(length, 1e-300))
+        moves[:, movable] = columns * steps * shorter[:, None]
         q = np.array([pin.integrate(model, *both) for both in zip(q, moves, strict=True)])

@@ -19,6 +19,8 @@ Places = NDArray[np.intp]
 SINGULAR = 1e-13
 """Smallest singular value or diagonal entry of R that is still inverted [rad]."""
 
+_FEW = 4  # of so few matrices calls cost more than decompositions
+
 
 @dataclass(frozen=True, eq=False)
 class Inverted:
@@ -62,6 +64,7 @@ class Parts:
         each: Places of the rows and columns of each part.
         alike: The same of parts of one size, stacked: rows ``(b, r)``, columns ``(b, c)``.
         most: Largest rank that all parts together may have.
+        touching, touched: Which columns belong to a part, and their places.
     """
 
     def __init__(self, touches: NDArray[np.bool_]) -> None:
@@ -76,6 +79,8 @@ class Parts:
             (np.array([rows for rows, _ in like]), np.array([columns for _, columns in like]))
             for like in sizes.values()
         ]
+        self.touching = np.asarray(touches.any(axis=0))
+        self.touched = np.flatnonzero(self.touching)
         self.most = sum(min(len(rows), len(columns)) for rows, columns in self.each)
 
     def svd(self, matrices: Array) -> tuple[Array, Array, Array]:
@@ -128,39 +133,48 @@ class Parts:
         Returns:
             Pseudo-inverses, shape ``(n, k, m)``, and how many directions each keeps.
         """
+        limited = rank is not None and self.most > rank
+        if len(matrices) < _FEW or limited:
+            return self._truncated(matrices, cut, rank if limited else None)
         m, k = self.size
         result, counts = np.zeros((len(matrices), k, m)), np.full(len(matrices), self.most)
         weak = np.zeros(len(matrices), dtype=bool)
-        if rank is not None and self.most > rank:
-            weak[:] = True
-        else:  # nothing is to be left out where no direction is weak
-            for rows, columns in self.alike:
-                found = inverted(matrices[:, rows[:, :, None], columns[:, None, :]])
-                result[:, columns[:, :, None], rows[:, None, :]] = found.pseudo
-                weak |= (found.weakest <= cut).any(axis=1)
+        for rows, columns in self.alike:  # nothing is to be left out where no direction is weak
+            found = inverted(matrices[:, rows[:, :, None], columns[:, None, :]])
+            result[:, columns[:, :, None], rows[:, None, :]] = found.pseudo
+            weak |= (found.weakest <= cut).any(axis=1)
         if weak.any():
-            left, values, right = self.svd(matrices[weak])
-            strong = values > cut
-            if rank is not None:
-                strong[:, rank:] = False
+            result[weak], counts[weak] = self._truncated(matrices[weak], cut, None)
+        return result, counts
+
+    def _truncated(
+        self, matrices: Array, cut: float, rank: int | None
+    ) -> tuple[Array, NDArray[np.int_]]:
+        """The same by singular values."""
+        (m, k), count = self.size, len(matrices)
+        result, counts = np.zeros((count, k, m)), np.zeros(count, dtype=int)
+        found = [
+            np.linalg.svd(matrices[:, rows[:, :, None], columns[:, None, :]], full_matrices=False)
+            for rows, columns in self.alike
+        ]
+        least = np.full(count, cut)
+        if rank is not None:
+            values = np.concatenate([one[1].reshape(count, -1) for one in found], axis=1)
+            least = np.maximum(cut, -np.sort(-values, axis=1)[:, rank])
+        for (rows, columns), (left, values, right) in zip(self.alike, found, strict=True):
+            strong = values > least[:, None, None]
             shares = strong / np.where(strong, values, 1.0)
-            left_too = np.swapaxes(left, -1, -2) * shares[:, :, None]
-            result[weak] = np.swapaxes(right, -1, -2) @ left_too
-            counts[weak] = strong.sum(axis=1)
+            turned = np.swapaxes(left * shares[..., None, :], -1, -2)
+            result[:, columns[:, :, None], rows[:, None, :]] = np.swapaxes(right, -1, -2) @ turned
+            counts += strong.sum(axis=(1, 2))
         return result, counts
 
     def complement(self, rows: Array) -> Array:
         """Orthonormal columns orthogonal to right singular vectors ``(r, k)``: ``(k, k − r)``."""
-        k = self.size[1]
-        result, start = np.zeros((k, k - len(rows))), 0
-        idle = np.ones(k, dtype=bool)
-        for _, columns in self.each:
-            idle[columns] = False
-            own = rows[:, columns]
-            left = complement(own[np.abs(own).max(axis=1, initial=0.0) > 0])
-            result[columns, start : start + left.shape[1]] = left
-            start += left.shape[1]
-        result[idle, start:] = np.eye(k - len(rows) - start)
+        count = self.touched.size - len(rows)
+        result = np.zeros((self.size[1], self.size[1] - len(rows)))
+        result[self.touched, :count] = complement(rows[:, self.touched])
+        result[~self.touching, count:] = np.eye(self.size[1] - self.touched.size)
         return result
 
 

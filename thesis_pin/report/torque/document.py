@@ -171,6 +171,7 @@ class TorqueReport(TorqueNumbers):
             "largest_unexplained": float(self.unexplained.max()),
             "largest_uncertainty": float(self.dynamics.uncertainty.max()),
             "noise": self.dynamics.noise,
+            "digits": list(self.dynamics.digits),
             "idle": [
                 {
                     "joints": list(group.joints),

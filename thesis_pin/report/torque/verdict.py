@@ -109,7 +109,11 @@ def _idle(report: TorqueNumbers) -> list[str]:
 def _shares(report: TorqueNumbers) -> list[str]:
     said = []
     if (doubt := float(report.dynamics.uncertainty.max())) > DOUBTFUL:
-        said.append(f"Near a singular pose the file's digits may move torques by {doubt:.0%}.")
+        digits = report.dynamics.digits
+        named = f"; nearly round in it: {', '.join(digits)}" if digits else ""
+        said.append(
+            f"Near a singular pose the file's digits may move torques by {doubt:.0%}{named}."
+        )
     if report.names and not report.dynamics.unique.all():
         said.append(
             "There are more motors than freedoms: they share the load with the least sum of "

@@ -1,0 +1,315 @@
+"""What forbids which speeds: everything a gait is judged by, as a function of speed.
+
+s counts how many times faster than given the gait is run. Balance and single support's contact
+are linear in s², torques quadratic in s: their limits are found in closed form at every sample.
+Where double support presses a sole to the border of its cone, a few samples are tried at
+some speeds, what is found is bisected, and then tried at all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from scout_pin.dynamics.scaling import DoubleSupport, Torques, single_support
+from scout_pin.dynamics.stability import polygons
+from scout_pin.model import Scout
+from scout_pin.motion.gait import GaitMotion
+from thesis_pin.contacts.cones import in_sole_axes
+from thesis_pin.contacts.dynamics import ContactDynamics
+from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.inequalities import (
+    Intervals,
+    Rest,
+    rest_of,
+    where_lines_hold,
+    where_positive,
+)
+from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.tolerances import GRAVITY, TOLERANCES
+
+Cause = Literal["zmp", "contact", "stall torque", "servo", "rate jump", "gap"]
+CAUSES: tuple[Cause, ...] = ("zmp", "contact", "stall torque", "servo", "rate jump", "gap")
+
+_MOST = 2048  # samples of double support looked at
+_TRIED = 12  # of these, how many at each speed tried
+_SPEEDS = 7  # speeds tried on a stretch
+_CHECKED = 32  # and how many hold a limit found
+_BISECTED = 4  # samples a limit is bisected on
+_CONES = 128  # samples held against some hundred facets at a time
+
+
+@dataclass(frozen=True)
+class Speeds:
+    """A sampled gait at any speed.
+
+    Attributes:
+        robot: The biped.
+        motion, joints, dynamics: The gait at s = 1.
+        low, high: Speeds looked at.
+    """
+
+    robot: Scout
+    motion: GaitMotion
+    joints: JointTrajectory
+    dynamics: ContactDynamics
+    low: float = 1e-3
+    high: float = 1e3
+
+    @cached_property
+    def _single(self) -> np.ndarray:
+        return np.flatnonzero(~self.motion.support.all(axis=1))
+
+    @cached_property
+    def _double(self) -> DoubleSupport | None:
+        some = np.flatnonzero(self.motion.support.all(axis=1))
+        some = some[:: 1 + len(some) // _MOST]
+        if not some.size:
+            return None
+        return DoubleSupport.of(self.robot, self.motion, self.joints, some)
+
+    @cached_property
+    def servos(self) -> dict[Cause, Intervals]:
+        """Speeds at which a servo's stall torque, or its torque-speed line, is passed.
+
+        In double support only while the floor's limits are out of play.
+        """
+        found: dict[Cause, list[Intervals]] = {"stall torque": [], "servo": []}
+        for torques in self._torques():
+            speed = np.abs(self.joints.part(torques.samples).v) / self.robot.no_load_speed
+            growths: dict[Cause, np.ndarray] = {"stall torque": 0.0 * speed, "servo": speed}
+            for cause, growth in growths.items():
+                found[cause].append(pruned(self._passed(torques, growth, cause)))
+        return {cause: pruned(Intervals.joined(parts, 3)) for cause, parts in found.items()}
+
+    def _torques(self) -> Iterator[Torques]:
+        for part in blocks(len(self._single)):
+            some = self._single[part]
+            yield single_support(self.robot, self.motion, self.joints, self.dynamics.torque, some)
+        if self._double is not None:
+            yield self._double.free
+
+    def _passed(self, torques: Torques, growth: np.ndarray, cause: Cause) -> Intervals:
+        """Where |torque| / stall + growth s > 1, with cause, sample and joint."""
+        parts = []
+        for sign in (1.0, -1.0):
+            constant, linear, square = (
+                (sign * part / self.robot.stall_torque).ravel()
+                for part in (torques.constant, torques.linear, torques.square)
+            )
+            start, end, which = where_positive(
+                (square, linear + growth.ravel(), constant - 1.0), self.low, self.high
+            )
+            sample, joint = np.divmod(which, 12)
+            source = np.stack(
+                [np.full(len(which), CAUSES.index(cause)), torques.samples[sample], joint], axis=1
+            )
+            bounds = (np.sqrt(np.maximum(x[sample], 0.0)) for x in (torques.low, torques.high))
+            parts.append(Intervals(start, end, source).within(*bounds))
+        return Intervals.joined(parts, 3)
+
+    def balance(self, com: np.ndarray) -> Intervals:
+        """Speeds at which the ZMP leaves the support polygon, or a single sole can't hold.
+
+        Args:
+            com: Centre of mass at each sample [m], shape ``(n, 3)``.
+        """
+        bounds: dict[Cause, list[tuple[np.ndarray, np.ndarray, np.ndarray]]]
+        bounds = {"zmp": [], "contact": []}
+        for samples, corners in polygons(self.robot, self.motion):
+            for part in blocks(len(samples)):
+                some = samples[part]
+                edges = _edges(corners, *self._floor(com, some))
+                bounds["zmp"].append((some, *where_lines_hold(*edges)))
+        for part in blocks(len(self._single), _CONES):
+            some = self._single[part]
+            bounds["contact"].append((some, *self._cone(com, some)))
+        found = []
+        for cause, parts in bounds.items():
+            if not parts:
+                continue
+            some, low, high = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+            slow, fast = int(np.argmax(low)), int(np.argmin(high))
+            start = np.array([self.low, _root(high[fast])])
+            end = np.array([_root(low[slow]), self.high])
+            source = [[CAUSES.index(cause), some[k], -1] for k in (slow, fast)]
+            taken = Intervals(start, end, np.array(source))
+            found.append(taken.within(np.full(2, self.low), np.full(2, self.high)))
+        return Intervals.joined(found, 3)
+
+    def _floor(self, com: np.ndarray, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Wrench of the floor about the world's origin ``(m, 6)``: at rest, and what s² adds."""
+        here, torso = self.dynamics.part(some).required, self.motion.torso.part(some)
+        force = np.einsum("nij,nj->ni", torso.rotation, here[:, :3])
+        moment = np.einsum("nij,nj->ni", torso.rotation, here[:, 3:])
+        moment += np.cross(torso.position, force)
+        weight = self.robot.mass * GRAVITY
+        static = np.zeros((len(some), 6))
+        static[:, 2] = weight
+        static[:, 3], static[:, 4] = weight * com[some, 1], -weight * com[some, 0]
+        return static, np.concatenate([force, moment], axis=1) - static
+
+    def _cone(self, com: np.ndarray, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The s² between which the standing sole's wrench is in its cone, ``(m,)`` each."""
+        low, high = np.empty((2, len(some)))
+        wrenches = self._floor(com, some)
+        feet = (self.motion.left_foot, self.motion.right_foot)
+        for k, contact in enumerate(self.robot.contacts):
+            mine = self.motion.support[some, k]
+            foot = feet[k].part(some[mine])
+            lines = []
+            for wrench in wrenches:
+                moved = wrench[mine].copy()
+                moved[:, 3:] -= np.cross(foot.position, moved[:, :3])
+                scaled = contact.scale(in_sole_axes(foot.rotation, moved))
+                lines.append(scaled @ contact.facets.T)
+            low[mine], high[mine] = where_lines_hold(lines[0] - TOLERANCES.wrench, lines[1])
+        return low, high
+
+    # -- where double support asks for a quadratic programme -----------------------
+
+    def settled(self, rest: Rest, cause: Cause, *, stands: bool) -> Intervals:
+        """Speeds in a stretch that double support forbids at the border of its cones.
+
+        Args:
+            rest: The stretch, free of all other causes.
+            cause: The servos' limit: their stall torque or their line.
+            stands: Whether wrenches that no pair of soles can give are forbidden too.
+        """
+        double, found = self._double, Intervals.joined([], 3)
+        if double is None or not _beyond(double, rest.low, rest.high).size:
+            return found
+        trial = _Trial(self, double, cause, stands)
+        inset = TOLERANCES.time_unit * (1 - 1e-9)
+        speeds = np.geomspace(rest.low * (1 + inset), rest.high * (1 - inset), _SPEEDS)
+        verdicts = [trial.worst(s) for s in speeds]
+        parts = []
+        for k, verdict in enumerate(verdicts):
+            if verdict is None:
+                continue
+            start, end, source = rest.low, rest.high, verdict
+            if k and verdicts[k - 1] is None:
+                start, source = trial.bisected(float(speeds[k - 1]), float(speeds[k]))
+            elif k:
+                start = float(speeds[k - 1])
+            if k + 1 < len(speeds) and verdicts[k + 1] is None:
+                end, source = trial.bisected(float(speeds[k + 1]), float(speeds[k]))
+            elif k + 1 < len(speeds):
+                end = float(speeds[k + 1])
+            parts.append(Intervals(np.array([start]), np.array([end]), np.array([source])))
+        return Intervals.joined(parts, 3)
+
+
+class _Trial:
+    """Tries speeds on samples of double support, and remembers which mattered."""
+
+    def __init__(self, speeds: Speeds, double: DoubleSupport, cause: Cause, stands: bool) -> None:
+        self.double, self.cause, self.stands = double, cause, stands
+        self.stall = speeds.robot.stall_torque
+        use = np.abs(speeds.joints.part(double.samples).v) / speeds.robot.no_load_speed
+        self.growth = use if cause == "servo" else 0.0 * use
+
+    def worst(self, s: float) -> list[int] | None:
+        """Cause, sample and joint of what is passed most at a speed; None if nothing is."""
+        some, use, joint = self._uses(s, self._few(s))
+        return self._source(some, use, joint) if use.max(initial=0.0) > 1.0 else None
+
+    def bisected(self, fine: float, bad: float) -> tuple[float, list[int]]:
+        """Where between a fine and a bad speed the limit is, and what it is."""
+        known = np.empty(0, dtype=np.intp)
+        source: list[int] = []
+        while True:
+            some, use, joint = self._uses(bad, self._checked(bad, known))
+            top = some[np.argsort(use)[-_BISECTED:]]
+            known, source = np.union1d(known, top), self._source(some, use, joint)
+            root = self._root(known, fine, bad)
+            # A little to the fine side of it, and never beyond.
+            step = 1.0 + TOLERANCES.time_unit
+            inner = max(root / step, fine) if fine < bad else min(root * step, fine)
+            some, use, joint = self._uses(inner, self._checked(inner, known))
+            if not use.size or use.max() <= 1.0 or inner == fine:
+                return inner, source
+            bad = inner
+
+    def _root(self, known: np.ndarray, fine: float, bad: float) -> float:
+        """Speed between a fine and a bad one at which one of some samples meets its limit."""
+        from scipy.optimize import brentq
+
+        def passed(s: float) -> float:
+            use = self._uses(s, known)[1]
+            return min(float(use.max(initial=0.0)) - 1.0, 1.0)
+
+        if passed(fine) >= 0.0 or passed(bad) <= 0.0:
+            return fine
+        return float(brentq(passed, fine, bad, rtol=TOLERANCES.time_unit / 4))
+
+    def _few(self, s: float) -> np.ndarray:
+        some = _beyond(self.double, s, s)
+        return some[:: 1 + len(some) // _TRIED]
+
+    def _checked(self, s: float, known: np.ndarray) -> np.ndarray:
+        """Samples on which a limit found is held: many, and the neighbours of what decides."""
+        some, few = _beyond(self.double, s, s), self._few(s)
+        near = np.add.outer(known, [-2, -1, 0, 1, 2]).ravel()
+        many = np.union1d(some[:: 1 + len(some) // _CHECKED], few)
+        return np.union1d(many, some[np.isin(some, near)])
+
+    def _uses(self, s: float, some: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The samples, the most each uses of a servo (infinite if it can't stand), and which."""
+        torque, broken = self.double.at(some, s)
+        share = np.abs(torque) / self.stall + self.growth[some] * s
+        use = share.max(axis=1, initial=0.0)
+        if self.stands:
+            use = np.where(broken, np.inf, use)
+        return some, use, share.argmax(axis=1) if len(some) else np.empty(0, dtype=np.intp)
+
+    def _source(self, some: np.ndarray, use: np.ndarray, joint: np.ndarray) -> list[int]:
+        k = int(np.argmax(use))
+        stands = bool(np.isfinite(use[k]))
+        cause: Cause = self.cause if stands else "contact"
+        sample = int(self.double.samples[some[k]])
+        return [CAUSES.index(cause), sample, int(joint[k]) if stands else -1]
+
+
+def pruned(taken: Intervals) -> Intervals:
+    """Without intervals that lie in one that starts before them."""
+    order = np.argsort(taken.start, kind="stable")
+    reach = np.maximum.accumulate(taken.end[order])
+    keep = order[np.concatenate([[True], reach[1:] > reach[:-1]])[: len(order)]]
+    return Intervals(taken.start[keep], taken.end[keep], taken.source[keep])
+
+
+def stretches(taken: Intervals, low: float, high: float) -> list[Rest]:
+    """What is left of a range, slivers left out."""
+    left = rest_of(taken, low, high)
+    return [rest for rest in left if rest.high > rest.low * (1 + 2 * TOLERANCES.time_unit)]
+
+
+def _beyond(double: DoubleSupport, low: float, high: float) -> np.ndarray:
+    """Samples that some speed in a range takes to the border of a cone."""
+    free = double.free
+    return np.flatnonzero((free.low > low**2) | (free.high < high**2))
+
+
+def _edges(
+    corners: np.ndarray, static: np.ndarray, added: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """By what the ZMP passes each edge of a polygon, times the force that presses; ``(m, h)``."""
+    edge = np.roll(corners, -1, axis=0) - corners
+    edge /= np.linalg.norm(edge, axis=1)[:, None]
+
+    def passed(wrench: np.ndarray) -> np.ndarray:
+        moments = np.stack([-wrench[:, 4], wrench[:, 3]], axis=1)
+        from_corner = moments[:, None] - corners * wrench[:, 2, None, None]
+        inside = edge[:, 0] * from_corner[..., 1] - edge[:, 1] * from_corner[..., 0]
+        return -np.column_stack([inside, wrench[:, 2]])
+
+    return passed(static), passed(added)
+
+
+def _root(square: float) -> float:
+    return float(np.sqrt(max(square, 0.0)))
