@@ -128,6 +128,7 @@ ROBOT = Robot(
     report="report.document:trajectory_report",
     page="report.page:trajectory_page",
     scene="report.view:path_scene",
+    movement="report.movement:path_movement",
     inverse_kinematics="model:Pollard.inverse_kinematics",
 )
 
@@ -157,6 +158,12 @@ COMMAND = Command(
             "watch the robot on a path in the browser",
             "Show the robot on a path with torques, ball-joint forces and margins, on 127.0.0.1.",
             "view --path examples/spray_arch.toml --html spray.html",
+        ),
+        common.convert_verb(
+            ROBOT,
+            "Write a path as a table of poses, motor angles or servo ticks, in our own format, "
+            "or for ROS.",
+            "convert --path examples/spray_arch.toml --as joint-trajectory --to arch.yaml",
         ),
         common.ik_verb(
             ROBOT,

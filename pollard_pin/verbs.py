@@ -16,6 +16,7 @@ from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import Answer, give, write_results
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.errors import BadInput, Unreachable
+from thesis_pin.report.exchange.movement import Movement
 from thesis_pin.report.tables import Table
 
 
@@ -74,6 +75,14 @@ def report(
         motors=arguments.actuators,
         progress=progress,
     )
+
+
+def motion(arguments: argparse.Namespace, robot: Pollard) -> Movement:
+    """The path that the arguments ask for, to be written down."""
+    from pollard_pin.report.movement import path_movement
+
+    path = _path(arguments, robot.specification)
+    return path_movement(robot, path, samples=arguments.samples, branch=_branch(arguments))
 
 
 def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:

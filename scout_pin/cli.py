@@ -80,6 +80,7 @@ ROBOT = Robot(
     report="report.document:gait_report",
     page="report.page:gait_page",
     scene="report.view:gait_scene",
+    movement="report.movement:gait_movement",
     inverse_kinematics="model:Scout.leg_inverse_kinematics",
 )
 
@@ -108,6 +109,12 @@ COMMAND = Command(
             "watch a gait in the browser",
             "Show the robot along a gait with forces, ZMP and support, on 127.0.0.1.",
             "view --gait examples/walk.toml --html walk.html",
+        ),
+        common.convert_verb(
+            ROBOT,
+            "Write a gait as a table of poses, joint angles or servo ticks, in our own format, "
+            "or for ROS.",
+            "convert --gait examples/walk.toml --to walk_angles.csv --as joints --units deg,ms",
         ),
         common.ik_verb(
             ROBOT,

@@ -5,12 +5,17 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
 from thesis_pin.command.results import Answer
+
+if TYPE_CHECKING:  # inverse kinematics alone needs neither
+    from scout_pin.motion.gait import Gait
+    from thesis_pin.report.exchange.movement import Movement
 
 
 def report(
@@ -21,18 +26,9 @@ def report(
 ) -> object:
     """The report on the gait that the arguments ask for."""
     from scout_pin.motion.cycles import repeat_gait
-    from scout_pin.motion.files import load_gait
     from scout_pin.report.document import gait_report
 
-    gait = load_gait(
-        arguments.gait,
-        arguments.interpolation,
-        robot=robot,
-        smooth=arguments.smooth,
-        time_unit=arguments.time_unit,
-    )
-    if arguments.cycle:
-        gait = replace(gait, cycle=True)
+    gait = _gait(arguments, robot)
     one = gait.end - gait.start
     if arguments.repeat > 1:
         gait = repeat_gait(gait, arguments.repeat)
@@ -46,6 +42,33 @@ def report(
         branch=arguments.branch,
         progress=progress,
     )
+
+
+def motion(arguments: argparse.Namespace, robot: Scout) -> Movement:
+    """The gait that the arguments ask for, to be written down."""
+    from scout_pin.report.movement import gait_movement
+
+    return gait_movement(
+        robot,
+        _gait(arguments, robot),
+        samples=arguments.samples,
+        time_unit=arguments.time_unit,
+        branch=arguments.branch,
+    )
+
+
+def _gait(arguments: argparse.Namespace, robot: Scout) -> Gait:
+    """The gait that the arguments ask for, once."""
+    from scout_pin.motion.files import load_gait
+
+    gait = load_gait(
+        arguments.gait,
+        arguments.interpolation,
+        robot=robot,
+        smooth=arguments.smooth,
+        time_unit=arguments.time_unit,
+    )
+    return replace(gait, cycle=True) if arguments.cycle else gait
 
 
 def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:

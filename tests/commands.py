@@ -20,7 +20,7 @@ VERBS = {
     for command in COMMANDS.values()
     for verb in command.verbs
 }
-OUTPUTS = ("--out", "--write", "--html", "--json", "--markdown")
+OUTPUTS = ("--to", "--out", "--write", "--html", "--json", "--markdown")
 
 
 def flags(name):
@@ -53,6 +53,7 @@ def into(name, folder):
     """Flags that write what a verb can write into a folder."""
     words = ["--json", str(folder / "answer.json")]
     words += ["--out", str(folder / "made")] * has(name, "--out")
+    words += ["--to", str(folder / "made.csv")] * has(name, "--to")
     return words + ["--html", str(folder / "page.html")] * has(name, "--html")
 
 

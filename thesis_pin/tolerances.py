@@ -81,6 +81,8 @@ class Tolerances:
             and meets the floor moving [-].
         scrape_way: Way over the floor below which a foot goes straight up and down [m].
         sole_gap: Distance at which two soles touch [m], as :attr:`clearance`.
+        nearer: Difference [m] by which one pair of soles must be nearer to be told from another:
+            where feet stand, all samples are alike but for rounding.
         instant: What counts as just before or after a change of a gait, relative to the
             time the gait or phase takes [-].
         path_end: How far beyond a path's ends a time still means them, relative to the
@@ -94,6 +96,8 @@ class Tolerances:
             them is anyone's guess [rad].
         quaternion_length: Difference from 1 of a quaternion's length still taken as rounding
             of its four numbers, to two decimals [-].
+        same_curve: Difference of two splines through the same samples, and of their
+            derivatives, relative to the largest value [-].
         same_mode: Angles nearer than this are one assembly mode [rad].
         vanishing: Coefficient relative to the largest, or determinant over squared
             lengths, that is replaced before one divides by it [-], [m²].
@@ -155,6 +159,7 @@ class Tolerances:
     scrape_share: float = 0.2
     scrape_way: float = 1e-3
     sole_gap: float = 1e-4
+    nearer: float = 1e-9
     instant: float = 1e-9
     path_end: float = 1e-9
     path_join: float = 1e-9
@@ -162,6 +167,7 @@ class Tolerances:
     on_circle: float = 1e-2
     half_turn: float = 1e-6
     quaternion_length: float = 1e-2
+    same_curve: float = 1e-7
     same_mode: float = 1e-6
     vanishing: float = 1e-14
     time_unit: float = 1e-5

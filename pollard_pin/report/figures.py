@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pollard_pin.report import curves
 from pollard_pin.report.document import TrajectoryReport
+from pollard_pin.report.movement import report_states
 from thesis_pin.report.curves import evenly
+from thesis_pin.report.exchange.movement import exchange_files
 from thesis_pin.report.figures import figure_files, panels
 
 MOST_SAMPLES = 4001
@@ -12,7 +14,7 @@ MOST_SAMPLES = 4001
 
 
 def figures(report: TrajectoryReport) -> dict[str, bytes]:
-    """Every figure of a report as PNG and SVG: file name → content."""
+    """Every figure as PNG and SVG, and the joints for other programs: file name → content."""
     keep = evenly(len(report.joints.time), MOST_SAMPLES)
     torque, _, power, work = curves.motors(report, keep)
     title = f"Motors on {report.path.name}, {report.robot.inertia} inertias"
@@ -26,4 +28,4 @@ def figures(report: TrajectoryReport) -> dict[str, bytes]:
     files: dict[str, bytes] = {}
     for name, figure in drawn.items():
         files |= figure_files(name, figure)
-    return files
+    return files | exchange_files(report_states(report))

@@ -11,7 +11,8 @@ from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.report.uncertainty.headlines import Headlines
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from thesis_pin.errors import ThesisPinError
-from thesis_pin.report.uncertainty import culprit, measured, percent, why
+from thesis_pin.report.resolution import newton_metres, percent
+from thesis_pin.report.uncertainty import culprit, why
 from thesis_pin.smoothing.resolution import Resolution
 
 _DRAWS = 8
@@ -77,7 +78,7 @@ def _left_open(held: Headlines) -> str:
     )
     return (
         f"The samples' resolution leaves open: peak torque ({ACTUATOR_SYMBOLS[j]}) "
-        f"{measured(held.peak_torque[j], 'N·m')}; share of the torque limit "
+        f"{newton_metres(held.peak_torque[j])}; share of the torque limit "
         f"({ACTUATOR_SYMBOLS[torque]}) {percent(held.torque_use[torque])}; of the speed limit "
         f"({ACTUATOR_SYMBOLS[speed]}) {percent(held.speed_use[speed])}."
     )

@@ -106,9 +106,9 @@ def sole_gap(robot: Scout, motion: GaitMotion) -> tuple[float, int]:
             robot.sole_vertices(side, _foot(motion, k).part(part).placement)
             for k, side in enumerate(SIDES)
         )
-        found, here = least_distance(one, other)
-        if found < least:
-            least, sample = found, part.start + here
+        found = least_distance(one, other, least)
+        if found is not None:
+            least, sample = found[0], part.start + found[1]
     return float(least), sample
 
 

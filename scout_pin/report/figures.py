@@ -11,11 +11,13 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.report import curves
 from scout_pin.report.curves import SIDE_COLOURS, Samples
 from scout_pin.report.document import GaitReport
+from scout_pin.report.movement import report_states
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.model.loading import joint_id
 from thesis_pin.pages.drawing import joint_placements
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.curves import evenly
+from thesis_pin.report.exchange.movement import exchange_files
 from thesis_pin.report.figures import default_style, figure_files, new_figure, panels
 
 if TYPE_CHECKING:
@@ -26,7 +28,7 @@ MOST_SAMPLES = 4001
 
 
 def figures(report: GaitReport) -> dict[str, bytes]:
-    """Every figure of a report as PNG and SVG: file name → content."""
+    """Every figure as PNG and SVG, and the joints for other programs: file name → content."""
     keep = evenly(len(report.joints.time), MOST_SAMPLES)
     legs, plan = SIDES, curves.plan(report, keep)
     drawn = {
@@ -39,7 +41,7 @@ def figures(report: GaitReport) -> dict[str, bytes]:
     files: dict[str, bytes] = {}
     for name, figure in drawn.items():
         files |= figure_files(name, figure)
-    return files
+    return files | exchange_files(report_states(report))
 
 
 @default_style()

@@ -70,6 +70,8 @@ NUMBERS = {
     "--speed": {"2.5"},
     "--hold": {"2.5"},
     "--samples": set(),
+    "--repeat": set(),
+    "--feed": {"2.5"},
     "--precision": {"0"},
     "--points": set(),
     "--jobs": set(),
@@ -87,7 +89,7 @@ NUMBERS = {
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
-READ = ("--specification", "--gait", "--path", "--pose", "file", "closures", "motion")
+READ = ("--specification", "--gait", "--path", "--pose", "--servos", "file", "closures", "motion")
 """Flags and words that name a file to read."""
 FILES = {
     "missing": None,
@@ -102,6 +104,13 @@ FILES = {
 CONTRADICTIONS = {
     "scout-pin gait": [["--json", "-", "--html", "-"], ["--branch=+-"]],
     "scout-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--branch=+-"]],
+    "scout-pin convert": [
+        ["--json", "-", "--to", "-"],
+        ["--units", "mm,cm"],
+        ["--units", "furlong"],
+        ["--servos", "examples/squat.toml"],
+        ["--branch=+-"],
+    ],
     "scout-pin ik": [["--branch=+-"]],
     "scout-pin info": [],
     "scout-pin urdf": [],
@@ -114,6 +123,7 @@ CONTRADICTIONS = {
         ["--branch=+-"],
     ],
     "pollard-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--duration", "3"]],
+    "pollard-pin convert": [["--json", "-", "--to", "-"], ["--units", "mm"], ["--duration", "3"]],
     "pollard-pin ik": [["--branch=+-"]],
     "pollard-pin fk": [],
     "pollard-pin workspace": [["--x", "0.8", "0.1"], ["--z", "0", "1", "2"], ["--branch=+-"]],

@@ -22,6 +22,7 @@ SEEN = {
     "workspace": {"--out"},
     "urdf": {"--out"},
     "audit": {"--html"},
+    "convert": set(),
     "size": {"--out"},
     "ik": set(),
     "fk": set(),

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from commands import ROOT, run
 
@@ -150,6 +151,39 @@ def test_torque_writes_its_report_and_the_same_numbers_everywhere(capfd, tmp_pat
     assert found == [torques[0] for torques in document["torque"]]
     names = {path.name for path in (tmp_path / "made").iterdir()}
     assert {"motors.png", "joints.svg", "loops.png", "manifest.sha256"} <= names
+
+
+def test_wrenches_from_outside_are_given_by_frame(capfd):
+    frame = "tool"
+    flags = ("--external", f"{frame}=0,0,20")
+    code, out, _ = torque(capfd, *POLLARD, MOTION, *flags, "--json", "-")
+    assert code == 0
+    pushed = json.loads(out)
+    assert pushed["parameters"]["external"] == {frame: [0, 0, 20, 0, 0, 0]}
+    _, out, _ = torque(capfd, *POLLARD, MOTION, "--json", "-")
+    assert np.abs(np.array(pushed["torque"]) - json.loads(out)["torque"]).max() > 0.1
+    code, out, err = torque(capfd, *POLLARD, MOTION, "--external", f"{frame}=0,0,-20")
+    assert (code, err) == (0, "")
+    assert f"From outside (0, 0, -20) N and (0, 0, 0) N·m act on frame {frame}" in " ".join(
+        out.split()
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["nowhere=0,0,1"], "unknown frame 'nowhere'"),
+        (["0,0,1"], "allowed: FRAME=fx,fy,fz"),
+        (["tool=0,0"], "allowed: FRAME=fx,fy,fz"),
+        (["tool=0,0,nan"], "allowed: FRAME=fx,fy,fz"),
+        (["tool=0,0,1", "tool=0,0,2"], "given twice for 'tool'"),
+    ],
+)
+def test_wrenches_that_can_not_be_used_are_refused(capfd, words, says):
+    flags = [word for one in words for word in ("--external", one)]
+    code, out, err = torque(capfd, *POLLARD, MOTION, *flags)
+    assert (code, out) == (2, "")
+    assert says in " ".join(err.split())
 
 
 def test_a_motion_without_rates_is_answered_and_what_it_leaves_open_is_said(capfd, tmp_path):

@@ -9,7 +9,7 @@ import pinocchio as pin
 
 from thesis_pin.command.results import Answer, deliver, give, put_folder
 from thesis_pin.command.running import ExitCode
-from thesis_pin.errors import ModelWarning
+from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.loops.checking import soundness
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
@@ -17,6 +17,7 @@ from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import read_motion
 from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.model.pair import pair
+from thesis_pin.numeric.checks import shown
 from thesis_pin.report import formats as read
 from thesis_pin.report.tables import Part, Table
 from thesis_pin.report.torque.document import TorqueReport, torque_report
@@ -45,7 +46,8 @@ def torque(arguments: argparse.Namespace) -> ExitCode:
         motion = read_motion(robot, arguments.motion, smooth=arguments.smooth)
         x = arguments.precision
         pose = assembly(robot, arguments.pose, precision=x).q
-        return torque_report(robot, motion, pose=pose, precision=x)
+        external = _external(arguments)
+        return torque_report(robot, motion, pose=pose, precision=x, external=external)
 
     return deliver(
         arguments,
@@ -67,6 +69,18 @@ def _loaded(arguments: argparse.Namespace) -> ClosedRobot:
     root = pin.JointModelFreeFlyer() if arguments.free_flyer else None
     with warnings.catch_warnings(action="ignore", category=ModelWarning):  # the verbs say them
         return load(arguments.file, arguments.closures, root_joint=root)
+
+
+def _external(arguments: argparse.Namespace) -> dict[str, tuple[float, ...]]:
+    """Wrenches by frame, each frame once."""
+    found: dict[str, tuple[float, ...]] = {}
+    for frame, wrench in arguments.external:
+        if frame in found:
+            raise BadInput(
+                f"--external is given twice for {shown(frame)}", remedy="Add the wrenches up"
+            )
+        found[frame] = wrench
+    return found
 
 
 def _named(motor: Motor) -> str:

@@ -56,6 +56,13 @@ def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
     return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
 
 
+def convert_verb(robot: Robot, description: str, example: str) -> Verb:
+    """The verb that writes a motion in another form."""
+    add = (robot.motion, options.add_convert)
+    texts = ("write a motion in another form, unit or program's format", description, example)
+    return _verb(robot, "convert", texts, robot.movement, verbs.convert, *add)
+
+
 def size_verb(robot: Robot, help: str, description: str, example: str, *, samples: int) -> Verb:
     """The verb that holds a list of servos or motors against a motion."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command.options import add_json, add_report, add_smooth, number
+from thesis_pin.command.options import add_json, add_report, add_smooth, number, wrench
 from thesis_pin.command.registry import Command, Parser, Verb, Words
 
 
@@ -31,6 +31,19 @@ def _which_motion(words: Words) -> None:
         "NAME_acceleration (SI, or NAME_deg and the like)",
     )
     add_smooth(words)
+
+
+def _which_wrenches(words: Words) -> None:
+    """What acts from outside."""
+    words.add_argument(
+        "--external",
+        action="append",
+        default=[],
+        type=wrench,
+        metavar="FRAME=FX,FY,FZ[,MX,MY,MZ]",
+        help="a constant force on the robot at a frame's origin, and a moment about it, in the "
+        "world's axes [N], [N·m]; may be given for several frames",
+    )
 
 
 def _which_pose(words: Words) -> None:
@@ -100,6 +113,7 @@ COMMAND = Command(
                 _which_robot,
                 _which_motion,
                 _which_pose,
+                _which_wrenches,
                 partial(add_report, breaks="a motor or joint leaves its limits"),
             ),
         ),

@@ -45,6 +45,23 @@ def count(name: str, least: int, most: int = MOST) -> Callable[[str], int]:
     return read
 
 
+def wrench(text: str) -> tuple[str, tuple[float, ...]]:
+    """An argparse type: ``FRAME=fx,fy,fz``, three more numbers for a moment."""
+    frame, _, values = text.rpartition("=")
+    numbers = []
+    for value in values.split(","):
+        try:
+            numbers.append(float(value))
+        except ValueError:
+            numbers.append(math.nan)
+    if not frame or len(numbers) not in (3, 6) or not all(map(math.isfinite, numbers)):
+        raise argparse.ArgumentTypeError(
+            f"--external is {shown(text)}; allowed: FRAME=fx,fy,fz or FRAME=fx,fy,fz,mx,my,mz [N], "
+            "[N·m]"
+        )
+    return frame, (*numbers, 0.0, 0.0, 0.0)[:6]
+
+
 def add_robot(words: Words, another: str) -> None:
     """Which robot: ``another`` says what a specification may describe."""
     words.add_argument(
@@ -131,6 +148,42 @@ def add_view(words: Words) -> None:
         "--html", metavar="FILE|-", help="write one self-contained page instead of serving it"
     )
     add_json(words, "what is shown, and where")
+
+
+def add_convert(words: Words) -> None:
+    """The options of the verb ``convert``, besides its motion's."""
+    words.add_argument(
+        "--to",
+        metavar="FILE|-",
+        default="-",
+        help=".csv: a table, .toml: our own format, .yaml: ROS's JointTrajectory "
+        "(default: standard output)",
+    )
+    words.add_argument(
+        "--as",
+        dest="form",
+        choices=("poses", "joints", "toml", "joint-trajectory", "ticks"),
+        help="what is written (default: what FILE's ending says; of tables, poses)",
+    )
+    words.add_argument(
+        "--units",
+        default="",
+        metavar="UNITS",
+        help="of tables, as mm,deg,ms (default: SI; of m mm cm, rad deg, s ms us)",
+    )
+    words.add_argument(
+        "--samples",
+        type=count("--samples", 2),
+        metavar="N",
+        help="evenly spaced samples; more stand beside abrupt changes (default: the motion's own, "
+        "or 401)",
+    )
+    words.add_argument(
+        "--servos",
+        metavar="FILE",
+        help="TOML of how servos count, for ticks (default: 500 to 2500 µs for ±90°)",
+    )
+    add_json(words, "what was written")
 
 
 def add_audit(words: Words) -> None:

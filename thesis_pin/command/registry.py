@@ -166,6 +166,9 @@ class Robot:
         makes_report: Report on the motion that the arguments ask for; see
             :class:`thesis_pin.command.verbs.MakeReport`.
         report: The public function behind it.
+        moves: The motion that the arguments ask for, to be written down, a
+            :class:`~thesis_pin.report.exchange.movement.Movement`.
+        movement: The public function behind it.
         page: The report as a page.
         scene: The report as a scene.
         solves: Inverse kinematics that the arguments ask for, an
@@ -186,7 +189,9 @@ class Robot:
     page: str
     scene: str
     inverse_kinematics: str
+    movement: str
     makes_report: str = "verbs:report"
+    moves: str = "verbs:motion"
     solves: str = "verbs:ik"
     figures: str = "report.figures:figures"
     table: str = "report.tables:summary"

@@ -38,7 +38,7 @@ class ExitCode(IntEnum):
     """By Ctrl-C; nothing is half-written."""
 
 
-_FILES = ("json", "html", "markdown")
+_FILES = ("json", "html", "markdown", "to")
 """Options that name a file; ``-`` is standard output."""
 
 

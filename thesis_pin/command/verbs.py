@@ -28,6 +28,7 @@ from thesis_pin.errors import BadInput, ModelWarning
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
+    from thesis_pin.report.exchange.movement import Movement
     from thesis_pin.sizing.document import Sizing
 
 
@@ -101,6 +102,42 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         say=say,
         ready=ready,
     )
+    return ExitCode.DONE
+
+
+def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
+    """Write a motion in another form."""
+    with Bar("working out the motion"):
+        from thesis_pin.report.exchange.movement import content, form_of
+        from thesis_pin.report.exchange.ticks import USUAL, read_servos
+        from thesis_pin.report.writers import json_bytes
+        from thesis_pin.tables.writing import WrittenUnits
+
+        form = form_of(arguments.to, arguments.form)
+        units = WrittenUnits.parse(arguments.units)
+        if arguments.servos is not None and form != "ticks":
+            raise BadInput("--servos belongs to ticks", remedy="Add --as ticks")
+        if arguments.units and form == "joint-trajectory":
+            raise BadInput("a joint trajectory is in SI", remedy="Leave --units out")
+        loaded = _load(robot, arguments)
+        motion: Movement = _hook(robot, robot.moves)(arguments, loaded)
+        servos = USUAL
+        if arguments.servos is not None:
+            servos = read_servos(arguments.servos, motion.joints)
+        made = content(motion, form, units, servos)
+    put(arguments.to, made)
+    if arguments.json:
+        document = {
+            "schema": f"{robot.command}/convert",
+            "version": 1,
+            "robot": loaded.specification.name,
+            "file": arguments.to,
+            "form": form,
+            "samples": len(motion.time),
+            "duration": float(motion.time[-1] - motion.time[0]),
+            "joints": list(motion.joints),
+        }
+        put(arguments.json, json_bytes(document))
     return ExitCode.DONE
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from thesis_pin.tolerances import TOLERANCES
+
 _LINES = np.array(
     [[np.cos(a), np.sin(a), 0.0] for a in np.pi * np.arange(8) / 8] + [[0.0, 0.0, 1.0]]
 )
@@ -28,29 +30,39 @@ def polygon_distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.asarray(np.minimum(edges, corners))
 
 
-def least_distance(one: np.ndarray, other: np.ndarray) -> tuple[float, int]:
+def least_distance(
+    one: np.ndarray, other: np.ndarray, known: float = np.inf
+) -> tuple[float, int] | None:
     """Where two moving polygons are nearest: the distance [m], and the sample.
 
     Args:
         one: Corners of one polygon at each sample [m], shape ``(n, corners, 3)``.
         other: The same of the other one.
+        known: A distance [m] known from elsewhere.
+
+    Returns:
+        None if no pair is nearer than what is known. Pairs that differ by less than the
+        tolerance ``nearer`` are alike: the one that is looked at first is named.
     """
     # How far apart their shadows are bounds the distance from below: on a few fixed lines
     # first, and where that doesn't tell, across every edge.
     apart = _gaps(one @ _LINES.T, other @ _LINES.T)
     sample = int(np.argmin(apart))
+    if apart[sample] >= known - TOLERANCES.nearer:
+        return None
     least = float(polygon_distance(one[[sample]], other[[sample]])[0])
-    some = np.flatnonzero(apart < least)
+    some = np.flatnonzero(apart < min(least, known) - TOLERANCES.nearer)
     apart = _apart(one[some], other[some])
+    order = np.argsort(apart)
     for start in range(0, len(some), _TOGETHER):
-        order = np.argsort(apart)[start : start + _TOGETHER]
-        if apart[order[0]] >= least:
+        some_more = order[start : start + _TOGETHER]
+        if apart[some_more[0]] >= min(least, known) - TOLERANCES.nearer:
             break
-        part = some[order]
+        part = some[some_more]
         found = polygon_distance(one[part], other[part])
         if found.min() < least:
             least, sample = float(found.min()), int(part[np.argmin(found)])
-    return least, sample
+    return (least, sample) if least < known else None
 
 
 def _apart(one: np.ndarray, other: np.ndarray) -> np.ndarray:

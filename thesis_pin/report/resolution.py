@@ -17,9 +17,9 @@ def millimetres(held: Interval) -> str:
 
 
 def percent(held: Interval) -> str:
-    """``98%, between 96% and 101%``."""
+    """``98%, between 96% and 101%``; ``98%`` alone where these are the same."""
     value, low, high = (f"{x:.0%}" for x in (held.value, held.low, held.high))
-    return f"{value}, between {low} and {high}"
+    return value if low == high else f"{value}, between {low} and {high}"
 
 
 def newton_metres(held: Interval) -> str:

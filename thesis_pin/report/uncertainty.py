@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.report.resolution import fault, how_fine, size
 from thesis_pin.report.tables import Table
 from thesis_pin.smoothing.intervals import SPREAD, Interval, largest_value
-from thesis_pin.smoothing.noise import ROUNDING
 from thesis_pin.smoothing.resolution import Resolution
 
 Array = NDArray[np.float64]
@@ -19,8 +19,6 @@ LOST = 0.5
 
 PEAK = 2e-4
 """What the grid of samples may miss of a peak, relative."""
-
-_WRITTEN = 1.5  # how many times rounding's own noise still is rounding
 
 
 def few_draws(lost: int, left: int) -> bool:
@@ -52,34 +50,10 @@ def band(own: Array, rival: Array, draws: Array, more: Array | float = 0.0) -> A
     return np.stack([own - half, own + half])
 
 
-def percent(held: Interval) -> str:
-    """``98%, between 96% and 101%``; ``98%`` where they are the same."""
-    value, low, high = (f"{x:.0%}" for x in (held.value, held.low, held.high))
-    return value if low == high else f"{value}, between {low} and {high}"
-
-
 def measured(held: Interval, unit: str, digits: str = ".3f") -> str:
     """``0.341 N·m, between 0.338 and 0.357``."""
     value, low, high = (format(x, digits) for x in (held.value, held.low, held.high))
     return f"{value} {unit}, between {low} and {high}"
-
-
-def resolution(size: float, turns: bool) -> str:
-    """A length or angle in a unit that suits it: ``0.1 mm``, ``1 µm``, ``0.01°``."""
-    if turns:
-        return f"{np.degrees(size):.2g}°"
-    if size >= 1e-5:
-        return f"{size * 1e3:.3g} mm"
-    return f"{size * 1e6:.3g} µm" if size >= 1e-8 else f"{size * 1e9:.3g} nm"
-
-
-def how_fine(column: Resolution, rate: float) -> str:
-    """``written to 0.1 mm at 370 Hz`` or ``noisy by 0.03 mm at 370 Hz``."""
-    if column.noise > _WRITTEN * ROUNDING * column.quantum:
-        said = f"noisy by {resolution(float(f'{column.noise:.1g}'), column.turns)}"
-    else:
-        said = f"written to {resolution(float(f'{column.quantum:.3g}'), column.turns)}"
-    return f"{said} at {rate:.3g} Hz"
 
 
 def culprit(columns: Sequence[Resolution], found: Array) -> tuple[Resolution, float] | None:
@@ -101,11 +75,12 @@ def why(found: tuple[Resolution, float] | None, rate: float, held: Interval, lim
     if found is None:
         return "finer samples are needed"
     column, share = found
-    needed = resolution(column.needed(held, limit), column.turns)
-    return (
-        f"{column.name}, {how_fine(column, rate)}, makes {share:.0%} of it; {needed} or better "
-        "is needed, more samples a second hardly help"
-    )
+    needed = size(column.needed(held, limit), column.turns)
+    return fault(column.name, _fine(column, rate), share, needed)
+
+
+def _fine(column: Resolution, rate: float) -> str:
+    return how_fine(column.quantum, column.noise, column.turns, rate)
 
 
 def ends(one: Interval) -> dict[str, float]:
@@ -126,7 +101,7 @@ def columns_table(columns: Sequence[Resolution], rate: float) -> Table:
     moving = [one for one in columns if one.moves]
     told = {
         "column": [one.name for one in moving],
-        "samples": [how_fine(one, rate) for one in moving],
+        "samples": [_fine(one, rate) for one in moving],
     }
     rows = list(zip(*told.values(), strict=True))
     return Table("What the samples resolve", list(told), rows, prose=True)

@@ -1,5 +1,7 @@
 """Distances of flat polygons in space, against a quadratic programme and shapely."""
 
+import unittest.mock
+
 import numpy as np
 import pytest
 import shapely
@@ -7,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
+from thesis_pin.contacts import polygons
 from thesis_pin.contacts.polygons import least_distance, polygon_distance
 
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
@@ -82,3 +85,20 @@ def test_the_nearest_sample_of_a_motion_is_found():
     least, sample = least_distance(level, passing)
     assert least == distances.min()
     assert distances[sample] == least
+
+
+def test_what_is_known_to_be_nearer_is_not_looked_for():
+    """A motion in parts: only a part that comes nearer than those before has an answer."""
+    level = np.broadcast_to(np.column_stack([SQUARE, np.zeros(4)]), (3, 4, 3))
+    beside = level + np.array([[2.0, 0, 0], [1.5, 0, 0], [3.0, 0, 0]])[:, None]
+    assert least_distance(level, beside, 0.6) == (pytest.approx(0.5), 1)
+    assert least_distance(level, beside, 0.5) is None
+
+
+def test_samples_that_are_alike_but_for_rounding_are_not_all_measured():
+    level = np.broadcast_to(np.column_stack([SQUARE, np.zeros(4)]), (999, 4, 3))
+    rounding = np.random.default_rng(0).uniform(-1e-14, 1e-14, (999, 1, 3))
+    aside = level + np.array([0.4, 2.0, 0.0]) + rounding
+    with unittest.mock.patch.object(polygons, "polygon_distance", wraps=polygon_distance) as seen:
+        least_distance(level, aside)
+    assert sum(len(call.args[0]) for call in seen.call_args_list) < 20

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.loops.system.parts import Parts
 from thesis_pin.loops.system.rows import Loop
+from thesis_pin.model.formats.urdf.closing_frames import AGREES, COINCIDE
 from thesis_pin.model.mechanism.supplement import Coupling
 from thesis_pin.numeric.arrays import skew
 
@@ -77,6 +78,28 @@ class Equations:
         self.size = self._picked.size + len(self.couplings)
         """Number of equations; some may depend on others."""
         self._parts: dict[bytes, Parts] = {}
+        self._senses = [1.0] * len(self.loops)
+        if any(sum(loop.rows[3:]) == 2 for loop in self.loops):
+            self._senses = self._opposed()
+
+    def _opposed(self) -> list[float]:
+        """−1 for hinges whose axes point against each other, 1 else.
+
+        They are drawn so: with all joints at zero the axes oppose, and either the origins
+        coincide or no joint can turn one axis against the other.
+        """
+        neutral = np.asarray(pin.neutral(self.model))
+        poses = self.poses(self.model.createData(), neutral[None])
+        matrix, senses = self.jacobian(poses)[0], []
+        for k, (loop, rows) in enumerate(zip(self.loops, self.rows, strict=True)):
+            axis = loop.rows.index(False, 3) - 3 if sum(loop.rows[3:]) == 2 else 0
+            along = float(poses.turns[0, 0, k, :, axis] @ poses.turns[0, 1, k, :, axis])
+            apart = float(np.linalg.norm(poses.points[0, 1, k] - poses.points[0, 0, k]))
+            turning = np.abs(matrix[rows.start + sum(loop.rows[:3]) : rows.stop])
+            opposed = sum(loop.rows[3:]) == 2 and along < -np.sqrt(1 - AGREES**2)
+            drawn = apart < COINCIDE or turning.max(initial=0.0) < AGREES
+            senses.append(-1.0 if opposed and drawn else 1.0)
+        return senses
 
     def parts(self, columns: NDArray[np.intp] | None = None) -> Parts:
         """Parts of the Jacobian, or of the columns of it that belong to some velocities."""
@@ -189,7 +212,8 @@ class Equations:
             turns = rows.start + sum(loop.rows[:3])
             result[:, rows.start : turns] = place[:, loop.rows[:3]]
             if turns < rows.stop:
-                result[:, turns : rows.stop] = _turns(loop, inverse[:, k] @ poses.turns[:, 1, k])
+                relative = inverse[:, k] @ poses.turns[:, 1, k]
+                result[:, turns : rows.stop] = _turns(loop, relative, self._senses[k])
         if self.couplings:
             result[:, self._picked.size :] = self._coupling_gap(poses.q)
         return result
@@ -285,8 +309,8 @@ def _moved(model: pin.Model, joint: int) -> Array:
     return result
 
 
-def _turns(loop: Loop, relative: Array) -> Array:
-    """Forbidden turns [rad] of a relative rotation ``(n, 3, 3)``."""
+def _turns(loop: Loop, relative: Array, sense: float) -> Array:
+    """Forbidden turns [rad] of a relative rotation ``(n, 3, 3)``; hinges' axes have a sense."""
     forbidden = list(loop.rows[3:])
     if loop.perpendicular:
         first, second = loop.perpendicular
@@ -294,7 +318,7 @@ def _turns(loop: Loop, relative: Array) -> Array:
     if all(forbidden):
         return np.array([pin.log3(one) for one in relative])
     axis = forbidden.index(False)  # a hinge: the least turn that makes its axes parallel
-    turned = relative[:, :, axis]
+    turned = sense * relative[:, :, axis]
     turn = _cross(np.eye(3)[axis], turned)
     sine = np.linalg.norm(turn, axis=1)
     angle = np.arctan2(sine, turned[:, axis])

@@ -9,11 +9,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.report.resolution import percent
 from thesis_pin.report.torque import verdict
-from thesis_pin.report.torque.drawn import Judged, Way, judged
+from thesis_pin.report.torque.drawn import Judged, judged
 from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.report.torque.uncertainty import Headlines, shares
-from thesis_pin.report.uncertainty import culprit, few_draws, measured, percent, why
+from thesis_pin.report.uncertainty import culprit, few_draws, measured, why
 from thesis_pin.smoothing.intervals import Interval
 from thesis_pin.smoothing.resolution import Resolution
 
@@ -85,10 +86,9 @@ def _culprit(numbers: TorqueNumbers, name: str, motor: int) -> tuple[Resolution,
             return shares(one.torque, numbers.effort_limits)[..., motor]
         return np.asarray(np.abs(one.speed)[..., motor])
 
-    own = Judged(numbers.dynamics.torque, numbers.speed, numbers.loop_force_size, numbers.joints.v)
+    own = Judged(numbers.dynamics.torque, numbers.speed, numbers.loop_force_size)
     sample = np.array([int(use(own).argmax())])
-    way = Way(numbers.robot, numbers.motion, numbers.whole, numbers.precision)
-    found = judged(way, sample, variants.one_at_a_time(_DRAWS))
+    found = judged(numbers.way, sample, variants.one_at_a_time(_DRAWS))
     alive = [use(one).ravel() for one in found if one is not None]
     if len(alive) < len(found):
         return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.closing import close
 from thesis_pin.loops.dynamics import inverse_dynamics
+from thesis_pin.loops.forces.loads import checked_wrenches
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.loops.motion.whole import whole_motion
@@ -18,7 +20,7 @@ from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.report import pace
 from thesis_pin.report.torque import decision
-from thesis_pin.report.torque.drawn import Way, drawn
+from thesis_pin.report.torque.drawn import drawn
 from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.report.torque.uncertainty import uncertainty
 from thesis_pin.tolerances import TOLERANCES
@@ -82,6 +84,7 @@ class TorqueReport(TorqueNumbers):
             "motion": self.motion.name,
             "samples": len(self.joints.time),
             "given": list(self.motion.joints),
+            "external": {frame: list(wrench) for frame, wrench in self.external.items()},
             "thesis_pin": __version__,
         }
 
@@ -193,6 +196,7 @@ def torque_report(
     *,
     pose: ArrayLike | None = None,
     precision: float | None = None,
+    external: Mapping[str, ArrayLike] | None = None,
 ) -> TorqueReport:
     """Work out what a motion takes of a robot's motors and loops.
 
@@ -203,21 +207,42 @@ def torque_report(
             for the least open of the description's.
         precision: What counts as dependent; see
             :func:`thesis_pin.loops.configurations.surveying.surveyed`.
+        external: Frame → constant wrench that acts on it from outside: force, then moment
+            about the frame's origin, world axes [N], [N·m], shape ``(6,)``.
 
     Raises:
+        UnknownName: A frame that the wrenches act on doesn't exist.
         Unreachable, SingularPose, TrajectoryError: The motion is impossible; with the place.
         NoSolution: Neither motors nor loops carry some load.
     """
     instance("robot", robot, ClosedRobot, "thesis_pin.load()")
     instance("motion", motion, JointMotion, "thesis_pin.read_motion()")
+    pushed = {
+        name: vector(f"external wrench on {name!r}", value, 6)
+        for name, value in (external or {}).items()
+    }
+    checked_wrenches(robot, pushed, ())  # before the motion, which may take long
     start = assembly(robot, precision=precision).q if pose is None else pose
     closed = close(robot, vector("pose", start, robot.model.nq), precision=precision)
     whole = whole_motion(robot, motion, closed, precision=precision)
     joints = whole.joints
-    dynamics = inverse_dynamics(robot, joints.q, joints.v, joints.a, precision=precision)
-    report = TorqueReport(robot, motion, whole, dynamics, precision)
+    dynamics = inverse_dynamics(
+        robot, joints.q, joints.v, joints.a, precision=precision, external=pushed
+    )
+    report = TorqueReport(robot, motion, whole, dynamics, precision, external=pushed)
     if motion.variants is None:
         return report
     sizes = (np.abs(dynamics.torque), np.abs(report.speed), report.loop_force_size)
     extremes = [int(k) for size in sizes for k in size.argmax(axis=0)]
-    return replace(report, drawn=drawn(Way(robot, motion, whole, precision), extremes))
+    found = drawn(report.way, extremes)
+    if found is not None and found.sliding is not None:
+        dynamics = inverse_dynamics(
+            robot,
+            joints.q,
+            joints.v,
+            joints.a,
+            precision=precision,
+            external=pushed,
+            sliding=found.sliding,
+        )
+    return replace(report, dynamics=dynamics, drawn=found)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -16,7 +17,7 @@ from thesis_pin.loops.motion.whole import WholeMotion
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
-from thesis_pin.report.torque.drawn import Drawn, Judged
+from thesis_pin.report.torque.drawn import Drawn, Judged, Way
 from thesis_pin.report.torque.uncertainty import Headlines, headlines, shares
 from thesis_pin.tolerances import TOLERANCES
 
@@ -34,6 +35,8 @@ class TorqueNumbers:
         dynamics: Torques of the motors and forces of the loops.
         precision: What counted as dependent, if that was asked for.
         drawn: What the motion's samples leave open, judged; None if it is exact.
+        external: Frame → constant wrench on it from outside: force, then moment about the
+            frame's origin, world axes [N], [N·m], shape ``(6,)``.
     """
 
     robot: ClosedRobot
@@ -42,6 +45,12 @@ class TorqueNumbers:
     dynamics: LoopDynamics
     precision: float | None = None
     drawn: Drawn | None = None
+    external: Mapping[str, Array] = field(default_factory=dict)
+
+    @property
+    def way(self) -> Way:
+        """How the motion is carried."""
+        return Way(self.robot, self.motion, self.whole, self.precision, self.external)
 
     @cached_property
     def headlines(self) -> Headlines | None:
@@ -49,7 +58,7 @@ class TorqueNumbers:
         if self.drawn is None:
             return None
         keep = self.drawn.keep
-        values = (self.dynamics.torque, self.speed, self.loop_force_size, self.joints.v)
+        values = (self.dynamics.torque, self.speed, self.loop_force_size)
         own = Judged(*(one[keep][None] for one in values))
         limits = self.effort_limits, self.speed_limits
         return headlines(own, self.drawn, self.joints.time[keep], limits)

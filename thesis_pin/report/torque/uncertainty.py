@@ -61,19 +61,22 @@ def headlines(own: Judged, drawn: Drawn, time: Array, limits: tuple[Array, Array
     """
     rival = own if drawn.rival is None else drawn.rival
     draws = own if drawn.draws is None else drawn.draws
-    every = (own, rival, draws)
+    every, friction = (own, rival, draws), drawn.unknown
 
-    def largest(values: Sequence[Array]) -> tuple[Interval, ...]:
+    def largest(values: Sequence[Array], more: Array | float = 0.0) -> tuple[Interval, ...]:
         mine, other, each = values
-        return tuple(peaks(mine[0], other[0], each))
+        return tuple(peaks(mine[0], other[0], each, more))
 
     return Headlines(
-        peak_torque=largest([np.abs(one.torque) for one in every]),
-        effort_use=largest([shares(one.torque, limits[0]) for one in every]),
+        peak_torque=largest([np.abs(one.torque) for one in every], friction),
+        effort_use=largest(
+            [shares(one.torque, limits[0]) for one in every],
+            np.maximum(shares(friction, limits[0]), shares(-friction, limits[0])),
+        ),
         speed_use=largest([np.abs(one.speed) / limits[1] for one in every]),
         peak_loop_force=largest([one.loop_force for one in every]),
         time=time,
-        torque_band=band(own.torque[0], rival.torque[0], draws.torque),
+        torque_band=band(own.torque[0], rival.torque[0], draws.torque, friction),
     )
 
 

@@ -33,6 +33,7 @@ def sentences(report: TorqueNumbers, *, motors: bool = True) -> list[str]:
         *_carried(report),
         *(_efforts(report) if motors else ()),
         *_ranges(report),
+        *_external(report),
         *_base(report),
         *_idle(report),
         *_shares(report),
@@ -84,6 +85,16 @@ def _ranges(report: TorqueNumbers) -> list[str]:
     return [
         f"Joint {name} leaves its range by {excess:.3g}." for name, excess in report.outside.items()
     ]
+
+
+def _external(report: TorqueNumbers) -> list[str]:
+    said = []
+    for frame, wrench in report.external.items():
+        force, moment = (", ".join(f"{x:.4g}" for x in part) for part in (wrench[:3], wrench[3:]))
+        said.append(
+            f"From outside ({force}) N and ({moment}) N·m act on frame {frame}, world axes."
+        )
+    return said
 
 
 def _base(report: TorqueNumbers) -> list[str]:

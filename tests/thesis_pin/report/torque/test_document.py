@@ -9,6 +9,7 @@ import pinocchio as pin
 import pytest
 
 import pollard_pin
+from thesis_pin.errors import UnknownName, WrongShape
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.loading import load
@@ -86,6 +87,44 @@ def test_the_motors_power_is_the_change_of_the_robot_s_energy(name, joint):
     power = report.power.sum(axis=1)[2:-2]
     np.testing.assert_allclose(power, change, atol=2e-3 * np.abs(power).max())
     assert report.unexplained.max() < 1e-9
+
+
+def test_a_wrench_from_outside_is_carried_by_the_motor_in_the_world_s_axes():
+    # Against a moment about the world's y, which an axis along −y feels as −3; the force at
+    # the axis does no work.
+    motion = swing("hip")
+    plain = torque_report(arm(), motion)
+    pushed = torque_report(arm(), motion, external={"rod": (5, 6, 7, 1, 3, 2)})
+    np.testing.assert_allclose(pushed.dynamics.torque, plain.dynamics.torque + 3.0, atol=1e-12)
+    assert pushed.document()["parameters"]["external"] == {"rod": [5, 6, 7, 1, 3, 2]}
+    assert "(5, 6, 7) N and (1, 3, 2) N·m act on frame rod" in " ".join(pushed.verdict())
+    assert plain.document()["parameters"]["external"] == {}
+
+
+@pytest.mark.parametrize(("name", "joint"), [("four_bar", "motor"), ("five_bar", "motor_left")])
+def test_what_a_constant_force_does_the_motors_need_not(name, joint):
+    """By the way that the frame goes."""
+    robot = load(DATA / f"{name}.urdf", DATA / f"{name}.yaml")
+    start = singles(robot.model)[joint].position(torque_start(robot))
+    motion, force = swing(joint, start=float(start), size=0.2), np.array([3.0, -2.0, 5.0])
+    frame = robot.loops[0].frames[0]
+    pushed = torque_report(robot, motion, external={frame: [*force, 0, 0, 0]})
+    plain = torque_report(robot, motion)
+    way = []
+    for q in plain.joints.q:
+        pin.framesForwardKinematics(robot.model, robot.data, q)
+        way.append(robot.data.oMf[robot.model.getFrameId(frame)].translation.copy())
+    spared = np.gradient(np.array(way) @ force, TIME)[2:-2]
+    power = (plain.power - pushed.power).sum(axis=1)[2:-2]
+    assert np.abs(spared).max() > 0.1
+    np.testing.assert_allclose(power, spared, atol=2e-3 * np.abs(spared).max())
+
+
+def test_wrenches_on_frames_that_are_not_there_are_refused_before_anything_is_worked_out():
+    with pytest.raises(UnknownName, match="'hand'"):
+        torque_report(arm(), swing("hip"), external={"hand": np.zeros(6)})
+    with pytest.raises(WrongShape):
+        torque_report(arm(), swing("hip"), external={"rod": np.zeros(3)})
 
 
 def torque_start(robot):

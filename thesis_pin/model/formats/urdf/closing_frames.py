@@ -3,9 +3,10 @@
 CAD exporters leave ``closing_NAME_1`` and ``closing_NAME_2`` (onshape-to-robot, PlaCo) or
 ``closedloopNAME_A`` and ``closedloopNAME_B`` (parallel-robots community) in the tree, as
 links or joints. Whether they are hinges or welds isn't written: frames whose z axes agree
-with every joint at zero are hinges, and those that agree in another axis if their origins
-do too; the others are taken as ball joints. A name that ends in axes, as
-``closing_NAME_xz_1``, closes these directions only; one with ``3D`` or ``6D`` says its type.
+with every joint at zero are hinges; where their origins coincide so are those whose z axes
+are opposed, and those that agree in another axis; the others are taken as ball joints. A
+name that ends in axes, as ``closing_NAME_xz_1``, closes these directions only; one with
+``3D`` or ``6D`` says its type.
 """
 
 from __future__ import annotations
@@ -75,7 +76,8 @@ def _word(name: str, one: Array, other: Array) -> str:
     agree = np.einsum("ij,ij->j", one[:3, :3], other[:3, :3])
     # The z axis of a mate is its hinge; others may agree by chance in an open drawing.
     for axis in (2, 0, 1) if closed else (2,):
-        if agree[axis] > 0.0 and np.sqrt(max(1.0 - agree[axis] ** 2, 0.0)) < AGREES:
+        along = abs(agree[2]) if axis == 2 and closed else agree[axis]  # it may point either way
+        if along > 0.0 and np.sqrt(max(1.0 - along**2, 0.0)) < AGREES:
             return f"hinge_{'xyz'[axis]}"
     return "3d"
 

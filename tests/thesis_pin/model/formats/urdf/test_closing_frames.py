@@ -32,7 +32,9 @@ def robot(one, other, rpy="0 0 0", names="closing_knee_1 closing_knee_2"):
         ("0 0 0", "0.4 0 0", "hinge_x"),
         ("0 0 0", "0 0.4 0", "hinge_y"),
         ("0 0 0", "0.4 0.5 0.6", "3d"),
-        ("0 0 0", "0 3.14159265358979 0", "hinge_y"),  # z points the other way
+        ("0 0 0", "0 3.14159265358979 0", "hinge_z"),  # z points the other way
+        ("0 0 0", "3.14159265358979 0 0", "hinge_z"),
+        ("0 0 0", "3.14159265358979 0 0.4", "hinge_z"),
     ],
 )
 def test_frames_that_agree_in_an_axis_are_a_hinge_about_it(one, other, word):

@@ -1,0 +1,101 @@
+"""A gait written down again: at which times, and in our own format."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+
+from scout_pin.coordinates import POSE_NAMES
+from scout_pin.motion.gait import BODIES, Gait
+from thesis_pin.numeric.interpolation import interpolate
+from thesis_pin.tables.units import Unit
+from thesis_pin.tables.writing import WrittenUnits, texts
+from thesis_pin.tolerances import TOLERANCES
+
+_APART = 1e-6
+"""Share of a gait within which an evenly spaced time and a change of support are one."""
+
+
+def rows_of(gait: Gait, samples: int | None = None, *, usual: int = 401) -> np.ndarray:
+    """Times t at which to write a gait down, in its unit, shape ``(n,)``.
+
+    Args:
+        gait: The gait.
+        samples: Evenly spaced times, with those at which support changes; None takes the
+            samples that the gait was made of, where a spline through them is the gait.
+        usual: How many, where it wasn't made of samples.
+    """
+    moving = [c for curves in gait.curves.values() for c in curves if len(c.x) > 2]
+    if samples is None and moving:
+        t = moving[0].x
+        ends = {gait.start, gait.end} <= {float(t[0]), float(t[-1])}
+        if len(t) > 3 and ends and all(_through(curve, t) for curve in moving):
+            return np.asarray(t)
+    changes = np.unique([*(phase.start for phase in gait.phases), gait.end])
+    even = np.linspace(gait.start, gait.end, samples or usual)
+    apart = np.abs(even[:, None] - changes).min(axis=1) > _APART * (gait.end - gait.start)
+    return np.union1d(even[apart], changes)
+
+
+def _through(curve: object, t: np.ndarray) -> bool:
+    """Whether a curve is the spline with free ends through its own nodes."""
+    from scipy.interpolate import PPoly
+
+    if not isinstance(curve, PPoly) or len(curve.c) != 4 or not np.array_equal(curve.x, t):
+        return False
+    again = interpolate(t, curve(t), "free")
+    middle = t[:-1] + np.diff(t) / 2
+    scale = float(np.abs(curve(t)).max())
+    return all(
+        np.abs(again(middle, order) - curve(middle, order)).max()
+        <= TOLERANCES.same_curve * max(scale, float(np.abs(curve(middle, order)).max()))
+        for order in (0, 1, 2)
+    )
+
+
+def gait_toml(gait: Gait, t: np.ndarray, units: WrittenUnits) -> str:
+    """A gait in our own format, its curves splined through samples.
+
+    Args:
+        gait: The gait.
+        t: Times of the samples in its unit, ascending, shape ``(n,)``.
+        units: Units of lengths and angles; time is in seconds.
+    """
+    time = t * gait.time_unit
+    lines = [
+        "format = 1",
+        f"name = {json.dumps(gait.name)}",
+        f"source = {json.dumps(gait.source)}",
+        "time_unit = 1.0",
+        'interpolation = "free"',
+        *(["cycle = true"] if gait.cycle else []),
+        *([f"branch = {json.dumps(gait.branch)}"] if gait.branch else []),
+    ]
+    nodes = ", ".join(map(repr, time.tolist()))
+    for body in BODIES:
+        lines += ["", f"[{body}]"]
+        for name, curve in zip(POSE_NAMES, gait.curves[body], strict=True):
+            unit = units.length if name in "xyz" else units.angle
+            values = texts(curve(t), unit)
+            key = name + _ending(unit)
+            if len(set(values)) == 1:
+                lines.append(f"{key} = {_number(values[0])}")
+            else:
+                row = ", ".join(map(_number, values))
+                lines.append(f"{key} = [{{ t = [{nodes}], value = [{row}] }}]")
+    for phase in gait.phases:
+        start, end = (at * gait.time_unit for at in (phase.start, phase.end))
+        support = f'support = "{phase.support}"'
+        lines += ["", "[[phases]]", f"start = {start!r}", f"end = {end!r}", support]
+    return "\n".join(lines) + "\n"
+
+
+def _ending(unit: Unit) -> str:
+    """How a key says a unit: SI is said by nothing."""
+    return "" if unit.ending in ("_m", "_rad") else unit.ending
+
+
+def _number(text: str) -> str:
+    """A number as TOML has it."""
+    return text if "." in text or "e" in text else f"{text}.0"

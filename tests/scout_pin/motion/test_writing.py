@@ -1,0 +1,101 @@
+"""Gaits written down and read back."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+import scout_pin
+from scout_pin.motion.gait import BODIES
+from scout_pin.motion.writing import rows_of
+from scout_pin.report.document import gait_report
+from scout_pin.report.movement import gait_movement
+from thesis_pin.report.exchange.movement import content, form_of
+from thesis_pin.tables.writing import WrittenUnits
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+GAITS = {
+    "thesis": ("thesis", None),
+    "walk": (EXAMPLES / "walk.toml", None),
+    "squat": (EXAMPLES / "squat.toml", None),
+    "lopsided": (EXAMPLES / "lopsided_walk.toml", EXAMPLES / "lopsided.toml"),
+}
+
+
+@pytest.fixture(scope="module", params=GAITS)
+def given(request):
+    source, specification = GAITS[request.param]
+    return scout_pin.load(specification), scout_pin.load_gait(source)
+
+
+def values(gait, t):
+    return np.array([[curve(t) for curve in gait.curves[body]] for body in BODIES])
+
+
+@pytest.mark.parametrize("units", ["", "mm,deg,ms", "cm,rad,us"])
+@pytest.mark.parametrize("form", ["poses", "toml"])
+def test_what_is_written_reads_back_at_every_row(given, form, units, tmp_path):
+    robot, gait = given
+    if form == "toml" and "cm" in units:
+        pytest.skip("our own format knows millimetres and degrees")
+    file = tmp_path / ("a.toml" if form == "toml" else "a.csv")
+    chosen = WrittenUnits.parse(units)
+    file.write_bytes(content(gait_movement(robot, gait, samples=101), form, chosen))
+    again = scout_pin.load_gait(file)
+    t = rows_of(gait, 101)
+    found, wanted = values(again, t * gait.time_unit), values(gait, t)
+    lengths = (slice(None), slice(3), slice(None, -1))  # the last row ends a piece of a curve
+    if form == "poses":
+        np.testing.assert_array_equal(found[lengths], wanted[lengths])
+    np.testing.assert_allclose(found, wanted, atol=1e-15, rtol=1e-15)
+    middle = (t[1:] + t[:-1]) / 2
+    inside = np.abs(middle[:, None] - [p.end for p in gait.phases]).min(axis=1) > 0.3
+    same = again.support(middle[inside] * gait.time_unit) == gait.support(middle[inside])
+    assert same.all()
+
+
+def test_a_gait_made_of_samples_is_written_at_its_samples(given, tmp_path):
+    robot, gait = given
+    first, second = tmp_path / "1.csv", tmp_path / "2.csv"
+    first.write_bytes(content(gait_movement(robot, gait, samples=241), "poses"))
+    once = scout_pin.load_gait(first)
+    second.write_bytes(content(gait_movement(robot, once), "poses"))
+    rows = [file.read_text().splitlines() for file in (first, second)]
+    assert len(rows[0]) == len(rows[1])
+    for one, two in zip(rows[0][:-1], rows[1][:-1], strict=True):
+        # All but who stands at the row at which that changes, which either phase may have.
+        assert one.split(",")[::2][1:] == two.split(",")[::2][1:]
+
+
+def test_joint_angles_read_back_to_the_same_report(given, tmp_path):
+    robot, gait = given
+    poses, joints = tmp_path / "p.csv", tmp_path / "j.csv"
+    movement = gait_movement(robot, gait, samples=241)
+    poses.write_bytes(content(movement, "poses"))
+    joints.write_bytes(content(movement, "joints", WrittenUnits.parse("deg")))
+    one, two = (
+        gait_report(robot, scout_pin.load_gait(file, robot=robot), samples=31)
+        for file in (poses, joints)
+    )
+    np.testing.assert_allclose(two.dynamics.torque, one.dynamics.torque, atol=1e-9)
+
+
+def test_ros_gets_the_report_s_own_angles_and_torques(given):
+    robot, gait = given
+    message = yaml.safe_load(content(gait_movement(robot, gait, samples=11), "joint-trajectory"))
+    t = rows_of(gait, 11)
+    motion = gait.sample(t)
+    joints = scout_pin.joint_trajectory(robot, motion)
+    torque = scout_pin.inverse_dynamics(robot, motion, joints).torque
+    assert message["joint_names"] == list(scout_pin.JOINT_NAMES)
+    for key, wanted in (("positions", joints.q), ("velocities", joints.v), ("effort", torque)):
+        np.testing.assert_array_equal([point[key] for point in message["points"]], wanted)
+
+
+def test_an_ending_says_what_to_write_or_it_is_asked_for():
+    assert form_of("a.CSV", None) == "poses"
+    assert form_of("a.csv", "ticks") == "ticks"
+    assert form_of("b.yml", None) == "joint-trajectory"
+    with pytest.raises(ValueError, match=r"'a\.xlsx' doesn't say what to write"):
+        form_of("a.xlsx", None)
