@@ -21,6 +21,7 @@ from thesis_pin.model.mechanism.inertia import (
     centroidal_inertia,
     check_physical,
 )
+from thesis_pin.model.shapes import Shape
 from thesis_pin.model.specification import (
     Assumption,
     Key,
@@ -106,11 +107,16 @@ class Servo(Strict):
 
 
 class Link(Strict):
-    """Mass [kg], centre of mass [m] and inertia matrix [kg·m²] in the joint's frame."""
+    """Mass [kg], centre of mass [m] and inertia matrix [kg·m²] in the joint's frame.
+
+    ``collision`` are the shapes it collides by, in the same frame; without them what is
+    drawn collides, which is a note and no verdict.
+    """
 
     mass: Positive
     com: Vector3
     inertia: SymmetricMatrix
+    collision: tuple[Shape, ...] = ()
 
     def centroidal(self, convention: Convention, reading: Reading) -> np.ndarray:
         """Tensor about the centre of mass [kg·m²], shape ``(3, 3)``."""
@@ -303,6 +309,8 @@ class Specification(BranchKeys):
                 (("legs", side, "links", k), link) for k, link in enumerate(self.leg(side).links)
             ]
         for key, link in bodies:
+            for number, shape in enumerate(link.collision):
+                yield from shape.problems((*key, "collision", number))
             inertia = link.centroidal(self.inertia_convention, "physical")
             try:
                 check_physical(str(key[-1]), link.mass, np.array(link.com), inertia)

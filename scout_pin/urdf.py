@@ -17,7 +17,10 @@ from scout_pin.specification import JOINT_NAMES, LINK_NAMES, SIDES, Leg, Link, S
 from thesis_pin.files import write_files
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.urdf import (
+    BOTH,
+    Kinds,
     bar,
+    collision,
     cylinder,
     extruded_polygon,
     inertial,
@@ -109,9 +112,8 @@ def write(specification: Specification, folder: str | Path) -> list[Path]:
 def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
     signs = {"left": -1.0, "right": 1.0}
     hips = [offsets(specification.leg(side), signs[side])[0] for side in SIDES]
-    yield _link(
-        "torso", specification.torso, specification, reading, [bar(hips[0], hips[1], BAR_RADIUS)]
-    )
+    drawn = bar(hips[0], hips[1], BAR_RADIUS, _kinds(specification.torso))
+    yield _link("torso", specification.torso, specification, reading, [drawn])
     lower, upper = specification.assumptions.joint_range.radians()
     torque, speed = specification.servo_limits()
     friction = specification.assumptions.joint_friction
@@ -134,9 +136,10 @@ def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
                 friction=(friction.viscous, friction.coulomb),
             )
             size = specification.servos[leg.servos[k]].size
+            kinds = _kinds(leg.links[k])
             shapes = [
-                bar((0.0, 0.0, 0.0), points[k + 1], BAR_RADIUS),
-                cylinder(axis, radius=size[1] / 2, length=size[2]),
+                bar((0.0, 0.0, 0.0), points[k + 1], BAR_RADIUS, kinds),
+                cylinder(axis, radius=size[1] / 2, length=size[2], kinds=kinds),
             ]
             yield _link(name, leg.links[k], specification, reading, shapes)
             parent, place = name, place + 1
@@ -150,9 +153,15 @@ def _elements(specification: Specification, reading: Reading) -> Iterator[str]:
         yield f'  <link name="{side}_sole">\n{mesh(f"meshes/{side}_sole.obj")}  </link>\n'
 
 
+def _kinds(link: Link) -> Kinds:
+    """What a link's drawing is there for: to collide too, where nobody says its shape."""
+    return ("visual",) if link.collision else BOTH
+
+
 def _link(
     name: str, link: Link, specification: Specification, reading: Reading, shapes: list[str]
 ) -> str:
     tensor = link.centroidal(specification.inertia_convention, reading)
+    shapes = [*shapes, *map(collision, link.collision)]
     body = inertial(link.mass, link.com, tensor) + "".join(shapes)
     return f'  <link name="{name}">\n{body}  </link>\n'

@@ -14,6 +14,7 @@ from pollard_pin.specification import Specification
 from pollard_pin.urdf import anchors
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import choice, shown
+from thesis_pin.numeric.turns import need_turns
 from thesis_pin.report.branches import label
 
 
@@ -132,6 +133,11 @@ class Geometry:
     beta_1413: np.ndarray
     lower: np.ndarray
     upper: np.ndarray
+
+    @cached_property
+    def turned(self) -> bool:
+        """Whether limits hold some angles only whole turns from (−π, π]."""
+        return need_turns(self.lower, self.upper)
 
     @cached_property
     def sides(self) -> tuple[tuple[float, ...], ...]:

@@ -76,7 +76,8 @@ def inverse_kinematics(
         angles[k], cosines[k] = _members(geometry, flat[k], branches, free[k])
     if (beyond := ~(np.abs(cosines).max(axis=-1) <= 1.0 + TOLERANCES.reach)).any():
         angles[beyond] = np.nan
-    angles = fitted(angles, geometry.lower, geometry.upper)
+    if geometry.turned:
+        angles = fitted(angles, geometry.lower, geometry.upper)
     shape: tuple[int, ...] = (*stack, len(branches))
     target = target[..., None, :]
     if squeeze and len(branches) == 1:

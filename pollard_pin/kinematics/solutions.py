@@ -40,7 +40,7 @@ class Solutions:
         branches: Labels, in the order of that axis.
         pose: The poses asked for, shape ``(..., 6)`` or ``(..., 1, 6)``.
         angles: Joint angles [rad], shape ``(..., 12)``; NaN if unreachable. In (−π, π], or
-            where a joint's limits don't hold that, whole turns from it as near as they allow.
+            where a joint's limits hold only that, whole turns from it.
         cosines: What the arccosines of chains 0, 1, 2 are taken of, shape ``(..., 3)``:
             a chain closes if its own is within ±1 (NaN after a chain that doesn't).
     """

@@ -13,6 +13,7 @@ from pollard_pin.motion.trajectory import SolvedTrajectory, joint_trajectory
 from pollard_pin.motion.writing import path_toml
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATORS
+from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.report.exchange.joint_trajectory import JointStates
 from thesis_pin.report.exchange.movement import Movement
 
@@ -60,9 +61,10 @@ def path_movement(
     )
 
 
-def report_states(report: TrajectoryReport) -> JointStates:
-    """What the six motors do in a report."""
-    q, motors = report.joints, list(ACTUATORS)
+def report_states(report: TrajectoryReport, keep: Samples) -> JointStates:
+    """What the six motors do at some samples of a report."""
+    q, motors = report.joints.part(keep), list(ACTUATORS)
+    torque = report.dynamics.torque[keep]
     return JointStates(
-        ACTUATOR_NAMES, q.time, q.q[:, motors], q.v[:, motors], q.a[:, motors], report.torque
+        ACTUATOR_NAMES, q.time, q.q[:, motors], q.v[:, motors], q.a[:, motors], torque
     )

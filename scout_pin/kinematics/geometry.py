@@ -9,6 +9,7 @@ import numpy as np
 
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from thesis_pin.numeric.rotations import rotation
+from thesis_pin.numeric.turns import need_turns
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,11 @@ class LegGeometry:
             upper=upper[mine],
             names=JOINT_NAMES[mine],
         )
+
+    @cached_property
+    def turned(self) -> bool:
+        """Whether limits hold some angles only whole turns from (−π, π]."""
+        return need_turns(self.lower, self.upper)
 
     @cached_property
     def foot_rows(self) -> list[list[float]]:

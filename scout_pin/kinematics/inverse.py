@@ -82,10 +82,12 @@ def every_branch(
             theta[some], excess[some] = _members(leg, entries[some], given)
     if (beyond := excess > TOLERANCES.reach).any():
         theta[beyond] = np.nan
+    if leg.turned:
+        theta = fitted(theta, leg.lower, leg.upper)
     return LegSolutions(
         leg,
         target,
-        fitted(theta, leg.lower, leg.upper).reshape(*stack, 8, 6),
+        theta.reshape(*stack, 8, 6),
         excess.reshape(*stack, 8),
         sine_axis.reshape(stack),
         sine_hip.reshape(stack),

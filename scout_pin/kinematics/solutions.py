@@ -27,7 +27,7 @@ class LegSolutions:
         target: The poses asked for, torso to sole, shape ``(..., 4, 4)``.
         angles: Joint angles θ [rad], shape ``(..., 8, 6)``, in the order of
             :data:`BRANCHES`; NaN where a branch doesn't exist. In (−π, π], or where a joint's
-            limits don't hold that, whole turns from it as near as they allow.
+            limits hold only that, whole turns from it.
         excess: By how much the hip-to-ankle distance |p5 − p3| of a branch misses
             what thigh and shank can span [m], shape ``(..., 8)``; ≤ 0 if reachable.
         sine_axis: Sine of the angle between v and a; zero where e is free.

@@ -220,6 +220,23 @@ class GaitReport(GaitNumbers):
                 for swing in self.swings
             ],
             "sole_gap": self.sole_gap[0],
+            "collisions": {
+                "judged": list(self.collisions.judged),
+                **{
+                    name: [
+                        {"links": list(touch.links), "time": float(self.joints.time[touch.sample])}
+                        for touch in found
+                    ]
+                    for name, found in (
+                        ("touching", self.collisions.touching),
+                        ("drawn_touching", self.collisions.drawn),
+                    )
+                },
+                "left_out": {
+                    "neighbours": [list(pair) for pair in self.collisions.neighbours],
+                    "touching_in_neutral": [list(pair) for pair in self.collisions.neutral],
+                },
+            },
             "sole_gap_time": float(self.joints.time[self.sole_gap[1]]),
             "rate_jumps": [
                 {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}

@@ -41,7 +41,7 @@ def figures(report: GaitReport) -> dict[str, bytes]:
     files: dict[str, bytes] = {}
     for name, figure in drawn.items():
         files |= figure_files(name, figure)
-    return files | exchange_files(report_states(report))
+    return files | exchange_files(report_states(report, keep))
 
 
 @default_style()

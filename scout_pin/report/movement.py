@@ -17,6 +17,7 @@ from scout_pin.motion.writing import gait_toml, rows_of
 from scout_pin.report.document import GaitReport
 from scout_pin.report.stance import branch_asked
 from scout_pin.specification import JOINT_NAMES
+from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.exchange.joint_trajectory import JointStates
 from thesis_pin.report.exchange.movement import Movement
@@ -72,7 +73,7 @@ def gait_movement(
     )
 
 
-def report_states(report: GaitReport) -> JointStates:
-    """What the joints do in a report."""
-    q = report.joints
-    return JointStates(JOINT_NAMES, q.time, q.q, q.v, q.a, report.dynamics.torque)
+def report_states(report: GaitReport, keep: Samples) -> JointStates:
+    """What the joints do at some samples of a report."""
+    q = report.joints.part(keep)
+    return JointStates(JOINT_NAMES, q.time, q.q, q.v, q.a, report.dynamics.torque[keep])

@@ -10,6 +10,7 @@ import numpy as np
 from scout_pin.dynamics.impact import Impact
 from scout_pin.dynamics.variants import Drawn
 from scout_pin.model import Scout
+from scout_pin.motion.collisions import Collisions, collisions
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.swings import Swing, lowest_corner, sole_gap, swings
 from scout_pin.motion.variants import RateJump
@@ -98,7 +99,7 @@ class GaitNumbers:
     def time_units(self) -> list[TimeUnits]:
         """Time units at which the gait walks and its servos carry it."""
         places = self.ends.cycle and not self.ends.closure.places_fit
-        if self.digs or self.soles_collide or places:  # at any speed
+        if self.digs or self.soles_collide or self.collisions.touching or places:  # at any speed
             return []
         return time_units(self.speeds, self.gait, self.com, self.time_unit)
 
@@ -155,6 +156,11 @@ class GaitNumbers:
     def sole_gap(self) -> tuple[float, int]:
         """Least distance of the soles [m], and the sample at which they are nearest."""
         return sole_gap(self.robot, self.motion)
+
+    @cached_property
+    def collisions(self) -> Collisions:
+        """Links that touch each other."""
+        return collisions(self.robot, self.motion, self.joints)
 
     @property
     def digs(self) -> bool:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Literal
 
 import numpy as np
@@ -186,19 +186,24 @@ class Speeds:
         trial = _Trial(self, double, cause, stands)
         inset = TOLERANCES.time_unit * (1 - 1e-9)
         speeds = np.geomspace(rest.low * (1 + inset), rest.high * (1 - inset), _SPEEDS)
-        verdicts = [trial.worst(s) for s in speeds]
+        verdicts: list[list[int] | None] = []
+        for s in speeds:
+            verdicts.append(trial.worst(float(s)))
+            if not stands and verdicts[-1] is not None:  # where it starts is all that is asked
+                break
         parts = []
         for k, verdict in enumerate(verdicts):
             if verdict is None:
                 continue
+            last = k + 1 == len(verdicts)
             start, end, source = rest.low, rest.high, verdict
             if k and verdicts[k - 1] is None:
                 start, source = trial.bisected(float(speeds[k - 1]), float(speeds[k]))
             elif k:
                 start = float(speeds[k - 1])
-            if k + 1 < len(speeds) and verdicts[k + 1] is None:
+            if not last and verdicts[k + 1] is None:
                 end, source = trial.bisected(float(speeds[k + 1]), float(speeds[k]))
-            elif k + 1 < len(speeds):
+            elif not last:
                 end = float(speeds[k + 1])
             parts.append(Intervals(np.array([start]), np.array([end]), np.array([source])))
         return Intervals.joined(parts, 3)
@@ -221,24 +226,23 @@ class _Trial:
     def bisected(self, fine: float, bad: float) -> tuple[float, list[int]]:
         """Where between a fine and a bad speed the limit is, and what it is."""
         known = np.empty(0, dtype=np.intp)
-        source: list[int] = []
+        some, use, joint = self._uses(bad, self._checked(bad, known))
         while True:
-            some, use, joint = self._uses(bad, self._checked(bad, known))
             top = some[np.argsort(use)[-_BISECTED:]]
             known, source = np.union1d(known, top), self._source(some, use, joint)
             root = self._root(known, fine, bad)
             # A little to the fine side of it, and never beyond.
             step = 1.0 + TOLERANCES.time_unit
-            inner = max(root / step, fine) if fine < bad else min(root * step, fine)
-            some, use, joint = self._uses(inner, self._checked(inner, known))
-            if not use.size or use.max() <= 1.0 or inner == fine:
-                return inner, source
-            bad = inner
+            bad = max(root / step, fine) if fine < bad else min(root * step, fine)
+            some, use, joint = self._uses(bad, self._checked(bad, known))
+            if use.max(initial=0.0) <= 1.0 or bad == fine:
+                return bad, source
 
     def _root(self, known: np.ndarray, fine: float, bad: float) -> float:
         """Speed between a fine and a bad one at which one of some samples meets its limit."""
         from scipy.optimize import brentq
 
+        @cache  # both ends are asked for twice
         def passed(s: float) -> float:
             use = self._uses(s, known)[1]
             return min(float(use.max(initial=0.0)) - 1.0, 1.0)

@@ -65,6 +65,7 @@ def summary(report: GaitReport) -> Iterator[Part]:
         f"The soles come within {report.sole_gap[0] * 1e3:.1f} mm of each other "
         f"(t = {report.motion.t[report.sole_gap[1]]:g}).",
     )
+    yield from _left_out(report)
     yield report.stance.sentence()
     for impact in report.impacts:
         normal = impact.impulse[0, 2]
@@ -82,6 +83,18 @@ def summary(report: GaitReport) -> Iterator[Part]:
     yield from ("", *(f"Warning: {one}." for one in report.doubts()))
     yield from (*report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
     yield from (f"Warning: {one}" for one in implausible(s.specification))
+
+
+def _left_out(report: GaitReport) -> Iterator[str]:
+    """Which links are held against each other, if any, and which aren't."""
+    found = report.collisions
+    touching = ", ".join(" and ".join(pair) for pair in found.neutral)
+    if found.judged:
+        yield (
+            f"Links that are held against each other and the soles: {', '.join(found.judged)}; "
+            "left out: neighbours"
+            + (f", and what touches in the neutral pose: {touching}." if touching else ".")
+        )
 
 
 def _clearance(report: GaitReport) -> str:

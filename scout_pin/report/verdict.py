@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from scout_pin.motion.collisions import Touch
 from scout_pin.report import ends
 from scout_pin.report.limits import SPEEDS, headline
 from scout_pin.report.numbers import GaitNumbers
@@ -27,6 +28,7 @@ def feet_and_rates(numbers: GaitNumbers) -> bool:
     return (
         not numbers.digs
         and not numbers.soles_collide
+        and not numbers.collisions.touching
         and numbers.ends.kind != "open cycle"
         and not numbers.rate_jumps
     )
@@ -142,6 +144,16 @@ def _swing(numbers: GaitNumbers) -> list[str]:
     if numbers.soles_collide:
         time = numbers.motion.t[numbers.sole_gap[1]]
         said.append(f"The soles collide (t = {time:g}).")
+    for touch in numbers.collisions.touching:
+        said.append(f"{_links(touch)} collide (t = {numbers.motion.t[touch.sample]:g}).")
+    drawn = numbers.collisions.drawn
+    if drawn:
+        time = numbers.motion.t[drawn[0].sample]
+        more = f", and {len(drawn) - 1} other pairs" if len(drawn) > 1 else ""
+        said.append(
+            f"As drawn, {_links(drawn[0])} touch (t = {time:g}){more}; "
+            "what the specification gives no shape of (collision) isn't judged."
+        )
     scraping = [swing for swing in numbers.swings if swing.scrapes]
     if scraping:
         worst = max(scraping, key=lambda swing: swing.scraped)
@@ -152,6 +164,10 @@ def _swing(numbers: GaitNumbers) -> list[str]:
             f"the floor (t = {worst.start:g} to {worst.end:g}){often}."
         )
     return said
+
+
+def _links(touch: Touch) -> str:
+    return " and ".join(touch.links)
 
 
 def _smooth(numbers: GaitNumbers) -> list[str]:

@@ -72,6 +72,8 @@ NUMBERS = {
     "--samples": set(),
     "--repeat": set(),
     "--feed": {"2.5"},
+    "--voltage": {"2.5"},
+    "--factor": {"2.5"},
     "--precision": {"0"},
     "--points": set(),
     "--jobs": set(),
@@ -89,7 +91,10 @@ NUMBERS = {
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
-READ = ("--specification", "--gait", "--path", "--pose", "--servos", "file", "closures", "motion")
+READ = (
+    *("--specification", "--gait", "--path", "--pose", "--servos"),
+    *("file", "closures", "motion", "servos"),
+)
 """Flags and words that name a file to read."""
 FILES = {
     "missing": None,
@@ -104,6 +109,7 @@ FILES = {
 CONTRADICTIONS = {
     "scout-pin gait": [["--json", "-", "--html", "-"], ["--branch=+-"]],
     "scout-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--branch=+-"]],
+    "scout-pin size": [["--branch=+-"]],
     "scout-pin convert": [
         ["--json", "-", "--to", "-"],
         ["--units", "mm,cm"],
@@ -123,6 +129,7 @@ CONTRADICTIONS = {
         ["--branch=+-"],
     ],
     "pollard-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--duration", "3"]],
+    "pollard-pin size": [["--duration", "3"], ["--branch=+-"], ["--actuators", "three"]],
     "pollard-pin convert": [["--json", "-", "--to", "-"], ["--units", "mm"], ["--duration", "3"]],
     "pollard-pin ik": [["--branch=+-"]],
     "pollard-pin fk": [],

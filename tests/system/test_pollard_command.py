@@ -83,6 +83,8 @@ def test_out_writes_report_samples_and_the_thesis_figures(pollard_pin, tmp_path)
         "manifest.sha256",
         "report.json",
         "samples.csv",
+        "joint_trajectory.yaml",
+        "ticks.csv",
         *(f"{figure}.{kind}" for figure in figures for kind in ("png", "svg")),
     }
     report = json.loads((tmp_path / "new" / "report" / "report.json").read_text())

@@ -13,7 +13,12 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from thesis_pin.model.shapes import Shape
 from thesis_pin.numeric.exact import atan2, norm
+
+Kinds = Sequence[str]
+BOTH: Kinds = ("visual", "collision")
+"""What a shape is there for: to be seen, and to collide."""
 
 _AXES = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 
@@ -95,7 +100,12 @@ def joint(
     return text + "  </joint>\n"
 
 
-def bar(start: Sequence[float], end: Sequence[float], radius: float) -> str:
+def bar(
+    start: Sequence[float],
+    end: Sequence[float],
+    radius: float,
+    kinds: Kinds = BOTH,
+) -> str:
     """A round bar between two points [m]; nothing if they coincide."""
     direction = np.subtract(end, start)
     length = norm(*direction)
@@ -107,22 +117,40 @@ def bar(start: Sequence[float], end: Sequence[float], radius: float) -> str:
         f'<cylinder radius="{number(radius)}" length="{number(length)}"/>',
         xyz=(np.add(start, end) / 2).tolist(),
         rpy=(0.0, pitch, yaw),
+        kinds=kinds,
     )
 
 
-def cylinder(axis: str, radius: float, length: float) -> str:
+def cylinder(axis: str, radius: float, length: float, kinds: Kinds = BOTH) -> str:
     """A cylinder about an axis through the link's origin [m]."""
     rpy = {"x": (0.0, math.pi / 2, 0.0), "y": (math.pi / 2, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
     return _geometry(
         f'<cylinder radius="{number(radius)}" length="{number(length)}"/>',
         xyz=(0.0, 0.0, 0.0),
         rpy=rpy[axis],
+        kinds=kinds,
     )
 
 
-def sphere(xyz: Sequence[float], radius: float) -> str:
+def collision(shape: Shape) -> str:
+    """A shape that a link collides by; a capsule is a bar and two balls, as URDF has none."""
+    if shape.capsule is not None and shape.ends is not None:
+        balls = (sphere(end, shape.capsule, ("collision",)) for end in shape.ends)
+        return bar(*shape.ends, shape.capsule, ("collision",)) + "".join(balls)
+    if shape.sphere is not None:
+        return sphere(shape.at, shape.sphere, ("collision",))
+    return _geometry(
+        f'<box size="{numbers(shape.box or ())}"/>',
+        xyz=shape.at,
+        rpy=[math.radians(angle) for angle in shape.rpy_deg],
+        kinds=("collision",),
+    )
+
+
+def sphere(xyz: Sequence[float], radius: float, kinds: Kinds = BOTH) -> str:
     """A ball at a point of the link [m]."""
-    return _geometry(f'<sphere radius="{number(radius)}"/>', xyz=xyz, rpy=(0.0, 0.0, 0.0))
+    shape = f'<sphere radius="{number(radius)}"/>'
+    return _geometry(shape, xyz=xyz, rpy=(0.0, 0.0, 0.0), kinds=kinds)
 
 
 def mesh(file: str) -> str:
@@ -130,13 +158,15 @@ def mesh(file: str) -> str:
     return _geometry(f'<mesh filename="{file}"/>', xyz=(0.0, 0.0, 0.0), rpy=(0.0, 0.0, 0.0))
 
 
-def _geometry(shape: str, *, xyz: Sequence[float], rpy: Sequence[float]) -> str:
+def _geometry(
+    shape: str, *, xyz: Sequence[float], rpy: Sequence[float], kinds: Kinds = BOTH
+) -> str:
     return "".join(
         f"    <{kind}>\n"
         f'      <origin xyz="{numbers(xyz)}" rpy="{numbers(rpy)}"/>\n'
         f"      <geometry>{shape}</geometry>\n"
         f"    </{kind}>\n"
-        for kind in ("visual", "collision")
+        for kind in kinds
     )
 
 

@@ -16,7 +16,7 @@ TURN = 2 * np.pi
 
 
 def fitted(angle: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
-    """Angles turned by whole turns to where they lie inside their limits, or nearest to them.
+    """Angles, turned by whole turns where only so they lie inside their limits.
 
     Args:
         angle: [rad], any shape that the limits broadcast to; NaN stays.
@@ -24,13 +24,22 @@ def fitted(angle: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.ndarra
         upper: Upper limits [rad].
 
     Returns:
-        Same shape; what is inside already stays as it is.
+        Same shape; what is inside already, or with no turn, stays as it is.
     """
     outside = np.maximum(lower - angle, angle - upper) > TOLERANCES.joint_limit
     if not outside.any():
         return angle
     middle = (lower + upper) / 2
-    return np.where(outside, middle + wrap(angle - middle), angle)
+    turned = middle + wrap(angle - middle)  # as near to the limits as any
+    held = np.maximum(lower - turned, turned - upper) <= TOLERANCES.joint_limit
+    return np.where(outside & held, turned, angle)
+
+
+def need_turns(lower: np.ndarray, upper: np.ndarray) -> bool:
+    """Whether some limits hold an angle of (−π, π] only whole turns from it."""
+    all_of_it = (lower <= -np.pi) & (upper >= np.pi)
+    none_beyond = (lower > -np.pi + TOLERANCES.joint_limit) & (upper <= np.pi)
+    return bool((~(all_of_it | none_beyond)).any())
 
 
 def unwound(q: np.ndarray) -> np.ndarray:

@@ -90,33 +90,35 @@ def _read(path: str | Path, voltage: float | None) -> tuple[list[Actuator], list
     where = str(path)
     if where.lower().endswith(".toml"):
         listed = read_toml(KIND, ServoList, path)
-        tables = {**listed.servos, **listed.motors}
+        tables = [*listed.servos.items(), *listed.motors.items()]
         found: list[Actuator] = []
         notes: list[str] = []
-        for name, entry in tables.items():
+        for name, entry in tables:
             here = f"{where}: {name}"
             entry = {**entry, "name": name}
             meanings = meanings_of(list(entry), here)
-            notes += unsaid(meanings, where)
+            notes += unsaid(meanings, [entry], where)
             found += actuators_of(entry, meanings, here)
         return found, notes
     if where.lower().endswith(".json"):
         return [read_identified(read_text(KIND, path), where, voltage)], []
     table = read_table(KIND, path)
     meanings = meanings_of(table.header, where)
-    notes = [f"{where}: {one}" for one in table.dialect.notes] + unsaid(meanings, where)
+    comma = table.dialect.decimal == ","
+    rows: list[dict[str, Cell]] = [
+        dict(zip(table.header, map(_pointed, cells) if comma else cells, strict=True))
+        for cells in table.rows
+    ]
+    notes = [f"{where}: {one}" for one in table.dialect.notes] + unsaid(meanings, rows, where)
     found = []
-    for number, cells in enumerate(table.rows):
-        row: dict[str, Cell] = dict(zip(table.header, cells, strict=True))
-        if table.dialect.decimal == ",":
-            row = {key: _pointed(cell) for key, cell in row.items()}
+    for number, row in enumerate(rows):
         found += actuators_of(row, meanings, table.where(number))
     return found, notes
 
 
-def _pointed(cell: Cell) -> Cell:
-    numeric = isinstance(cell, str) and re.fullmatch(r"[-+]?\d*,\d+([eE][-+]?\d+)?", cell)
-    return cell.replace(",", ".") if isinstance(cell, str) and numeric else cell
+def _pointed(cell: str) -> str:
+    """A cell with a decimal point where its number has a comma; words stay as they are."""
+    return re.sub(r"^([-+]?\d*),(\d+)(?![\d,.])", r"\1.\2", cell)
 
 
 def _apart(actuators: Sequence[Actuator]) -> Iterator[Actuator]:

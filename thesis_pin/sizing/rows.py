@@ -6,17 +6,20 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from thesis_pin.errors import BadInput
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import shown
 from thesis_pin.sizing.actuator import Actuator
-from thesis_pin.sizing.units import QUANTITIES, Heading, understood
+from thesis_pin.sizing.units import QUANTITIES, Heading, bare, understood
 from thesis_pin.tables.table import finite
 
 Cell = float | str | tuple[float, ...]
 """What a cell of a table or a value of a TOML file may be."""
 
+_WITH_UNIT = re.compile(r"([-+]?\d*(?:[.,]\d+)?(?:[eE][-+]?\d+)?)\s*([^\d\s.,].*)")
+_GROUPED = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}")
 _EDGES = ("length", "width", "height")
 _ANY_SIGN = ("gear_ratio",)
 _MAY_BE_ZERO = ("rotor_inertia", "armature")
@@ -58,12 +61,16 @@ def _words(quantity: str) -> str:
     return quantity.replace("_", " ").replace("no load", "no-load")
 
 
-def unsaid(meanings: Mapping[str, Heading], where: str) -> list[str]:
-    """Columns that say no unit, and what they were taken for."""
+def unsaid(
+    meanings: Mapping[str, Heading], rows: Sequence[Mapping[str, Cell]], where: str
+) -> list[str]:
+    """Columns of which neither heading nor cells say a unit, and what they were taken for."""
     plain = [
         f"{heading} ({QUANTITIES[one.quantity].si})"
         for heading, one in meanings.items()
-        if one.plain and QUANTITIES[one.quantity].si
+        if one.plain
+        and QUANTITIES[one.quantity].si
+        and any(finite(str(row.get(heading, ""))) is not None for row in rows)
     ]
     return [f"{where} says no unit of {', '.join(plain)}: taken so"] if plain else []
 
@@ -129,7 +136,7 @@ def _said(cell: Cell) -> str:
 
 
 def _value(cell: Cell, heading: Heading, where: str) -> float:
-    """A cell as a number in SI; ``200:1`` and ``1:200`` are gear ratios."""
+    """A cell as a number in SI, with its unit or without; ``200:1`` is a gear ratio."""
     text = str(cell).strip()
     value = cell if isinstance(cell, float) else finite(text)
     if value is None and heading.quantity == "gear_ratio":
@@ -137,6 +144,11 @@ def _value(cell: Cell, heading: Heading, where: str) -> float:
         if len(parts) == 2 and all(parts):
             turns, other = (float(part or 0) for part in parts)
             value = max(turns / other, other / turns)
+    if value is None and (said := _WITH_UNIT.fullmatch(text)):
+        units, unit = QUANTITIES[heading.quantity].units, bare(said[2])
+        if unit in units and (heading.plain or units[unit] == heading.factor):
+            number = said[1] if _GROUPED.fullmatch(said[1]) else said[1].replace(",", ".")
+            value, heading = finite(number), replace(heading, factor=units[unit])
     least = 0.0 if heading.quantity in _MAY_BE_ZERO else LIMITS.smallest
     if isinstance(value, tuple) or value is None or not abs(value) <= LIMITS.magnitude:
         raise BadInput(f"{shown(cell)} isn't a number", where=where, allowed="a finite number")

@@ -122,13 +122,13 @@ def understood(heading: str) -> Heading | None:
     Units stand in brackets or behind the name, with or without ``_``: ``stall_torque_kgcm``,
     ``Torque (oz-in)``, ``speed [s/60°]``. A voltage may stand anywhere: ``torque 6V (kg·cm)``.
     """
-    text = heading.strip().lower().replace("sec", "s")
+    text = heading.strip().lower()
     volts = None
     if match := _VOLTS.search(text):
         volts = float(match[1].replace(",", "."))
         text = text[: match.start()] + " " + text[match.end() :]
     units = _BRACKETS.findall(text)
-    name, unit = _bare(_BRACKETS.sub(" ", text)), _bare("".join(units))
+    name, unit = bare(_BRACKETS.sub(" ", text)), bare("".join(units))
     for quantity, known in QUANTITIES.items():
         for called in known.names:
             ending = name.removeprefix(called)
@@ -142,8 +142,9 @@ def understood(heading: str) -> Heading | None:
     return None
 
 
-def _bare(text: str) -> str:
-    """Letters and digits only, in one spelling."""
+def bare(text: str) -> str:
+    """A unit or name with letters and digits only, in one spelling."""
+    text = text.lower().replace("sec", "s")
     for sign, word in (("°", "deg"), ("²", "2"), ("^2", "2"), ("per", ""), ("degrees", "deg")):
         text = text.replace(sign, word)
     return re.sub(r"[^a-z0-9]", "", text)

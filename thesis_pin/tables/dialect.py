@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from thesis_pin.errors import BadInput
@@ -89,11 +89,12 @@ def _sensible(line: str, mark: str) -> bool:
     )
 
 
-def decimal_of(rows: Sequence[tuple[str, Sequence[str]]]) -> str:
+def decimal_of(file: str, rows: Sequence[tuple[int, Sequence[str]]]) -> str:
     """The decimal mark of a table in which commas don't just separate cells.
 
     Args:
-        rows: Place (file and line) and cells of each line.
+        file: Its file, for messages.
+        rows: Number and cells of each line.
 
     Raises:
         BadInput: Some cells have commas and some points, digits are grouped, or nothing
@@ -102,37 +103,34 @@ def decimal_of(rows: Sequence[tuple[str, Sequence[str]]]) -> str:
     if not any("," in cell for _, cells in rows for cell in cells):
         return "."
     comma = point = grouped = ""
-    for where, cell in _numbers(rows):
-        place = f"{where}: {shown(cell)}"
-        commas, points = cell.count(","), cell.count(".")
-        if commas + points > 1:
-            raise BadInput(
-                f"the number {shown(cell)} groups its digits",
-                where=where,
-                allowed="digits and one decimal mark",
-            )
-        if points:
-            point = point or place
-        elif _GROUPED.fullmatch(cell):
-            grouped = grouped or place
-        elif commas:
-            comma = comma or place
-        if point and (comma or grouped):
-            raise BadInput(
-                f"decimals are written with points ({point}) and with commas ({comma or grouped})",
-                allowed="one decimal mark in a file",
-            )
+    for line, cells in rows:
+        for cell in cells:
+            commas, points = cell.count(","), cell.count(".")
+            marks = commas + points
+            if not marks or (comma and marks == commas == 1) or not NUMBER.fullmatch(cell):
+                continue
+            place = f"{file}:{line}: {shown(cell)}"
+            if marks > 1:
+                raise BadInput(
+                    f"the number {shown(cell)} groups its digits",
+                    where=f"{file}:{line}",
+                    allowed="digits and one decimal mark",
+                )
+            if points:
+                point = point or place
+            elif _GROUPED.fullmatch(cell):
+                grouped = grouped or place
+            else:
+                comma = place
+            if point and (comma or grouped):
+                raise BadInput(
+                    f"decimals are written with points ({point}) and with commas "
+                    f"({comma or grouped})",
+                    allowed="one decimal mark in a file",
+                )
     if grouped and not comma:
         raise BadInput(
             f"nothing tells whether the comma in {grouped} is a decimal mark or groups thousands",
             remedy="Write decimals with points, and no thousands separators",
         )
     return "," if comma else "."
-
-
-def _numbers(rows: Iterable[tuple[str, Sequence[str]]]) -> Iterator[tuple[str, str]]:
-    """Place and text of every number with a mark in it."""
-    for where, cells in rows:
-        for cell in cells:
-            if ("," in cell or "." in cell) and NUMBER.fullmatch(cell):
-                yield where, cell

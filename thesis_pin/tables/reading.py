@@ -50,11 +50,11 @@ def read_table(kind: str, file: str | Path, *, bare: Sequence[str] = ()) -> Tabl
         raise BadInput(f"the {kind} is empty", where=name)
     decimal = "."
     if separator != "," or '"' in text:
-        decimal = decimal_of([(f"{name}:{line}", cells) for line, cells in rows])
+        decimal = decimal_of(name, rows)
     header, commented = _header(kind, name, text, rows, bare, separator)
     if not commented and not _numeric(rows[0][1]):
         rows = rows[1:]
-    cells = list(_of_one_width(name, rows, header))
+    cells = list(_of_one_width(name, rows, header, commas=separator == ","))
     lines = np.array([line for line, _ in rows], dtype=np.intp)
     return Table(name, header, lines, cells, Dialect(separator, decimal, commented))
 
@@ -99,9 +99,13 @@ def _bounded(kind: str, name: str, rows: Iterator[_Row]) -> Iterator[_Row]:
     """The same lines, as far as they keep the limits of what is read."""
     cells = 0
     for count, row in enumerate(rows, start=1):
-        cells += len(row[1])
+        columns = len(row[1])
+        cells += columns
+        if columns <= LIMITS.columns and cells <= LIMITS.cells and count <= LIMITS.rows:
+            yield row
+            continue
         for what, size, most in (
-            ("columns", len(row[1]), LIMITS.columns),
+            ("columns", columns, LIMITS.columns),
             ("cells", cells, LIMITS.cells),
             ("lines", count, LIMITS.rows),
         ):
@@ -112,7 +116,6 @@ def _bounded(kind: str, name: str, rows: Iterator[_Row]) -> Iterator[_Row]:
                     allowed=f"at most {most:,}",
                     remedy="Leave out samples or columns",
                 )
-        yield row
 
 
 def _numeric(cells: Sequence[str]) -> bool:
@@ -153,7 +156,7 @@ def _without_last(cells: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _of_one_width(
-    name: str, rows: Sequence[_Row], header: Sequence[str]
+    name: str, rows: Sequence[_Row], header: Sequence[str], *, commas: bool
 ) -> Iterator[tuple[str, ...]]:
     """Cells of the rows, as many as the header's; more at the end have to be empty."""
     width = len(header)
@@ -164,6 +167,9 @@ def _of_one_width(
                     f"{len(cells)} cells",
                     where=f"{name}:{line}",
                     allowed=f"{width}, as in the first row",
+                    remedy="If commas are decimal marks, separate cells by semicolons"
+                    if commas and len(cells) > width
+                    else "",
                 )
             cells = cells[:width]
         yield cells

@@ -93,7 +93,7 @@ class Table:
         try:
             numbers = [float(cell + tail) for cell in cells] if tail else list(map(float, cells))
             values = np.array(numbers)
-            grouped = any("_" in cell for cell in cells)
+            grouped = "_" in "".join(cells)
             if not grouped and (np.abs(values) <= LIMITS.magnitude).all():
                 return values
         except ValueError:

@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 import pollard_pin
 from pollard_pin.coordinates import pose_from_placement, pose_rotation
 from pollard_pin.motion.curves import arc, joined, line
+from pollard_pin.motion.orientation import named_alike
 from pollard_pin.motion.path import ToolMotion
 from pollard_pin.motion.samples import along_curves, through, through_orientations
 from thesis_pin.errors import SingularPose, TrajectoryError
@@ -185,6 +186,12 @@ def test_a_nod_is_named_without_a_jump():
     time, fine = np.linspace(0, 3, 61), np.linspace(0, 3, 601)
     path = through(time, converted(nod(time)[0]), "free")
     np.testing.assert_allclose(path.at(fine).pose, nod(fine)[0], atol=1e-5)
+
+
+def test_names_without_jumps_are_names_of_the_same_orientations():
+    poses = nod(np.linspace(0, 3, 200))[0] + [0, 0, 0, 0, 7.0, 0]
+    found = named_alike(pose_rotation(converted(poses)), poses[0, 3:])
+    np.testing.assert_allclose(found, poses[:, 3:], atol=1e-9)
 
 
 def test_the_names_a_user_wrote_are_kept():

@@ -79,6 +79,35 @@ def test_what_has_no_unit_is_si_and_said(listed):
     assert "no unit of torque (N·m), speed (rad/s), mass (kg): taken so" in found.notes[0]
 
 
+def test_units_may_stand_in_the_cells(listed):
+    text = "servo\tTorque\tSpeed\tWeight\nA\t4.4 kg·cm\t0.23 s/60°\t45 g\nB\t1 N·m\t50rpm\t2 oz\n"
+    found = listed(text)
+    one, two = found.actuators
+    assert one.stall_torque == pytest.approx(4.4 * KGCM)
+    assert one.no_load_speed == pytest.approx(4.553033, rel=1e-6)
+    assert (one.mass, two.stall_torque) == (0.045, 1.0)
+    assert two.no_load_speed == pytest.approx(5.235988, rel=1e-6)
+    assert not any("no unit" in note for note in found.notes)
+    commas = listed("servo;Torque;Speed\nA;4,4 kg·cm;0,23 s/60°\n")
+    assert commas.actuators[0].stall_torque == pytest.approx(4.4 * KGCM)
+
+
+def test_thousands_are_not_taken_for_decimals(listed):
+    with pytest.raises(BadInput, match="'1,250 g' isn't a number"):
+        listed("name;torque_Nm;speed_rpm;mass\nA;1;50;1,250 g\n")
+
+
+def test_a_cell_s_unit_may_not_contradict_its_heading(listed):
+    with pytest.raises(BadInput, match=r"'4\.4 kg·cm' isn't a number"):
+        listed("name,torque_Nm,speed_rpm\nA,4.4 kg·cm,50\n")
+
+
+def test_a_servo_and_a_motor_of_one_name_are_two(listed):
+    one = "stall_torque_Nm = 1\nno_load_speed_rpm = 50\n"
+    with pytest.raises(BadInput, match="'A' is listed 2 times"):
+        listed(f"[servos.A]\n{one}[motors.A]\n{one}", "list.toml")
+
+
 def test_large_edges_without_a_unit_are_millimetres(listed):
     (one,) = listed("name,torque_Nm,speed_rpm,size\nA,1,50,40x20x38\n").actuators
     assert one.size == pytest.approx((0.04, 0.02, 0.038))

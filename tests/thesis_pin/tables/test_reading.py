@@ -70,6 +70,10 @@ def test_every_dialect_gives_the_same_numbers(tmp_path, text, dialect):
     [
         ("t;x\n1;1,234\n2;5,678\n", r"nothing tells whether the comma in .*a\.csv:2: '1,234' is"),
         ("t;x\n0.5;1\n1;0,5\n", r"with points \(.*:2: '0\.5'\) and with commas \(.*:3: '0,5'\)"),
+        (
+            "t,x\n0,5,1,25\n",
+            r"a\.csv:2: 4 cells; allowed: 2.*If commas are decimal marks, separate",
+        ),
         ("t;x\n0;1.234,5\n", r"a\.csv:2: the number '1\.234,5' groups its digits"),
         ("t;x\n0;1,234,567\n", r"a\.csv:2: the number '1,234,567' groups its digits"),
         ('t,x\n0,"1,234.5"\n', r"a\.csv:2: the number '1,234\.5' groups its digits"),
