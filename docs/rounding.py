@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import rounding_paths
 
 import scout_pin
 from scout_pin.coordinates import POSE_NAMES
@@ -229,7 +230,7 @@ def cell(truth: Truth, rate: float, how: float, random: np.random.Generator) -> 
     return Cell(truth.name, rate, said, one[0], one[1], one[2], verdict, truth)
 
 
-HOOKS: list[Callable[[], Iterator[str]]] = []
+HOOKS: list[Callable[[], Iterator[str]]] = [rounding_paths.section]
 """More sections: of other robots, each a maker of lines."""
 
 
