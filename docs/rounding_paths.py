@@ -77,8 +77,8 @@ def section() -> Iterator[str]:
             f"## Pollard, {name}",
             "",
             f"Truth: {true.max():.4f} N·m at the most loaded motor, no motor beyond its limits. "
-            f"{len(made)} cells; in {inside} the true peaks of {', '.join(MOTORS)} all lie in their "
-            "intervals. Cells: the most loaded motor's peak [N·m] with its interval.",
+            f"{len(made)} cells; in {inside} the true peaks of {', '.join(MOTORS)} all lie in "
+            "their intervals. Cells: the most loaded motor's peak [N·m] with its interval.",
             "",
             "| samples | " + " | ".join(f"{rate} Hz" for rate in RATES) + " |",
             "| --- " * (1 + len(RATES)) + "|",

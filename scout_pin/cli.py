@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common, options
-from thesis_pin.command.options import add_branch, count, number
-from thesis_pin.command.registry import Command, Parser, Robot
+from thesis_pin.command.options import add_branch, add_json, count, number
+from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 _branch = partial(
     add_branch,
@@ -22,7 +22,6 @@ def _which_gait(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--gait",
         metavar="NAME|FILE",
-        default="thesis",
         help="thesis, thesis-program, a .toml gait or a .csv of samples (default: thesis)",
     )
     words.add_argument(
@@ -50,6 +49,64 @@ def _which_gait(words: argparse.ArgumentParser) -> None:
         help="walk the gait N times, each time a step further and with as many samples "
         "(default: 1)",
     )
+
+
+def _which_new(words: argparse.ArgumentParser) -> None:
+    words.add_argument("file", metavar="FILE|-", help="what to write; - is standard output")
+    words.add_argument(
+        "--motion",
+        choices=("squat", "sway"),
+        help="write a first gait for the robot of --specification, made from its neutral soles",
+    )
+    words.add_argument(
+        "--specification", metavar="FILE", help="the robot of --motion (default: the thesis's)"
+    )
+    words.add_argument(
+        "--example", metavar="NAME", help="write a shipped example, as walk.toml; any lists them"
+    )
+    _force(words)
+
+
+def _which_urdf(words: argparse.ArgumentParser) -> None:
+    words.add_argument(
+        "file", metavar="FILE", help="a URDF, MJCF or SDF, or example:NAME of example-robot-data"
+    )
+    words.add_argument(
+        "--to",
+        metavar="FILE|-",
+        default="-",
+        help="where the specification goes (default: standard output)",
+    )
+    words.add_argument(
+        "--left", metavar="JOINT", help="a joint of the left leg (default: found by its name)"
+    )
+    words.add_argument(
+        "--sole",
+        nargs=5,
+        type=number("--sole", positive=True),
+        metavar=("LEFT", "RIGHT", "HEEL", "TOES", "HEIGHT"),
+        help="edges of both soles from the point below the ankle, and the ankle's height above "
+        "them [m] (default: the lowest face of each foot's shapes)",
+    )
+    words.add_argument(
+        "--servo",
+        nargs=2,
+        type=number("--servo", positive=True),
+        metavar=("TORQUE", "SPEED"),
+        help="stall torque [N·m] and no-load speed [rad/s] of joints whose limits say none",
+    )
+    words.add_argument(
+        "--friction",
+        type=number("--friction", positive=True),
+        default=0.6,
+        metavar="NUMBER",
+        help="coefficient between sole and floor (default: 0.6)",
+    )
+    _force(words)
+
+
+def _force(words: argparse.ArgumentParser) -> None:
+    words.add_argument("--force", action="store_true", help="replace a file that is there")
 
 
 def _which_pose(words: argparse.ArgumentParser) -> None:
@@ -82,6 +139,7 @@ ROBOT = Robot(
     scene="report.view:gait_scene",
     movement="report.movement:gait_movement",
     inverse_kinematics="model:Scout.leg_inverse_kinematics",
+    still="verbs:still",
 )
 
 COMMAND = Command(
@@ -124,6 +182,24 @@ COMMAND = Command(
             _which_pose,
         ),
         common.info_verb(ROBOT, "info --specification examples/lopsided.toml"),
+        Verb(
+            "new",
+            "a biped of your own, and a first gait for it",
+            "Write a commented specification, a gait for one, or a shipped example.",
+            "new my_biped.toml --force",
+            "scout_pin.making.gaits:gait_text",
+            "scout_pin.verbs:new",
+            (_which_new, partial(add_json, what="what was written")),
+        ),
+        Verb(
+            "from-urdf",
+            "a URDF of this kind as a specification",
+            "Read a biped with leg axes z y z z z x, whatever its frames, into a specification.",
+            "from-urdf urdf/scout/scout.urdf --to my_scout.toml --force",
+            "scout_pin.making.from_urdf:from_urdf",
+            "scout_pin.verbs:from_urdf",
+            (_which_urdf, partial(add_json, what="joints, signs and notes")),
+        ),
         common.urdf_verb(
             ROBOT,
             "the URDF of a specification",

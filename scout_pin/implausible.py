@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from scout_pin.kinematics.neutral import tilts
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from thesis_pin.model.mechanism.plausible import odd_body, odd_ranges, odd_weight
 from thesis_pin.tolerances import TOLERANCES
@@ -22,7 +23,7 @@ def implausible(specification: Specification) -> list[str]:
     limits = np.transpose(spec.assumptions.joint_range.radians()).tolist()
     found += odd_ranges(dict(zip(JOINT_NAMES, map(tuple, limits), strict=True)))
     found += odd_weight(spec.mass, reach, float(spec.servo_limits()[0].max()))
-    return [*found, *_soles(spec), *_likeness(spec)]
+    return [*found, *_soles(spec), *_likeness(spec), *_tilted(spec)]
 
 
 def _reach(spec: Specification, side: str) -> float:
@@ -49,3 +50,12 @@ def _likeness(spec: Specification) -> Iterator[str]:
         left, right = (float(getattr(spec.leg(side), name)) for side in SIDES)
         if max(left, right) > _reach(spec, "left" if left < right else "right"):
             yield f"{name}: {left:g} m on the left and {right:g} m on the right. Both in metres?"
+
+
+def _tilted(spec: Specification) -> Iterator[str]:
+    for tilt in tilts(spec):
+        said = tilt.sentence(np.radians(spec.leg(tilt.side).beta_deg))
+        yield (
+            f'{said[0].upper()}{said[1:]}. If it is meant, write neutral_soles = "tilted" at the '
+            "specification's top."
+        )

@@ -39,6 +39,9 @@ from thesis_pin.sizing.actuator import Actuator
 SCOUT_PATH = Path(__file__).parent / "specifications" / "scout.toml"
 """The thesis's robot."""
 
+NEW_PATH = SCOUT_PATH.with_name("new.toml")
+"""A commented one to begin with."""
+
 SIDES = ("left", "right")
 """Leg 1 of the thesis is the left one, leg 2 the right one."""
 
@@ -204,7 +207,11 @@ class Assumptions(Strict):
 
 
 class Specification(BranchKeys):
-    """A Scout-like biped. ``Specification.read(path)`` reads and validates a file."""
+    """A Scout-like biped. ``Specification.read(path)`` reads and validates a file.
+
+    Soles that aren't level in the neutral pose are a mistake unless ``neutral_soles`` says
+    ``"tilted"``; see :func:`scout_pin.kinematics.neutral.tilts`.
+    """
 
     format: Literal[1]
     name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_\-]*$")]
@@ -214,6 +221,7 @@ class Specification(BranchKeys):
     assumptions: Assumptions
     torso: Link
     legs: Legs
+    neutral_soles: Literal["flat", "tilted"] = "flat"
 
     @classmethod
     def read(cls, path: str | Path | None = None) -> Specification:

@@ -9,12 +9,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scout_pin.model import Scout
-from scout_pin.specification import SIDES
-from thesis_pin.command.results import Answer
+from scout_pin.implausible import implausible
+from scout_pin.model import Scout, load
+from scout_pin.specification import NEW_PATH, SIDES
+from thesis_pin.command.progress import Bar
+from thesis_pin.command.results import Answer, put, put_new
+from thesis_pin.command.running import ExitCode
+from thesis_pin.command.text import say
+from thesis_pin.command.warned import warned
+from thesis_pin.errors import BadInput
+from thesis_pin.model.loading import shipped_folder
+from thesis_pin.numeric.checks import choice
 
-if TYPE_CHECKING:  # inverse kinematics alone needs neither
+if TYPE_CHECKING:  # inverse kinematics alone needs none of them
     from scout_pin.motion.gait import Gait
+    from thesis_pin.pages.scene import Scene
     from thesis_pin.report.exchange.movement import Movement
 
 
@@ -44,6 +53,15 @@ def report(
     )
 
 
+def still(arguments: argparse.Namespace, robot: Scout) -> Scene | None:
+    """The neutral pose, where a robot is named and no gait."""
+    from scout_pin.report.neutral import neutral_scene
+
+    if arguments.gait is not None or arguments.specification is None:
+        return None
+    return neutral_scene(robot)
+
+
 def motion(arguments: argparse.Namespace, robot: Scout) -> Movement:
     """The gait that the arguments ask for, to be written down."""
     from scout_pin.report.movement import gait_movement
@@ -61,8 +79,13 @@ def _gait(arguments: argparse.Namespace, robot: Scout) -> Gait:
     """The gait that the arguments ask for, once."""
     from scout_pin.motion.files import load_gait
 
+    if arguments.gait is None and arguments.specification is not None:
+        say(
+            "warning: no --gait is given and the thesis's is taken, which was made for its own "
+            "robot; scout-pin new FILE --motion sway makes one for this robot"
+        )
     gait = load_gait(
-        arguments.gait,
+        arguments.gait or "thesis",
         arguments.interpolation,
         robot=robot,
         smooth=arguments.smooth,
@@ -88,3 +111,55 @@ def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:
         lambda: solutions_table(solutions, only),
         yes=bool(reached.any()),
     )
+
+
+def new(arguments: argparse.Namespace) -> ExitCode:
+    """Write a specification to begin with, a first gait for one, or a shipped example."""
+    kind, name = arguments.motion or "specification", None
+    if arguments.motion and arguments.example:
+        raise BadInput("--motion and --example are two files", remedy="Write one at a time")
+    with Bar("making it"):
+        from thesis_pin.report.writers import json_bytes
+
+        if arguments.motion is not None:
+            from scout_pin.making.gaits import gait_text
+
+            with warned():
+                robot = load(arguments.specification)
+            name, content = robot.specification.name, gait_text(robot, arguments.motion).encode()
+        elif arguments.example is not None:
+            folder, kind = shipped_folder("examples"), "example"
+            names = sorted(path.name for path in folder.iterdir() if path.is_file())
+            content = (folder / choice("example", arguments.example, names)).read_bytes()
+        else:
+            content = NEW_PATH.read_bytes()
+    put_new(arguments.file, content, replace=arguments.force)
+    if arguments.json:
+        document = {"schema": "scout-pin/new", "version": 1, "kind": kind, "robot": name}
+        put(arguments.json, json_bytes(document | {"file": arguments.file}))
+    return ExitCode.DONE
+
+
+def from_urdf(arguments: argparse.Namespace) -> ExitCode:
+    """Read a robot's description into a specification."""
+    with Bar("reading the axes"):
+        from scout_pin.making.from_urdf import document, text
+        from scout_pin.making.from_urdf import from_urdf as translated
+        from thesis_pin.report.writers import json_bytes
+
+        found = translated(
+            arguments.file,
+            left=arguments.left,
+            sole=arguments.sole,
+            servo=arguments.servo,
+            friction=arguments.friction,
+        )
+        content = text(found).encode()
+    for note in found.notes:
+        say(f"note: {note}")
+    for odd in implausible(found.specification):
+        say(f"warning: {odd}")
+    put_new(arguments.to, content, replace=arguments.force)
+    if arguments.json:
+        put(arguments.json, json_bytes(document(found) | {"file": arguments.to}))
+    return ExitCode.DONE

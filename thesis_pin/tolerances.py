@@ -48,6 +48,11 @@ class Tolerances:
             it moves the zero-moment point of a robot of 0.2 m by 2 µm [m/s²], [rad/s²].
         moves: Travel from which something moves rather than trembles [m], [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
+        sole_tilt: Tilt of a sole in the neutral pose below which it counts as level: what
+            constant angles rounded to half a degree may leave [rad].
+        kind_angle: How far axes may be from parallel or right angles in a file of a biped that is
+            still taken as of Scout's kind: a right angle of four digits is 2e-4 off [rad].
+        kind_gap: The same of axes that meet, relative to the leg's length [-].
         density: More than any body has: that of osmium [kg/m³].
         slender: Length of a body in radii of gyration that nobody builds; a uniform rod has
             3.5, one with 200 times its own mass at one end 50 [-].
@@ -139,6 +144,9 @@ class Tolerances:
     inertia_unfelt: float = 1e-4
     moves: float = 1e-3
     joint_limit: float = 1e-9
+    sole_tilt: float = 5e-3
+    kind_angle: float = 1e-3
+    kind_gap: float = 1e-3
     density: float = 22_600.0
     slender: float = 50.0
     narrow: float = 0.11

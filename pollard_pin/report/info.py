@@ -8,8 +8,17 @@ from pollard_pin.closure import gruebler
 from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.model import Pollard
-from pollard_pin.specification import ACTUATORS, JOINT_NAMES, JOINT_SYMBOLS, LINK_NAMES
+from pollard_pin.specification import (
+    ACTUATORS,
+    JOINT_NAMES,
+    JOINT_SYMBOLS,
+    LINK_NAMES,
+    Chain0,
+    SideChain,
+    Specification,
+)
 from pollard_pin.urdf import JOINT_AXES
+from thesis_pin.pages.info import info_page
 from thesis_pin.report import info
 
 
@@ -54,9 +63,32 @@ def document(robot: Pollard) -> info.Info:
         loops=[{"name": loop.name, "frames": list(loop.frames)} for loop in robot.loops],
         freedom={"counted": gruebler(), "by_rank": rank, "at_pose": pose},
         neutral={"spray_tip": pose[:3]},
+        lengths={name: _numbers(part, "") for name, part in _chains(spec).items()},
+        angles={name: _numbers(part, "_deg") for name, part in _chains(spec).items()},
         stated=spec.assumptions,
         implausible=implausible(spec),
     )
+
+
+def page(robot: Pollard) -> bytes:
+    """The same as a page."""
+    return info_page(document(robot))
+
+
+def _chains(spec: Specification) -> dict[str, Chain0 | SideChain]:
+    return {"chain_0": spec.chain_0, "chain_1": spec.chain_1, "chain_2": spec.chain_2}
+
+
+def _numbers(part: Chain0 | SideChain, unit: str) -> dict[str, float]:
+    """Lengths [m], or with ``_deg`` angles [rad], by their symbol."""
+    values = {name: getattr(part, name) for name in type(part).model_fields if name != "links"}
+    if unit:
+        return {
+            name.removesuffix(unit).replace("beta", "β"): float(np.radians(value))
+            for name, value in values.items()
+            if name.endswith(unit)
+        }
+    return {name: float(value) for name, value in values.items() if not name.endswith("_deg")}
 
 
 def typical_pose(robot: Pollard) -> np.ndarray:

@@ -196,7 +196,19 @@ def load_gait(
         return gait_from_samples(samples, how, interpolation, time_unit or 1.0)
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
-    file = read_toml("gait", GaitFile, path)
+    return gait_of(read_toml("gait", GaitFile, path), interpolation)
+
+
+def gait_of(file: GaitFile, interpolation: str | None = None) -> Gait:
+    """The gait of a file that has been read.
+
+    Args:
+        file: Its content.
+        interpolation: Method for every node segment, instead of the file's.
+
+    Raises:
+        TrajectoryError: A curve jumps.
+    """
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
     return Gait(
         file.name,

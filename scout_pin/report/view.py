@@ -8,6 +8,7 @@ import numpy as np
 
 from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.stability import polygons
+from scout_pin.model import Scout
 from scout_pin.report.document import GaitReport
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.numeric.checks import instance
@@ -61,7 +62,7 @@ def gait_scene(report: GaitReport) -> Scene:
         time=report.joints.time[keep],
         groups=_groups(force_scale),
         items=(
-            *_body(report, q),
+            *robot_colours(robot, q),
             *_balance(report, keep, zone, size),
             *_forces(report, keep, force_scale, size),
             *_feet(report, keep, size),
@@ -108,14 +109,15 @@ def _phase(report: GaitReport) -> np.ndarray:
     return np.array([names.index(phase) for phase in report.motion.phase], dtype=float)
 
 
-def _body(report: GaitReport, q: np.ndarray) -> list[Item]:
+def robot_colours(robot: Scout, q: np.ndarray) -> list[Item]:
+    """The robot's bodies along free-flyer configurations ``(n, 19)``, a colour a leg."""
+
     def group(name: str) -> str:
         return "soles" if "_sole" in name else "robot"
 
     def colour(name: str) -> str:
         return {"left": SKY, "right": ORANGE}.get(name.split("_")[0], TORSO)
 
-    robot = report.robot
     bodies = robot_items(robot.model, robot.visual_model, q, group=group, colour=colour)
     # What happens on the floor has to be seen through the plates that lie on it.
     return [replace(body, opacity=0.55) if body.group == "soles" else body for body in bodies]

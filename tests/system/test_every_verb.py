@@ -26,7 +26,9 @@ SEEN = {
     "size": {"--out"},
     "ik": set(),
     "fk": set(),
-    "info": set(),
+    "info": {"--html"},
+    "new": set(),
+    "from-urdf": set(),
     "check": set(),
     "formats": set(),
     "torque": {"--out", "--html"},
@@ -41,7 +43,7 @@ SCHEMAS = {
     )
 }
 
-OWN_WORDS = {"--out", "--json", "--strict", "--specification", "--branch"}
+OWN_WORDS = {"--to", "--out", "--json", "--strict", "--specification", "--branch"}
 """Flags whose help says what this robot or verb writes or takes there."""
 
 

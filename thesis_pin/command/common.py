@@ -116,7 +116,7 @@ def info_verb(robot: Robot, example: str) -> Verb:
         example,
     )
     json = partial(options.add_json, what="it")
-    return _verb(robot, "info", texts, robot.info, verbs.info, json, options.add_strict)
+    return _verb(robot, "info", texts, robot.info, verbs.info, json, options.add_info)
 
 
 def urdf_verb(robot: Robot, help: str, description: str) -> Verb:

@@ -117,8 +117,9 @@ def add_report(words: Words, breaks: str) -> None:
     words.add_argument("--strict", action="store_true", help=f"exit with 1 if {breaks}")
 
 
-def add_strict(words: Words) -> None:
-    """Refuse what is only warned of."""
+def add_info(words: Words) -> None:
+    """The options of the verb ``info`` besides the robot's."""
+    words.add_argument("--html", metavar="FILE|-", help="write it as a page to mail")
     words.add_argument(
         "--strict", action="store_true", help="refuse sizes that nobody builds (exit code 2)"
     )

@@ -177,6 +177,9 @@ class Robot:
         figures, table: The report as files, and in tables and paragraphs.
         load, specification: Read a specification, with its model and without.
         info: What it describes, see :mod:`thesis_pin.report.info`.
+        info_page: The same as a page.
+        still: What to show where no motion is asked for: a function of the arguments and the
+            robot that returns a scene, or None to show the usual motion; empty for that.
         urdf, files: Its URDF in one reading, and everything generated from it.
         size: Servos or motors held against a report of the motion.
         thesis, audit: The thesis ready to be audited, and the function that does it.
@@ -198,6 +201,8 @@ class Robot:
     load: str = "model:load"
     specification: str = "specification:Specification.read"
     info: str = "report.info:document"
+    info_page: str = "report.info:page"
+    still: str = ""
     urdf: str = "urdf:urdf"
     files: str = "urdf:files"
     size: str = "study.size:size"

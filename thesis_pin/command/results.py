@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
@@ -12,6 +13,7 @@ from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import found
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
+from thesis_pin.errors import BadInput
 from thesis_pin.files import Claim, is_standard_output, write_file, write_folder
 from thesis_pin.report.tables import Part
 
@@ -143,6 +145,19 @@ def put(target: str, content: bytes) -> None:
     """Write a file, or standard output for ``-``, and say so."""
     write_file(target, content)
     said(target)
+
+
+def put_new(target: str, content: bytes, *, replace: bool) -> None:
+    """Write a file that isn't there yet, or standard output for ``-``, and say so.
+
+    Raises:
+        BadInput: It is there, and ``replace`` is false.
+    """
+    if os.path.lexists(target) and os.path.isfile(target) and not replace:
+        raise BadInput(
+            "there is such a file already", where=target, remedy="Name another, or say --force"
+        )
+    put(target, content)
 
 
 def put_folder(target: str | Claim, files: Mapping[str, bytes]) -> None:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
-import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from thesis_pin.command.options import refuse_beside
@@ -24,7 +22,8 @@ from thesis_pin.command.results import (
 )
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
-from thesis_pin.errors import BadInput, ModelWarning
+from thesis_pin.command.warned import warned
+from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
@@ -71,7 +70,11 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         from thesis_pin.pages.scene import frames
         from thesis_pin.report.writers import json_bytes
 
-        scene: Scene = _hook(robot, robot.scene)(_report(robot, arguments, frames, bar))
+        scene: Scene | None = None
+        if robot.still:
+            scene = _hook(robot, robot.still)(arguments, _load(robot, arguments))
+        if scene is None:
+            scene = _hook(robot, robot.scene)(_report(robot, arguments, frames, bar))
     shown = {
         "schema": f"{robot.command}/view",
         "version": 1,
@@ -172,10 +175,17 @@ def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     from thesis_pin.report.info import told
 
     def answer() -> Answer:
-        document = _hook(robot, robot.info)(_load(robot, arguments))
+        loaded = _load(robot, arguments)
+        document = _hook(robot, robot.info)(loaded)
+        if arguments.html:
+            pages.append(_hook(robot, robot.info_page)(loaded))
         return Answer(lambda: document, lambda: told(document))
 
-    return give(arguments, answer)
+    pages: list[bytes] = []
+    code = give(arguments, answer)
+    for page in pages:
+        put(arguments.html, page)
+    return code
 
 
 def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
@@ -219,26 +229,8 @@ def _hook(robot: Robot, name: str) -> Any:
     return found(robot.name_of(name))
 
 
-@contextlib.contextmanager
-def _said(strict: bool = False) -> Iterator[None]:
-    """Say what the library warns of in the words of a command, or refuse it."""
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always", ModelWarning)
-        yield
-    odd = [str(one.message) for one in found if issubclass(one.category, ModelWarning)]
-    if strict and odd:
-        raise BadInput(
-            "; ".join(odd), where="--strict", remedy="Correct the sizes, or leave --strict out"
-        )
-    for one in found:
-        if issubclass(one.category, ModelWarning):
-            say(f"warning: {one.message}")
-        else:
-            warnings.showwarning(one.message, one.category, one.filename, one.lineno)
-
-
 def _load(robot: Robot, arguments: argparse.Namespace) -> Any:
-    with _said(strict=getattr(arguments, "strict", False)):
+    with warned(strict=getattr(arguments, "strict", False)):
         return _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
 
 
@@ -250,5 +242,5 @@ def _report(
 ) -> Report:
     make: MakeReport = _hook(robot, robot.makes_report)
     loaded = _load(robot, arguments)
-    with _said():
+    with warned():
         return make(arguments, loaded, samples, progress)

@@ -28,14 +28,19 @@ RootJoint: TypeAlias = pin.JointModel | Sequence[tuple[str, pin.JointModel]] | N
 
 def model_folder(robot: str) -> Path:
     """Folder of a robot's generated files, in a checkout and in an installed wheel alike."""
+    return shipped_folder(f"urdf/{robot}")
+
+
+def shipped_folder(name: str) -> Path:
+    """A folder that stands beside the packages in a checkout and travels in the wheel."""
     packages = Path(__file__).resolve().parents[1]
     for parent in (packages, packages.parent):
-        if (folder := parent / "urdf" / robot).is_dir():
+        if (folder := parent / name).is_dir():
             return folder
     raise ModelError(
-        f"the folder urdf/{robot} is missing",
+        f"the folder {name} is missing",
         where=str(packages.parent),
-        remedy="Reinstall the package, or restore urdf/ in the checkout",
+        remedy=f"Reinstall the package, or restore {name.split('/')[0]}/ in the checkout",
     )
 
 

@@ -37,6 +37,21 @@ class Tile:
 
 
 @dataclass(frozen=True)
+class Drawing:
+    """A still picture.
+
+    Attributes:
+        title: Its heading.
+        svg: The picture, with every text in it escaped.
+        text: What it shows, for those who don't see it too.
+    """
+
+    title: str
+    svg: str
+    text: str
+
+
+@dataclass(frozen=True)
 class Page:
     """A report before it becomes HTML.
 
@@ -47,6 +62,7 @@ class Page:
         tiles: Key numbers.
         plots, tables: In order; may be empty.
         scene: The animation; None for a page without.
+        drawings: Still pictures, before the tables.
     """
 
     title: str
@@ -57,6 +73,7 @@ class Page:
     plots: Sequence[Plot]
     tables: Sequence[Table]
     scene: Scene | None = None
+    drawings: Sequence[Drawing] = ()
 
 
 def html(page: Page) -> bytes:

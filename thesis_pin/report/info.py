@@ -64,6 +64,8 @@ class Info(TypedDict):
     loops: list[dict[str, object]]
     freedom: Freedom
     neutral: dict[str, np.ndarray]
+    lengths: dict[str, dict[str, float]]
+    angles: dict[str, dict[str, float]]
     assumptions: list[dict[str, object]]
     implausible: list[str]
     thesis_pin: str
@@ -117,6 +119,8 @@ def document(
     loops: Sequence[dict[str, object]] = (),
     freedom: Freedom,
     neutral: Mapping[str, np.ndarray],
+    lengths: Mapping[str, Mapping[str, float]],
+    angles: Mapping[str, Mapping[str, float]],
     stated: BaseModel,
     implausible: Sequence[str] = (),
 ) -> Info:
@@ -133,6 +137,8 @@ def document(
         loops: Name and frames of each closure.
         freedom: Degrees of freedom.
         neutral: Where each end is in the neutral or usual pose [m], ``(3,)`` each.
+        lengths: What the specification gives [m], by part of the robot, then symbol.
+        angles: The same of constant angles [rad].
         stated: The specification's assumptions.
         implausible: Sizes that nobody builds, a sentence each.
     """
@@ -148,6 +154,8 @@ def document(
         "loops": list(loops),
         "freedom": freedom,
         "neutral": dict(neutral),
+        "lengths": {part: dict(one) for part, one in lengths.items()},
+        "angles": {part: dict(one) for part, one in angles.items()},
         "assumptions": [*assumptions(stated), *odd_sizes(implausible)],
         "implausible": list(implausible),
         "thesis_pin": __version__,
@@ -157,7 +165,7 @@ def document(
 def told(info: Info) -> list[Part]:
     """The document for people, in at most 80 columns."""
     joints = Table(
-        "",
+        "Joints",
         ("joint", "", "axis", "range °", "effort N·m", "speed rad/s"),
         [
             (
@@ -172,7 +180,7 @@ def told(info: Info) -> list[Part]:
         ],
     )
     bodies = Table(
-        "",
+        "Bodies",
         ("body", "mass g", "centre of mass mm", "gyration mm", "length mm"),
         [
             (
@@ -200,6 +208,7 @@ def told(info: Info) -> list[Part]:
         f"{info['robot']}: {info['source']}. Mass {info['mass']:.5g} kg, "
         f"{len(info['joints'])} joints, {len(info['bodies'])} bodies with mass.",
         joints,
+        *_sizes(info),
         bodies,
         inertias,
         f"Degrees of freedom: {info['freedom']['counted']} by counting, "
@@ -212,6 +221,27 @@ def told(info: Info) -> list[Part]:
         *(_assumed(one) for one in info["assumptions"] if one["name"] != "implausible size"),
         *(f"Warning: {one}" for one in info["implausible"]),
     ]
+
+
+def _sizes(info: Info) -> list[Part]:
+    """Lengths and constant angles, a column a part of the robot."""
+    found: list[Part] = []
+    for title, unit, parts, factor in (
+        ("Lengths", "mm", info["lengths"], 1e3),
+        ("Constant angles", "°", info["angles"], 180.0 / np.pi),
+    ):
+        names = list(dict.fromkeys(name for part in parts.values() for name in part))
+        rows = [
+            (
+                name,
+                *(f"{part[name] * factor:z.7g}" if name in part else "" for part in parts.values()),
+            )
+            for name in names
+        ]
+        if rows:
+            columns = ("", *(f"{part.replace('_', ' ')} {unit}" for part in parts))
+            found.append(Table(title, columns, rows))
+    return found
 
 
 def _place(end: str, place: np.ndarray) -> str:

@@ -1,0 +1,1 @@
+"""Specifications and gaits made: from other descriptions, from a template, from neutral soles."""
