@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import PPoly
 
 from thesis_pin.numeric import quaternions
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.smoothing.resolution import Resolution
+
+if TYPE_CHECKING:  # exact paths need no smoothing
+    from scipy.interpolate import PPoly
 
 PLACE = 3
 """Coordinates of the spray tip; four of a quaternion follow."""

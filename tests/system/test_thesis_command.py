@@ -193,8 +193,14 @@ def test_a_motion_without_rates_is_answered_and_what_it_leaves_open_is_said(capf
     bare.write_text("\n".join(",".join(line[k] for k in kept) for line in lines) + "\n")
     code, out, err = torque(capfd, *POLLARD, bare)
     assert (code, err) == (0, "")
+    assert "come from a cubic spline through the samples" in " ".join(out.split())
+    assert "leaves open" not in out
+    rows = [",".join(f"{float(line[k]):.4f}" for k in kept) for line in lines[1:]]
+    bare.write_text("\n".join([",".join(lines[0][k] for k in kept), *rows]) + "\n")
+    code, out, err = torque(capfd, *POLLARD, bare)
+    assert (code, err) == (0, "")
     assert "smooth curves within the samples' resolution" in " ".join(out.split())
-    assert "The samples' resolution leaves open" in " ".join(out.split())
+    assert "The samples' resolution leaves open: peak of motor" in " ".join(out.split())
 
 
 def test_torque_beyond_a_limit_is_a_no_only_when_asked_strictly(capfd, tmp_path):

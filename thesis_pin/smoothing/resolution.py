@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from thesis_pin.smoothing.curve import ORDER
 from thesis_pin.smoothing.intervals import Interval
 from thesis_pin.smoothing.noise import ROUNDING
 
@@ -37,6 +36,8 @@ class Resolution:
 
         The posterior's standard deviation of x'' goes with σ to the power of (2m − 5)/2m.
         """
+        from thesis_pin.smoothing.curve import ORDER
+
         beyond = held.high - held.value if held.value < limit else held.value - held.low
         ratio = abs(held.value - limit) / max(beyond, 1e-300)
         now = max(self.quantum, self.noise / ROUNDING)
