@@ -135,8 +135,8 @@ def _phases(
     for k in (np.flatnonzero((stands[1:] != stands[:-1]).any(axis=1)) + 1).tolist():
         lands, lifts = stands[k] & ~stands[k - 1], stands[k - 1] & ~stands[k]
         # A foot that has left its place by the next row left it at this one, unless the
-        # other lands meanwhile: somebody has to stand.
-        early = lifts.any() and not lands.any() and not there[k, lifts].any()
+        # other lands meanwhile and isn't there yet: somebody has to stand.
+        early = lifts.any() and not there[k, lifts].any() and there[k - 1, lands].all()
         end = t[k - 1] if early else t[k]
         yield float(start), float(end), names[stands[k - 1, 0], stands[k - 1, 1]]
         start = end

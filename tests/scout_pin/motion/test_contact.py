@@ -79,6 +79,17 @@ def test_the_row_of_a_change_may_carry_the_phase_before_or_after(scout, tmp_path
     np.testing.assert_allclose(starts, [0, 0.8, 2.4, 3.6, 5.2], atol=1.01 / rate)
 
 
+@pytest.mark.parametrize("side", [-1e-6, 0.0, 1e-6])
+def test_one_foot_may_take_over_from_the_other_at_a_row_that_carries_either(tmp_path, side):
+    """The thesis's gait: both stand for an instant only, at rows of this log."""
+    gait = load_gait()
+    t = np.linspace(0, 40, 201)
+    support = gait.support(np.clip(t + side, abs(side), 40 - abs(side)))
+    log = load_gait(write_log(tmp_path / "log.csv", gait, t, support, digits=12))
+    log.sample(log.sample_times(101))
+    assert [p.start for p in log.phases if p.support == "right"] == pytest.approx([2.0])
+
+
 def test_a_label_one_row_early_or_late_is_mended_and_said(scout, tmp_path):
     """At 20 Hz the foot is 0.3 mm up a row after lift-off and two thirds of that before landing."""
     gait = load_gait(EXAMPLES / "walk.toml")
@@ -134,6 +145,9 @@ def poses(height):
         ("dddlll", [0] * 6, [0, 0, 0.5, 5, 5, 5], [(0, 1, "double"), (1, 5, "left")], [2]),
         # Two millimetres are no switch's slack: left as it is, and refused by the gait.
         ("lllddd", [0] * 6, [5, 5, 5, 2, 0, 0], [(0, 3, "left"), (3, 5, "double")], []),
+        # One foot for the other: at the row at which both are on the floor.
+        ("lllrrr", [0, 0, 0, 5, 5, 5], [5, 5, 0, 0, 0, 0], [(0, 2, "left"), (2, 5, "right")], []),
+        ("llrrrr", [0, 0, 0, 5, 5, 5], [5, 5, 0, 0, 0, 0], [(0, 2, "left"), (2, 5, "right")], []),
         # Somebody has to stand.
         ("lllrrr", [0, 0, 0, 5, 5, 5], [5, 5, 5, 0, 0, 0], [(0, 3, "left"), (3, 5, "right")], []),
         ("rrrlll", [5, 5, 5, 0.5, 0, 0], [0] * 6, [(0, 3, "right"), (3, 5, "left")], []),
