@@ -84,12 +84,18 @@ def section() -> Iterator[str]:
             "| --- " * (1 + len(RATES)) + "|",
         )
         for how in dict.fromkeys(one.how for one in made):
-            row = [_told(one) for one in made if one.how == how]
+            row = [told(one) for one in made if one.how == how]
             yield f"| {how} | {' | '.join(row)} |"
         yield ""
 
 
-def _told(one: Cell) -> str:
+def seeds(name: str, rate: int, place: int) -> list[int]:
+    """Of a cell's random numbers: path, rate, number of its resolution."""
+    return [20260101, rate, place, *map(ord, name)]
+
+
+def told(one: Cell) -> str:
+    """A cell of the table."""
     value, low, high = (f"{x:.4f}" for x in one.peak)
     text = value if low == high else f"{value} [{low}, {high}]"
     return f"**{text} ({', '.join(one.outside)})**" if one.outside else text
@@ -100,7 +106,7 @@ def _cells(
 ) -> Iterator[Cell]:
     for rate in RATES:
         for place, how in enumerate([*DECIMALS, *NOISES]):
-            random = np.random.default_rng([20260101, rate, place, *map(ord, name)])
+            random = np.random.default_rng(seeds(name, rate, place))
             yield cell(robot, path, rate, how, random, true)
 
 
