@@ -19,9 +19,14 @@ def servos_carry(numbers: GaitNumbers) -> bool:
 def can_walk(numbers: GaitNumbers) -> bool:
     """Whether the floor can give every wrench, feet swing clear, no rate jumps, a cycle closes."""
     return bool(
-        (numbers.margin > 0).all()
-        and numbers.dynamics.admissible.all()
-        and not numbers.digs
+        (numbers.margin > 0).all() and numbers.dynamics.admissible.all() and feet_and_rates(numbers)
+    )
+
+
+def feet_and_rates(numbers: GaitNumbers) -> bool:
+    """All but what the floor has to supply: feet swing clear, no rate jumps, a cycle closes."""
+    return (
+        not numbers.digs
         and not numbers.soles_collide
         and not numbers.collisions.touching
         and numbers.ends.kind != "open cycle"
@@ -34,13 +39,19 @@ def within_limits(numbers: GaitNumbers) -> bool:
     return can_walk(numbers) and servos_carry(numbers)
 
 
-def sentences(numbers: GaitNumbers) -> list[str]:
-    """The verdict, most important first: walking, contact, ends, servos, speed, swing feet."""
+def sentences(numbers: GaitNumbers, *, walking: bool = True, servos: bool = True) -> list[str]:
+    """The verdict, most important first: walking, contact, ends, servos, speed, swing feet.
+
+    Args:
+        numbers: What it is about.
+        walking: Whether to say if the floor can supply what the gait needs.
+        servos: Whether to say if the servos can carry it.
+    """
     return [
-        *_walking(numbers),
+        *(_walking(numbers) if walking else ()),
         *ends.sentences(numbers.ends),
-        *_servos(numbers),
-        *_speed(numbers),
+        *(_servos(numbers) if servos else ()),
+        *(_speed(numbers) if walking and servos else ()),
         *_swing(numbers),
         *_smooth(numbers),
     ]
