@@ -101,11 +101,11 @@ def read_any_text(kind: str, path: str | Path, most: int) -> tuple[str, str]:
 def _decoded(content: bytes) -> tuple[str, str] | None:
     """Text and encoding of bytes; None if they aren't text."""
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        tries = (("utf-16", "UTF-16"),)
+        tries = [("utf-16", "UTF-16")]
     elif b"\0" in content[:2]:  # the first character is one that a header begins with
-        tries = (("utf-16-be" if content[:1] == b"\0" else "utf-16-le", "UTF-16"),)
+        tries = [("utf-16-be" if content[:1] == b"\0" else "utf-16-le", "UTF-16")]
     else:
-        tries = (("utf-8-sig", ""), ("cp1252", "Windows-1252"))
+        tries = [("utf-8-sig", ""), ("cp1252", "Windows-1252")]
     for codec, name in tries:
         try:
             text = content.decode(codec)

@@ -102,7 +102,7 @@ def reader(known: Known) -> Callable[[str], Sequence[Meaning]]:
     folded: dict[str, list[Meaning]] = {}
     for name, meanings in known.items():
         folded.setdefault(spelt(name), []).extend(meanings)
-    return lambda heading: known.get(heading) or folded.get(spelt(heading), ())
+    return lambda heading: known.get(heading, ()) or folded.get(spelt(heading), ())
 
 
 def chosen(

@@ -8,6 +8,11 @@ from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput, ModelWarning
 
 
+def fail(text, category):
+    warnings.warn(text, category, stacklevel=1)
+    raise BadInput("out of reach")
+
+
 def test_a_warning_is_one_line_on_standard_error(capsys):
     with warned():
         warnings.warn("a leg of 100 m", ModelWarning, stacklevel=1)
@@ -16,15 +21,13 @@ def test_a_warning_is_one_line_on_standard_error(capsys):
 
 def test_what_was_warned_of_is_said_before_the_error_that_it_explains(capsys):
     with pytest.raises(BadInput, match="out of reach"), warned():
-        warnings.warn("470 m: are these millimetres?", ModelWarning, stacklevel=1)
-        raise BadInput("out of reach")
+        fail("470 m: are these millimetres?", ModelWarning)
     assert "warning: 470 m: are these millimetres?" in capsys.readouterr().err
 
 
 def test_warnings_of_others_are_passed_on_also_before_an_error():
     with pytest.warns(DeprecationWarning, match="old"), pytest.raises(BadInput), warned():
-        warnings.warn("old", DeprecationWarning, stacklevel=1)
-        raise BadInput("no")
+        fail("old", DeprecationWarning)
 
 
 def test_strictly_they_are_errors():
