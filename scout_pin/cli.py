@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command import common
+from thesis_pin.command import common, options
 from thesis_pin.command.options import add_branch, add_json, count, number
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
@@ -29,6 +29,7 @@ def _which_gait(words: argparse.ArgumentParser) -> None:
         choices=("linear", "quadratic", "cubic", "free", "quintic"),
         help="method for the gait's nodes, instead of the gait's own",
     )
+    options.add_smooth(words)
     words.add_argument(
         "--time-unit",
         type=number("--time-unit", positive=True),

@@ -84,7 +84,13 @@ def _gait(arguments: argparse.Namespace, robot: Scout) -> Gait:
             "warning: no --gait is given and the thesis's is taken, which was made for its own "
             "robot; scout-pin new FILE --motion sway makes one for this robot"
         )
-    gait = load_gait(arguments.gait or "thesis", arguments.interpolation, robot=robot)
+    gait = load_gait(
+        arguments.gait or "thesis",
+        arguments.interpolation,
+        robot=robot,
+        smooth=arguments.smooth,
+        time_unit=arguments.time_unit,
+    )
     return replace(gait, cycle=True) if arguments.cycle else gait
 
 

@@ -69,9 +69,10 @@ class BadInput(ThesisPinError, ValueError):
     def __init__(self, what: str, *, where: str = "", allowed: str = "", remedy: str = "") -> None:
         self.what, self.where = escaped(what), escaped(where, keep="")
         self.allowed, self.remedy = escaped(allowed), escaped(remedy)
-        super().__init__(self._message())
+        super().__init__(self.message())
 
-    def _message(self) -> str:
+    def message(self) -> str:
+        """What, where, allowed and remedy in one text."""
         text = f"{self.where}: {self.what}" if self.where else self.what
         if self.allowed:
             text += f"; allowed: {self.allowed}"
@@ -121,7 +122,7 @@ class SpecificationError(BadInput):
             listed.append(f"\n  … and {more} more")
         super().__init__(f"{count} in the {kind}")
         self.what += "".join(listed)  # each is escaped and shortened by itself
-        self.args = (self._message(),)
+        self.args = (self.message(),)
 
 
 class WrongShape(BadInput):

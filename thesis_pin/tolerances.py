@@ -30,6 +30,11 @@ class Tolerances:
         stance_drift: How far a foot in support may stray from rest or floor [m]: floors
             aren't flatter, and a servo's step of 0.09° moves the hip by three times that.
         stance_tilt: The same of its angles [rad]: 0.1 mm over a sole of a decimetre.
+        exact_move: Error of accelerations made of samples below which these count as exact
+            [m/s²]: 0.01 mm of a walker's ZMP, whose centre of mass is 0.2 m high.
+        exact_turn: The same of angular accelerations [rad/s²].
+        exact_rate: The same of rates [m/s], [rad/s]: a joint that rests must not seem to
+            turn, or all of its Coulomb friction counts.
         stance_near: How far from its place a foot may be that a log's first or last row of
             a stance has standing: a switch under the sole closes that early [m].
         stance_near_tilt: The same of its angles [rad].
@@ -124,6 +129,9 @@ class Tolerances:
     rank: float = 1e-9
     stance_drift: float = 1e-4
     stance_tilt: float = 1e-3
+    exact_move: float = 5e-4
+    exact_turn: float = 1e-2
+    exact_rate: float = 1e-6
     stance_near: float = 1e-3
     stance_near_tilt: float = 1e-2
     sole_misfit: float = 1e-2

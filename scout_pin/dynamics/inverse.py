@@ -137,16 +137,22 @@ def _fill(
                 own = into(rows(foot.rotation), vector)
                 kept["sole_wrench"][:, k, column : column + 3] = own.T
     kept["torque"][:] = torque.T
-    kept["torque"] += joint_friction(robot, joints.v)
+    kept["torque"] += joint_friction(robot, joints.v, joints.resting)
     if "required" in kept:
         kept["required"][:] = forces[:, :6]
 
 
-def joint_friction(robot: Scout, v: np.ndarray) -> np.ndarray:
+def joint_friction(robot: Scout, v: np.ndarray, resting: np.ndarray | None = None) -> np.ndarray:
     """Torque that overcomes joint friction [N·m]: ``(n, 12)`` rates → ``(n, 12)``.
 
     Coulomb friction of a joint at rest is undetermined and taken as zero.
+
+    Args:
+        robot: The biped.
+        v: Joint rates [rad/s].
+        resting: Joints whose rate isn't known to differ from zero, ``(n, 12)``; None for
+            those below ``static``.
     """
     friction = robot.specification.assumptions.joint_friction
-    moving = np.abs(v) > TOLERANCES.static
-    return friction.viscous * v + friction.coulomb * np.where(moving, np.sign(v), 0.0)
+    still = np.abs(v) <= TOLERANCES.static if resting is None else resting
+    return friction.viscous * v + friction.coulomb * np.where(still, 0.0, np.sign(v))

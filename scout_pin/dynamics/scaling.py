@@ -62,7 +62,7 @@ def single_support(
     """
     moving, at_rest = joints.part(some), motion.at_rest(some)
     static = inverse_dynamics(robot, at_rest, _still(moving)).torque
-    constant, linear = _friction(robot, moving.v)
+    constant, linear = _friction(robot, moving)
     square = torque[some] - static - constant - linear
     anything = np.full(len(some), np.inf)
     return Torques(some, static + constant, linear, square, -anything, anything)
@@ -102,7 +102,7 @@ class DoubleSupport:
         problem = sharing_problem(robot, here, moving, static, every)
         added = whole - static
         motion_part = problem.with_load((added[:, 6:12], added[:, 12:18]), added[:, :6])
-        return cls(some, problem, motion_part, _friction(robot, moving.v))
+        return cls(some, problem, motion_part, _friction(robot, moving))
 
     @cached_property
     def free(self) -> Torques:
@@ -153,7 +153,7 @@ def _still(joints: JointTrajectory) -> JointTrajectory:
     return JointTrajectory(joints.time, joints.q, zero, zero)
 
 
-def _friction(robot: Scout, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _friction(robot: Scout, joints: JointTrajectory) -> tuple[np.ndarray, np.ndarray]:
     """Joint friction at s = 1: the part that stays, and the part that grows with s."""
-    linear = robot.specification.assumptions.joint_friction.viscous * v
-    return joint_friction(robot, v) - linear, linear
+    linear = robot.specification.assumptions.joint_friction.viscous * joints.v
+    return joint_friction(robot, joints.v, joints.resting) - linear, linear

@@ -81,7 +81,7 @@ def _refuse_motion(name: str, side: str, phase: Phase, values: np.ndarray) -> No
 
 def changes(
     t: np.ndarray, standing: np.ndarray, feet: Sequence[np.ndarray]
-) -> tuple[list[tuple[float, float, str]], list[int]]:
+) -> tuple[list[tuple[float, float, str]], np.ndarray]:
     """Phases of a log whose rows say who bears load.
 
     A foot stands until the last row at which it is on its place, and from the first one. A
@@ -95,7 +95,8 @@ def changes(
         feet: Poses of the left and right sole, x, y, z [m], pitch, roll, yaw [rad], ``(n, 6)``.
 
     Returns:
-        Start, end and support of each phase, and the rows whose label was one too many.
+        Start, end and support of each phase, and the rows' labels without those that were
+        one too many.
     """
     said = np.array(standing, dtype=bool)
     stands = said.copy()
@@ -116,8 +117,7 @@ def changes(
                 early_or_late = last > first and changes_there and not on[at] and near[at]
                 if early_or_late and on[at + inwards] and said[row, 1 - k]:
                     stands[row, k] = False
-    moved = np.flatnonzero((stands != said).any(axis=1))
-    return list(_phases(t, stands, there)), [int(row) for row in moved]
+    return list(_phases(t, stands, there)), stands
 
 
 def _runs(yes: np.ndarray) -> Iterable[tuple[int, int]]:
@@ -135,8 +135,8 @@ def _phases(
     for k in (np.flatnonzero((stands[1:] != stands[:-1]).any(axis=1)) + 1).tolist():
         lands, lifts = stands[k] & ~stands[k - 1], stands[k - 1] & ~stands[k]
         # A foot that has left its place by the next row left it at this one, unless the
-        # other lands meanwhile: somebody has to stand.
-        early = lifts.any() and not lands.any() and not there[k, lifts].any()
+        # other lands meanwhile and isn't there yet: somebody has to stand.
+        early = lifts.any() and not there[k, lifts].any() and there[k - 1, lands].all()
         end = t[k - 1] if early else t[k]
         yield float(start), float(end), names[stands[k - 1, 0], stands[k - 1, 1]]
         start = end

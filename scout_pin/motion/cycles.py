@@ -17,6 +17,7 @@ from scipy.interpolate import PPoly
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.variants import RateJump, Variants
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance, whole
@@ -117,8 +118,9 @@ def closure(gait: Gait, time_unit: float | None = None) -> Closure:
     gaps = state(gait, late, unit) - state(gait, gait.start, unit)
     step = np.median(gaps[:, :2, 0], axis=0)
     gaps[:, :2, 0] -= step
+    open_ = _left_open(gait, late, unit)
     found = [
-        (abs(gaps[b, c, n]) / allowed(coordinate, what), b, c, n)
+        (abs(gaps[b, c, n]) / (allowed(coordinate, what) + open_[b, c, n]), b, c, n)
         for b in range(len(BODIES))
         for c, coordinate in enumerate(POSE_NAMES)
         for n, what in enumerate(WHATS)
@@ -131,6 +133,19 @@ def closure(gait: Gait, time_unit: float | None = None) -> Closure:
             if share > 1
         ),
     )
+
+
+def _left_open(gait: Gait, late: float, unit: float) -> np.ndarray:
+    """What samples of finite resolution leave open of each gap, ``(bodies, 6, 3)``."""
+    result = np.zeros((len(BODIES), len(POSE_NAMES), len(WHATS)))
+    if gait.variants is None:
+        return result
+    for b, body in enumerate(BODIES):
+        for c, curve in enumerate(gait.variants.curves[body]):
+            for n in range(len(WHATS)):
+                gap = (curve(late, n) - curve(gait.start, n)) / unit**n
+                result[b, c, n] = 4.0 * gap[2:].std() + abs(gap[1] - gap[0])
+    return result
 
 
 def repeat_gait(gait: Gait, times: int) -> Gait:
@@ -169,7 +184,41 @@ def repeat_gait(gait: Gait, times: int) -> Gait:
         )
         for body in BODIES
     }
-    return replace(gait, curves=curves, phases=tuple(_phases(gait, times)))
+    phases = tuple(_phases(gait, times))
+    return replace(gait, curves=curves, phases=phases, variants=_variants(gait, steps, times))
+
+
+def _variants(gait: Gait, steps: dict[str, float], times: int) -> Variants | None:
+    """What samples leave open of a repeated gait: every time the same."""
+    one, length = gait.variants, gait.end - gait.start
+    if one is None:
+        return None
+    late = float(np.nextafter(gait.end, -np.inf))
+    curves, seams = {}, []
+    for b, body in enumerate(BODIES):
+        made = []
+        for c, (coordinate, curve) in enumerate(zip(POSE_NAMES, one.curves[body], strict=True)):
+            step = steps.get(coordinate, 0.0)
+            made.append(_again(curve, gait.start, gait.end, step, times))
+            size = abs(float((curve(late, 1) - curve(gait.start, 1))[0]))
+            if size > TOLERANCES.rate_jump + _left_open(gait, late, 1.0)[b, c, 1]:
+                seams.append((body, coordinate, size))
+        curves[body] = tuple(made)
+    shifts = [k * length for k in range(times)]
+    return replace(
+        one,
+        curves=curves,
+        changes=tuple(
+            replace(change, start=change.start + shift, end=change.end + shift)
+            for shift in shifts
+            for change in one.changes
+        ),
+        hidden=tuple((a + shift, b + shift) for shift in shifts for a, b in one.hidden),
+        jumps=(
+            *(replace(jump, t=jump.t + shift) for shift in shifts for jump in one.jumps),
+            *(RateJump(gait.start + shift, *seam) for shift in shifts[1:] for seam in seams),
+        ),
+    )
 
 
 def _again(curve: PPoly, start: float, end: float, step: float, times: int) -> PPoly:

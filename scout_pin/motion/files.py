@@ -17,13 +17,15 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.model import Scout
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
-from scout_pin.motion.tables import read_gait_table, through_samples
+from scout_pin.motion.smoothing import gait_from_samples
+from scout_pin.motion.tables import read_gait_table
 from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.specification import Key, Positive, Strict, read_toml
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
+from thesis_pin.smoothing.stated import stated
 from thesis_pin.tables.reading import TABLES
 from thesis_pin.tolerances import TOLERANCES
 
@@ -158,6 +160,8 @@ def load_gait(
     source: str | Path = "thesis",
     interpolation: str | None = None,
     *,
+    smooth: str = "auto",
+    time_unit: float | None = None,
     robot: Scout | None = None,
 ) -> Gait:
     """Load a preset, a TOML gait or a table of samples.
@@ -165,15 +169,21 @@ def load_gait(
     Args:
         source: One of :data:`PRESETS`, or a path ending in ``.toml`` or in one of
             :data:`TABLES`.
-        interpolation: Method for every node segment, instead of the file's.
+        interpolation: Method for every node segment, instead of the file's; curves then
+            pass through every sample of a table.
+        smooth: Of a table: ``auto`` takes its samples for as fine as they show themselves to
+            be, ``none`` for exact, and a length such as ``0.1mm``, an angle such as
+            ``0.05deg`` or both with a comma for no finer than that.
+        time_unit: Seconds in a unit of t in which the gait will be run; None for its own.
         robot: The biped, for tables of its joints' angles; nothing else needs it.
 
     Raises:
-        BadInput: The file can't be read, has an unknown ending, or a cell of a CSV
-            file isn't a number.
+        BadInput: ``smooth`` is none of these, the file can't be read, has an unknown
+            ending, or a cell of a CSV file isn't a number.
         SpecificationError: The TOML is invalid; carries every problem.
         TrajectoryError: The samples of a CSV file make no motion.
     """
+    how = stated(smooth)
     if interpolation is not None:
         choice("interpolation", interpolation, list(METHODS))
     if not isinstance(source, str | Path):
@@ -182,7 +192,8 @@ def load_gait(
         source = GAITS / f"{source}.toml"
     path = Path(source)
     if path.suffix.lower() in TABLES:
-        return through_samples(read_gait_table(path, robot), interpolation or "free")
+        samples = read_gait_table(path, robot)
+        return gait_from_samples(samples, how, interpolation, time_unit or 1.0)
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
     return gait_of(read_toml("gait", GaitFile, path), interpolation)

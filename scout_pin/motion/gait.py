@@ -11,7 +11,7 @@ Source: Scout thesis, chapter 5, appendices C and D.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
 
@@ -20,6 +20,7 @@ from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, check_stance
+from scout_pin.motion.variants import RateJump, Rows, Variants
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
@@ -85,23 +86,6 @@ class GaitMotion:
 
 
 @dataclass(frozen=True)
-class RateJump:
-    """A planned rate that changes in an instant: it would take an infinite force.
-
-    Attributes:
-        t: Time in the gait's unit.
-        body: One of :data:`BODIES`.
-        coordinate: One of :data:`POSE_NAMES`.
-        size: Jump [m/s] or [rad/s].
-    """
-
-    t: float
-    body: str
-    coordinate: str
-    size: float
-
-
-@dataclass(frozen=True)
 class Gait:
     """A gait ready to be sampled.
 
@@ -118,6 +102,9 @@ class Gait:
             they are known: they choose the branch of the legs.
         branch: The branch it asks for, as an argument ``branch`` takes it; None leaves
             it to the robot.
+        variants: What samples of finite resolution leave open; None if the curves are
+            exact, as far as anybody knows.
+        rows: Where its samples stand in their file; None if it has none.
     """
 
     name: str
@@ -129,6 +116,8 @@ class Gait:
     cycle: bool = False
     reference: tuple[float, ...] | None = None
     branch: str | None = None
+    variants: Variants | None = None
+    rows: Rows | None = None
 
     @property
     def start(self) -> float:
@@ -177,11 +166,15 @@ class Gait:
         """
         samples = whole("samples", samples, 2)
         changes = [p.start for p in self.phases] + [p.end for p in self.phases]
-        changes += [x for curves in self.curves.values() for curve in curves for x in curve.x]
+        if self.variants is None:
+            changes += [x for curves in self.curves.values() for curve in curves for x in curve.x]
+        else:  # their knots are where the fit wants them, and nothing happens there
+            changes += [t for one in self.variants.changes for t in (one.start, one.end)]
         side = TOLERANCES.instant * (self.end - self.start)
         near = np.concatenate([np.unique(changes) - side, np.unique(changes) + side])
         near = near[(near > self.start) & (near < self.end)]
-        return np.union1d(np.linspace(self.start, self.end, samples), near)
+        times = np.union1d(np.linspace(self.start, self.end, samples), near)
+        return times if self.variants is None else times[self.variants.known(times)]
 
     def rate_jumps(self, time_unit: float | None = None) -> list[RateJump]:
         """Instants at which a planned rate jumps, largest first.
@@ -190,7 +183,9 @@ class Gait:
         """
         unit = self._unit(time_unit)
         found = []
-        for body, curves in self.curves.items():
+        if self.variants is not None:
+            found = [replace(jump, size=jump.size / unit) for jump in self.variants.jumps]
+        for body, curves in self.curves.items() if self.variants is None else ():
             for coordinate, curve in zip(POSE_NAMES, curves, strict=True):
                 sizes = np.abs(jumps(curve, 1)) / unit
                 inside = (curve.x[1:-1] > self.start) & (curve.x[1:-1] < self.end)
@@ -240,7 +235,8 @@ class Gait:
                 allowed=f"{self.start:g} to {self.end:g}",
             )
         bodies = {name: self.body(name, t, unit) for name in BODIES}
-        check_stance(self.name, self.curves, self.phases)
+        if self.variants is None:  # else the samples were judged when they were read
+            check_stance(self.name, self.curves, self.phases)
         return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies, branch=self.branch)
 
     def _unit(self, time_unit: float | None) -> float:

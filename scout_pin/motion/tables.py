@@ -17,6 +17,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.contact import SUPPORTS, Phase, changes
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.joint_angles import placed
+from scout_pin.motion.variants import Rows
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
@@ -65,6 +66,11 @@ class GaitSamples:
     def reference(self) -> tuple[float, ...] | None:
         """Angles [rad] of the twelve joints at the first sample; None if it has none."""
         return tuple(float(column.values[0]) for column in self.angles) or None
+
+    @property
+    def rows(self) -> Rows:
+        """Where in its file each sample stands."""
+        return Rows(name_as_text(self.table.file), self.time.values, self.table.lines)
 
     def values(self, name: str) -> np.ndarray:
         """Samples of a pose's column, zero if it is missing, shape ``(n,)``."""
@@ -138,7 +144,7 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
         TrajectoryError: Support changes more than ``LIMITS.phases`` times.
     """
     file, t = Path(samples.table.file), samples.time.values
-    phases, notes = phases_of(samples)
+    phases, notes, _ = phases_of(samples)
     curves = {
         body: tuple(_curve(t, samples.values(f"{body}_{c}"), method) for c in POSE_NAMES)
         for body in BODIES
@@ -151,11 +157,14 @@ def through_samples(samples: GaitSamples, method: str) -> Gait:
         phases,
         (*samples.notes, *notes),
         reference=samples.reference,
+        rows=samples.rows,
     )
 
 
-def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...]]:
-    """Contact phases, and what had to be mended; see :func:`scout_pin.motion.contact.changes`.
+def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...], np.ndarray]:
+    """Contact phases, what had to be mended, which feet stand at each row, ``(n, 2)``.
+
+    See :func:`scout_pin.motion.contact.changes`.
 
     Raises:
         TrajectoryError: There are more than ``LIMITS.phases``.
@@ -165,7 +174,7 @@ def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...]]
     feet = [
         np.stack([samples.values(f"{body}_{c}") for c in POSE_NAMES], axis=1) for body in BODIES[1:]
     ]
-    found, moved = changes(samples.time.values, standing, feet)
+    found, labels = changes(samples.time.values, standing, feet)
     phases = tuple(Phase(start=a, end=b, support=c) for a, b, c in found)  # type: ignore[arg-type]
     if len(phases) > LIMITS.phases:
         raise TrajectoryError(
@@ -174,10 +183,11 @@ def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...]]
             allowed=f"at most {LIMITS.phases:,} phases",
             remedy="A sensor's noise isn't a phase: filter the column first",
         )
-    return phases, tuple(
+    notes = tuple(
         f"{table.where(row)}: a foot is said to bear load beside its place; it counts as swinging"
-        for row in moved
+        for row in np.flatnonzero((labels != standing).any(axis=1)).tolist()
     )
+    return phases, notes, labels
 
 
 def _curve(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:

@@ -23,9 +23,12 @@ def rows_of(gait: Gait, samples: int | None = None, *, usual: int = 401) -> np.n
     Args:
         gait: The gait.
         samples: Evenly spaced times, with those at which support changes; None takes the
-            samples that the gait was made of, where a spline through them is the gait.
+            samples that the gait was made of, where a spline through them is the gait or it
+            is smooth within their resolution.
         usual: How many, where it wasn't made of samples.
     """
+    if samples is None and gait.variants is not None and gait.rows is not None:
+        return np.array(gait.rows.t)
     moving = [c for curves in gait.curves.values() for c in curves if len(c.x) > 2]
     if samples is None and moving:
         t = moving[0].x

@@ -25,6 +25,7 @@ from thesis_pin.report.curves import (
     Limit,
     Plot,
     both_signs,
+    spread,
 )
 
 NAMES = ("yaw", "roll", "pitch", "knee", "ankle pitch", "ankle roll")
@@ -35,6 +36,8 @@ _FEET: tuple[tuple[str, str, Dash], ...] = (
 )
 
 Samples = NDArray[np.intp]
+
+_OPEN = "left open by the samples"
 
 
 def plots(report: GaitReport, keep: Samples) -> list[Plot]:
@@ -106,6 +109,7 @@ def plan(report: GaitReport, keep: Samples) -> Plot:
 
 def stability_margin(report: GaitReport, keep: Samples) -> Plot:
     """How far the zero-moment point is inside the support polygon."""
+    held = report.headlines
     return _over_time(report, keep)(
         "Stability margin",
         "Distance of the zero-moment point inside the support polygon; negative: the robot "
@@ -113,6 +117,7 @@ def stability_margin(report: GaitReport, keep: Samples) -> Plot:
         "margin [mm]",
         [Curve("margin", report.margin[keep] * 1e3, BLUE)],
         limits=[Limit("tips below", 0.0)],
+        areas=[] if held is None else [spread(_OPEN, held.time, held.margin_band * 1e3, BLUE)],
     )
 
 
@@ -146,7 +151,19 @@ def torques(report: GaitReport, keep: Samples, side: str = "") -> Plot:
         "torque [N·m]",
         _joints(report.dynamics.torque[keep], side),
         limits=both_signs("stall torque", stall),
+        areas=_open_torques(report, side),
     )
+
+
+def _open_torques(report: GaitReport, side: str) -> list[Area]:
+    """What samples of finite resolution leave open of each joint's torque."""
+    held = report.headlines
+    if held is None:
+        return []
+    return [
+        spread(_OPEN, held.time, held.torque_band[:, :, k], PALETTE[k % 6])
+        for k in range(12)[_columns(side)]
+    ]
 
 
 def _servos(report: GaitReport, keep: Samples) -> list[Plot]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -12,19 +13,23 @@ from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
 from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
+from scout_pin.dynamics.variants import drawn, extremes_of
 from scout_pin.implausible import implausible
 from scout_pin.kinematics.branches import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
-from scout_pin.report import verdict
+from scout_pin.report import decision
 from scout_pin.report.limits import SPEEDS
+from scout_pin.report.located import located
 from scout_pin.report.numbers import GaitNumbers
+from scout_pin.report.reason import reason, sentences
 from scout_pin.report.stance import Stance, branch_asked, stance
+from scout_pin.report.uncertainty.document import uncertainty
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import function, instance
-from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.elementwise import LONG, blocks
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report import pace
 from thesis_pin.report.info import assumptions, odd_sizes
@@ -42,19 +47,22 @@ class GaitReport(GaitNumbers):
     """Everything known of a gait on a robot: its numbers, its verdict, its documents."""
 
     @property
-    def servos_carry(self) -> bool:
-        """Whether every joint stays under its servo's torque-speed line."""
-        return verdict.servos_carry(self)
+    def servos_carry(self) -> bool | None:
+        """Whether every joint stays under its servo's line; None where samples can't say."""
+        return decision.servos_carry(self)
 
     @property
-    def can_walk(self) -> bool:
-        """Whether the floor can supply every wrench, feet swing clear and no rate jumps."""
-        return verdict.can_walk(self)
+    def can_walk(self) -> bool | None:
+        """Whether the floor can supply every wrench, feet swing clear and no rate jumps.
+
+        None where the gait's samples don't carry an answer.
+        """
+        return decision.can_walk(self)
 
     @property
-    def within_limits(self) -> bool:
-        """Walkable and carried by the servos."""
-        return verdict.within_limits(self)
+    def within_limits(self) -> bool | None:
+        """Walkable and carried by the servos; None where the gait's samples can't say."""
+        return decision.within_limits(self)
 
     @cached_property
     def stance(self) -> Stance:
@@ -63,7 +71,12 @@ class GaitReport(GaitNumbers):
 
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
-        return verdict.sentences(self)
+        return sentences(self)
+
+    @property
+    def reason(self) -> str | None:
+        """Why the gait's samples carry no verdict; None if they do, or it is exact."""
+        return reason(self)
 
     def doubts(self) -> list[str]:
         """What is to be asked before the numbers are believed."""
@@ -132,6 +145,7 @@ class GaitReport(GaitNumbers):
             "assumptions": self.assumptions(),
             "notes": list(self.gait.notes),
             "summary": self.summary(),
+            "uncertainty": uncertainty(self.headlines, self.drawn, self.gait.variants),
         }
 
     def columns(self) -> dict[str, np.ndarray | list[str]]:
@@ -165,7 +179,8 @@ class GaitReport(GaitNumbers):
             "within_limits": self.within_limits,
             "can_walk": self.can_walk,
             "servos_carry": self.servos_carry,
-            "verdict": self.verdict(),
+            "verdict": None if self.within_limits is None else self.verdict(),
+            "reason": self.reason,
             "doubts": self.doubts(),
             "peak_torque": a.peak_torque,
             "rms_torque": a.rms_torque,
@@ -274,15 +289,24 @@ def gait_report(
     motion = gait.sample(gait.sample_times(samples), unit)
     progress(1, 4)
     asked = branch_asked(robot, gait, branch)
-    joints = joint_trajectory(robot, motion, branch=asked, reference=gait.reference)
-    progress(2, 4)
-    dynamics = inverse_dynamics(robot, motion, joints)
-    progress(3, 4)
-    com, zmp = np.empty((len(motion.t), 3)), np.empty((len(motion.t), 2))
-    for part in blocks(len(motion.t)):
-        state = free_flyer_state(motion.torso.part(part), joints.part(part))
-        com[part], rate = momentum(robot, *state)
-        zmp[part] = zero_moment_point(robot.mass, com[part], rate, first=part.start)
+    with located(gait, motion.t):
+        joints = joint_trajectory(robot, motion, branch=asked, reference=gait.reference)
+        progress(2, 4)
+        dynamics = inverse_dynamics(robot, motion, joints)
+        com, zmp = np.empty((len(motion.t), 3)), np.empty((len(motion.t), 2))
+        for part in blocks(len(motion.t)):
+            state = free_flyer_state(motion.torso.part(part), joints.part(part))
+            com[part], rate = momentum(robot, *state)
+            zmp[part] = zero_moment_point(robot.mass, com[part], rate, first=part.start)
+        margin = support_margin(robot, motion, zmp)
+        progress(3, 4)
+        draws = None
+        if gait.variants is not None:
+            extremes = extremes_of(robot, joints, dynamics, margin)
+            draws = drawn(robot, gait, motion, joints, unit, extremes, asked)
+        if draws is not None and len(joints.time) < LONG:
+            joints = replace(joints, resting=draws.resting)
+            dynamics = inverse_dynamics(robot, motion, joints)
     report = GaitReport(
         robot=robot,
         gait=gait,
@@ -293,8 +317,9 @@ def gait_report(
         dynamics=dynamics,
         com=com,
         zmp=zmp,
-        margin=support_margin(robot, motion, zmp),
+        margin=margin,
         impacts=tuple(impacts(robot, gait, joints, unit)),
+        drawn=draws,
     )
     progress(4, 4)
     if report.stance.tied:

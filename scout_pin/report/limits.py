@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from scout_pin.motion.cycles import Gap, closure
-from scout_pin.motion.gait import Gait, RateJump
+from scout_pin.motion.gait import Gait
+from scout_pin.motion.variants import RateJump
 from scout_pin.report.speeds import CAUSES, Cause, Speeds, stretches
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.numeric.elementwise import blocks

@@ -8,13 +8,16 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.dynamics.impact import Impact
+from scout_pin.dynamics.variants import Drawn
 from scout_pin.model import Scout
 from scout_pin.motion.collisions import Collisions, collisions
-from scout_pin.motion.gait import Gait, GaitMotion, RateJump
+from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.swings import Swing, lowest_corner, sole_gap, swings
+from scout_pin.motion.variants import RateJump
 from scout_pin.report.ends import Ends, ends
 from scout_pin.report.limits import FastestTimeUnit, TimeUnits, fastest_time_unit, time_units
 from scout_pin.report.speeds import Speeds
+from scout_pin.report.uncertainty.headlines import Headlines, Worked, headlines
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks, intervals
@@ -39,6 +42,7 @@ class GaitNumbers:
         zmp: Zero-moment point by (6.1) [m], shape ``(n, 2)``.
         margin: Signed distance of the ZMP inside the support polygon [m], ``(n,)``.
         impacts: Touchdowns.
+        drawn: What samples of finite resolution leave open; None if the gait is exact.
     """
 
     robot: Scout
@@ -52,6 +56,15 @@ class GaitNumbers:
     zmp: np.ndarray
     margin: np.ndarray
     impacts: tuple[Impact, ...]
+    drawn: Drawn | None = None
+
+    @cached_property
+    def headlines(self) -> Headlines | None:
+        """Intervals of the numbers that count; None if the gait is exact."""
+        if self.drawn is None or self.gait.variants is None:
+            return None
+        worked = Worked(self.robot, self.motion, self.joints, self.dynamics, self.margin)
+        return headlines(worked, self.drawn, self.gait.variants)
 
     @cached_property
     def actuators(self) -> ActuatorSummary:
@@ -151,8 +164,11 @@ class GaitNumbers:
 
     @property
     def digs(self) -> bool:
-        """Whether a swinging sole goes into the floor."""
-        return self.lowest_corner is not None and self.lowest_corner < -TOLERANCES.clearance
+        """Whether a swinging sole goes into the floor, by more than samples leave open."""
+        lowest = self.lowest_corner
+        if self.headlines is not None and self.headlines.lowest is not None:
+            lowest = self.headlines.lowest.high
+        return lowest is not None and lowest < -TOLERANCES.clearance
 
     @property
     def soles_collide(self) -> bool:

@@ -9,10 +9,12 @@ from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
 from scout_pin.report.limits import headline
 from scout_pin.report.tables import joints_table
+from scout_pin.report.uncertainty.document import columns_table, open_table
 from scout_pin.report.view import gait_scene
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
+from thesis_pin.smoothing.intervals import Interval
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -47,19 +49,19 @@ def gait_page(report: GaitReport) -> bytes:
 
 def _tiles(report: GaitReport) -> list[Tile]:
     use = report.servo_use.max()
-    used = report.peak_friction_used
+    used, held = report.peak_friction_used, report.headlines
     return [
         Tile(
             "worst ZMP margin",
             f"{report.margin.min() * 1e3:z.1f} mm",
-            bool(report.margin.min() > 0),
+            _side(None if held is None else held.margin, float(report.margin.min()), 0.0),
         ),
         Tile(
             "samples whose wrench the floor can give",
             f"{report.dynamics.admissible.mean():.1%}",
             bool(report.dynamics.admissible.all()),
         ),
-        Tile("worst use of a servo's torque-speed line", f"{use:.0%}", bool(use <= 1)),
+        Tile("worst use of a servo's torque-speed line", f"{use:.0%}", report.servos_carry),
         Tile("peak torque", f"{report.actuators.peak_torque.max():.3f} N·m"),
         _clearance(report),
         Tile("soles apart, least", f"{report.sole_gap[0] * 1e3:.1f} mm", not report.soles_collide),
@@ -67,6 +69,13 @@ def _tiles(report: GaitReport) -> list[Tile]:
         Tile("work of all servos", f"{report.actuators.positive_work.sum() * 1e3:.0f} mJ"),
         Tile("friction used, most", "–" if used is None else f"{used:.0%}"),
     ]
+
+
+def _side(held: Interval | None, value: float, limit: float) -> bool | None:
+    """Whether a number is above its limit; None if the samples can't say."""
+    if held is None:
+        return value > limit
+    return {1: True, -1: False}.get(held.side(limit))
 
 
 def _time_units(report: GaitReport) -> Tile:
@@ -90,9 +99,18 @@ def _clearance(report: GaitReport) -> Tile:
 def _tables(report: GaitReport) -> list[Table]:
     return [
         joints_table(report),
+        *_open(report),
         *_impacts(report),
         *closing_tables(report.assumptions(), report.parameters),
     ]
+
+
+def _open(report: GaitReport) -> list[Table]:
+    """What samples of finite resolution leave open, and what they resolve."""
+    held, variants = report.headlines, report.gait.variants
+    if held is None or variants is None:
+        return []
+    return [open_table(held), columns_table(variants, report.time_unit)]
 
 
 def _impacts(report: GaitReport) -> list[Table]:

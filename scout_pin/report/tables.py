@@ -76,6 +76,10 @@ def summary(report: GaitReport) -> Iterator[Part]:
             f"{impact.energy_lost * 1e3:z.2f} mJ lost"
             + ("." if impact.admissible else "; the foot slips, tips or spins in it.")
         )
+    if report.headlines is not None:
+        from scout_pin.report.uncertainty.document import open_table
+
+        yield open_table(report.headlines)
     yield from ("", *(f"Warning: {one}." for one in report.doubts()))
     yield from (*report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
     yield from (f"Warning: {one}" for one in implausible(s.specification))

@@ -19,9 +19,14 @@ def servos_carry(numbers: GaitNumbers) -> bool:
 def can_walk(numbers: GaitNumbers) -> bool:
     """Whether the floor can give every wrench, feet swing clear, no rate jumps, a cycle closes."""
     return bool(
-        (numbers.margin > 0).all()
-        and numbers.dynamics.admissible.all()
-        and not numbers.digs
+        (numbers.margin > 0).all() and numbers.dynamics.admissible.all() and feet_and_rates(numbers)
+    )
+
+
+def feet_and_rates(numbers: GaitNumbers) -> bool:
+    """All but what the floor has to supply: feet swing clear, no rate jumps, a cycle closes."""
+    return (
+        not numbers.digs
         and not numbers.soles_collide
         and not numbers.collisions.touching
         and numbers.ends.kind != "open cycle"
@@ -34,13 +39,19 @@ def within_limits(numbers: GaitNumbers) -> bool:
     return can_walk(numbers) and servos_carry(numbers)
 
 
-def sentences(numbers: GaitNumbers) -> list[str]:
-    """The verdict, most important first: walking, contact, ends, servos, speed, swing feet."""
+def sentences(numbers: GaitNumbers, *, walking: bool = True, servos: bool = True) -> list[str]:
+    """The verdict, most important first: walking, contact, ends, servos, speed, swing feet.
+
+    Args:
+        numbers: What it is about.
+        walking: Whether to say if the floor can supply what the gait needs.
+        servos: Whether to say if the servos can carry it.
+    """
     return [
-        *_walking(numbers),
+        *(_walking(numbers) if walking else ()),
         *ends.sentences(numbers.ends),
-        *_servos(numbers),
-        *_speed(numbers),
+        *(_servos(numbers) if servos else ()),
+        *(_speed(numbers) if walking and servos else ()),
         *_swing(numbers),
         *_smooth(numbers),
     ]
@@ -53,11 +64,11 @@ def _walking(numbers: GaitNumbers) -> list[str]:
     if not outside.any() and not refused and not can_walk(numbers):
         return [f"{name} can't walk this gait as planned, though the floor could carry it."]
     if not outside.any() and not refused:
-        worst = numbers.margin.min() * 1e3
+        least = _millimetres(numbers.margin.min())
         within = " within its file" if numbers.ends.qualified else ""
         return [
             f"{name} can walk this gait{within}: the floor can supply every wrench it needs, and "
-            f"the ZMP keeps at least {worst:z.1f} mm inside the support polygon."
+            f"the ZMP keeps at least {least} inside the support polygon."
         ]
     text = f"{name} can't walk this gait as planned"
     result = []
@@ -65,7 +76,7 @@ def _walking(numbers: GaitNumbers) -> list[str]:
         single = ~numbers.motion.support.all(axis=1)
         where = "the stance sole" if (single | ~outside).all() else "the support polygon"
         low, high = -numbers.margin[outside].max() * 1e3, -numbers.margin[outside].min() * 1e3
-        span = f"{low:z.1f} to {high:z.1f} mm" if high - low > 0.05 else f"{high:.1f} mm"
+        span = f"{low:z.1f} to {high:z.1f} mm" if high - low > 0.05 else _millimetres(high * 1e-3)
         text += (
             f": the ZMP lies outside {where} by {span} in {int(outside.sum())} of {count} samples"
         )
@@ -101,12 +112,12 @@ def _servos(numbers: GaitNumbers) -> list[str]:
     if servos_carry(numbers):
         text = (
             f"The servos can carry it: the worst, {numbers.actuators.names[k]}, uses "
-            f"{use[k]:.0%} of its torque-speed line."
+            f"{_percent(use[k])} of its torque-speed line."
         )
     else:
         text = (
-            f"The servos can't carry it: {numbers.actuators.names[k]} needs {use[k]:.0%} of its "
-            "torque-speed line."
+            f"The servos can't carry it: {numbers.actuators.names[k]} needs {_percent(use[k])} of "
+            "its torque-speed line."
         )
     return [text]
 
@@ -117,7 +128,9 @@ def _speed(numbers: GaitNumbers) -> list[str]:
     first = headline(found, unit)
     if first is None:
         low, high = (unit / speed for speed in reversed(SPEEDS))
-        return [f"At no time unit from {low:.4g} to {high:.4g} s does it walk and is carried."]
+        return [
+            f"At no time unit from {low:.4g} to {high:.4g} s would it both walk and be carried."
+        ]
     inside = first.shortest <= unit <= first.longest
     text = "It walks, and the servos carry it, " if inside else "It would do both "
     text += f"at time units from {first.words}"
@@ -153,6 +166,17 @@ def _swing(numbers: GaitNumbers) -> list[str]:
             f"the floor (t = {worst.start:g} to {worst.end:g}){often}."
         )
     return said
+
+
+def _percent(use: float) -> str:
+    """A share of a limit, with as many digits as tell on which side of 100 % it is."""
+    digits = next((n for n in range(8) if np.sign(round(use, n + 2) - 1) == np.sign(use - 1)), 8)
+    return f"{use:.{digits}%}"
+
+
+def _millimetres(length: float) -> str:
+    """A length that isn't zero, and doesn't look like it."""
+    return f"{length * 1e3:.1f} mm" if length >= 5e-5 else f"{length * 1e3:.1g} mm"
 
 
 def _links(touch: Touch) -> str:

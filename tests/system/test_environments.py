@@ -13,6 +13,7 @@ VERBS = {
     "scout": (
         ["gait"],
         ["view", "--html", "-"],
+        ["convert", "--as", "joints"],
         ["ik", "left", "--position", "0", "0", "-0.2"],
         ["info"],
         ["urdf"],
@@ -21,6 +22,7 @@ VERBS = {
     "pollard": (
         ["trajectory"],
         ["view", "--html", "-"],
+        ["convert", "--as", "joints"],
         ["ik", "0.45", "0", "0.1", "0", "0", "0"],
         ["fk", "0", "0", "0", "0", "0", "0"],
         ["workspace"],

@@ -206,12 +206,12 @@ def test_what_cannot_be_written_is_refused_with_3_before_any_work(arguments, tmp
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_gait_out_of_reach_says_which_sample_and_by_how_much(tmp_path):
+def test_a_gait_out_of_reach_says_when_and_by_how_much(tmp_path):
     text = (EXAMPLES / "walk.toml").read_text()
     (tmp_path / "tall.toml").write_text(text.replace("z_mm = 216.00", "z_mm = 300"))
     done = scout_pin("gait", "--gait", "tall.toml", "--json", "report.json", cwd=tmp_path)
     assert done.returncode == 2
-    assert "left foot, sample 0: unreachable: hip and ankle would be" in done.stderr
+    assert "left foot, t = 0: unreachable: hip and ankle would be" in done.stderr
     assert "mm outside the 17.31 to 131.89 mm" in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["tall.toml"]
 
@@ -330,4 +330,4 @@ def test_a_gait_takes_the_branch_it_is_told():
     assert theta() == theta("--branch=+++,-+-")
     other = scout_pin("gait", "--samples", "11", "--branch=+++,-++")
     assert other.returncode == 2
-    assert "right foot, sample 0: branch -++ is outside the limits" in other.stderr
+    assert "right foot, t = 0: branch -++ is outside the limits" in other.stderr

@@ -80,6 +80,17 @@ def add_branch(words: Words, signs: str, default: str) -> None:
     words.add_argument("--branch", metavar="SIGNS", help=f"{signs} (default: {default})")
 
 
+def add_smooth(words: Words) -> None:
+    """How finely samples are to be read."""
+    words.add_argument(
+        "--smooth",
+        metavar="auto|none|LENGTH",
+        default="auto",
+        help="samples are as fine as they show (auto) or exact (none), or no finer than a "
+        "length such as 0.1mm, an angle such as 0.05deg, or 0.1mm,0.05deg (default: auto)",
+    )
+
+
 def add_samples(words: Words, default: int) -> None:
     """At how many samples a motion is worked out."""
     words.add_argument(

@@ -29,8 +29,8 @@ class Report(Protocol):
     """A report that can be written as JSON and as a table of samples."""
 
     @property
-    def within_limits(self) -> bool:
-        """Whether the robot can do it."""
+    def within_limits(self) -> bool | None:
+        """Whether the robot can do it; None if the data don't carry a verdict."""
 
     def doubts(self) -> list[str]:
         """What is to be asked before its numbers are believed; said on standard error too."""
@@ -124,6 +124,9 @@ def deliver(
         say(f"warning: {doubt}")
     if free(arguments):
         print_parts(_called(table)(answer))
+    if answer.within_limits is None:
+        say(str(getattr(answer, "reason", "The data don't carry a verdict.")))
+        return ExitCode.BAD_INPUT
     refused = arguments.strict and not answer.within_limits
     return ExitCode.NO if refused else ExitCode.DONE
 

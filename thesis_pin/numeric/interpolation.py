@@ -168,6 +168,9 @@ def join(pieces: Sequence[PPoly]) -> PPoly:
         One curve; values may jump at a joint, where the later piece holds.
     """
     order = max(piece.c.shape[0] for piece in pieces)
-    padded = [np.pad(piece.c, ((order - piece.c.shape[0], 0), (0, 0))) for piece in pieces]
+    padded = [
+        np.concatenate([np.zeros((order - len(piece.c), *piece.c.shape[1:])), piece.c])
+        for piece in pieces
+    ]
     knots = np.concatenate([pieces[0].x, *(piece.x[1:] for piece in pieces[1:])])
     return PPoly(np.concatenate(padded, axis=1), knots)

@@ -121,7 +121,7 @@ class LongTrajectory(JointTrajectory):
         q: np.ndarray,
         derive: Callable[[Samples], tuple[np.ndarray, np.ndarray]],
     ) -> None:
-        for name, value in (("time", time), ("q", q), ("_derive", derive)):
+        for name, value in (("time", time), ("q", q), ("_derive", derive), ("resting", None)):
             object.__setattr__(self, name, value)
 
     _derive: Callable[[Samples], tuple[np.ndarray, np.ndarray]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -20,17 +20,25 @@ class JointTrajectory:
         q: Joint angles [rad], shape ``(n, joints)``.
         v: Joint rates [rad/s], shape ``(n, joints)``.
         a: Joint accelerations [rad/s²], shape ``(n, joints)``.
+        resting: Joints whose rate isn't known to differ from zero, booleans
+            ``(n, joints)``; None where rates are exact.
     """
 
     time: np.ndarray
     q: np.ndarray
     v: np.ndarray
     a: np.ndarray
+    resting: np.ndarray | None = field(default=None, kw_only=True)
 
     def part(self, samples: Samples) -> JointTrajectory:
         """Some samples; consecutive ones are views."""
+        resting = None if self.resting is None else self.resting[samples]
         return JointTrajectory(
-            self.time[samples], self.q[samples], self.v[samples], self.a[samples]
+            self.time[samples],
+            self.q[samples],
+            self.v[samples],
+            self.a[samples],
+            resting=resting,
         )
 
 

@@ -57,7 +57,7 @@ class Page:
 
     Attributes:
         title, subtitle: Headline.
-        good: Whether the answer is yes.
+        good: Whether the answer is yes; None if there is none.
         verdict: Sentences, the most important first.
         tiles: Key numbers.
         plots, tables: In order; may be empty.
@@ -67,7 +67,7 @@ class Page:
 
     title: str
     subtitle: str
-    good: bool
+    good: bool | None
     verdict: Sequence[str]
     tiles: Sequence[Tile]
     plots: Sequence[Plot]

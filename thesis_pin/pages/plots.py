@@ -87,7 +87,7 @@ def _area(area: Area, again: bool) -> dict[str, object]:
         "y": _short(closed[:, 1]),
         "fill": "toself" if area.filled else "none",
         "fillcolor": f"rgba({red},{green},{blue},0.3)",
-        "line": {"color": area.colour, "dash": "dot", "width": 1.3},
+        "line": {"color": area.colour, "dash": "dot", "width": 1.3 if area.edged else 0},
         "hoverinfo": "skip",
     }
 

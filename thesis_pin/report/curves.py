@@ -49,12 +49,14 @@ class Area:
         corners: In order, shape ``(k, 2)``.
         colour: ``#rrggbb``.
         filled: Whether its inside is tinted too.
+        edged: Whether its edge is drawn.
     """
 
     name: str
     corners: NDArray[np.float64]
     colour: str
     filled: bool = True
+    edged: bool = True
 
 
 @dataclass(frozen=True)
@@ -129,6 +131,19 @@ class Plot:
         if curve.x is not None:
             return curve.x
         return np.empty(0) if self.time is None else self.time
+
+
+def spread(name: str, time: NDArray[np.float64], bounds: NDArray[np.float64], colour: str) -> Area:
+    """What lies between two curves over time, tinted.
+
+    Args:
+        name: Text of the legend.
+        time: Where [s], shape ``(n,)``.
+        bounds: From and to, in the plot's unit, ``(2, n)``.
+        colour: ``#rrggbb``.
+    """
+    there, back = (np.stack([time, bound], axis=1) for bound in bounds)
+    return Area(name, np.concatenate([there, back[::-1]]), colour, edged=False)
 
 
 def both_signs(name: str, values: NDArray[np.float64]) -> list[Limit]:

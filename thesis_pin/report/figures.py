@@ -87,7 +87,7 @@ def _draw(axis: Axes, plot: Plot) -> None:
     plane = plot.time is None
     for area in plot.areas:
         tint = {"facecolor": (area.colour, 0.3)} if area.filled else {"facecolor": "none"}
-        edge = {"edgecolor": area.colour, "linestyle": ":"}
+        edge = {"edgecolor": area.colour if area.edged else "none", "linestyle": ":"}
         axis.fill(*area.corners.T, label=area.name, **tint, **edge)
     for band in plot.bands:
         axis.axvspan(

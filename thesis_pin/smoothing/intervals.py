@@ -61,7 +61,7 @@ def least_value(
     wide = _open(value, rival, draws) + max(0.0, value - float(np.mean(draws)))
     lower = min(value if shortest is None else shortest, value - abs(rival - value))
     upper = max(value, value if longest is None else longest)
-    return Interval(value, lower - wide, upper + abs(rival - value) + wide + slack)
+    return Interval(value, lower - wide - slack, upper + abs(rival - value) + wide + slack)
 
 
 def largest_value(
@@ -87,9 +87,8 @@ def largest_value(
     wide = _open(value, rival, draws) + max(0.0, float(np.mean(draws)) - value)
     lower = min(value if least is None else least, value - abs(rival - value))
     upper = max(value, value if most is None else most)
-    return Interval(
-        value, max(lower - wide, 0.0), upper + abs(rival - value) + wide + slack * abs(value)
-    )
+    wide += slack * abs(value)
+    return Interval(value, max(lower - wide, 0.0), upper + abs(rival - value) + wide)
 
 
 def _open(value: float, rival: float, draws: Array) -> float:

@@ -20,6 +20,7 @@ wrong by GAIN·σ/h² (root mean square at the samples; measured, not-a-knot end
 _NORMAL = 1.4826  # from the median of sizes to the standard deviation of a normal variable
 _FEW = 8  # samples that don't tell noise from motion by themselves
 _FAR = 4.5  # standard deviations that noise doesn't reach
+_ODD = 6.0  # standard deviations that none of many samples of noise reaches
 _FALLS = 0.6  # of white noise, estimates by higher differences stay; of motion they fall
 
 
@@ -112,7 +113,24 @@ def still(values: Array, quantum: float, noise: float = 0.0) -> Still | None:
     u = np.linspace(-1.0, 1.0, count)
     slope = abs(float(u @ (values - middle) / (u @ u)))
     moves = ratio < max(0.25, 1.0 - 4.0 / math.sqrt(count))
-    if moves or slope >= 4.0 * spread / math.sqrt(count / 3.0):
+    odd = float(np.abs(values - middle).max()) >= _ODD * spread
+    if moves or odd or slope >= 4.0 * spread / math.sqrt(count / 3.0):
         return None
     averaged = spread / math.sqrt(count)
     return Still(middle, averaged if spread > quantum else max(averaged, rounding))
+
+
+def sample_noise(time: Array, values: Array, quantum: float, time_quantum: float = 0.0) -> float:
+    """Noise of samples as far as they show it: rounding, what differences tell, uneven times.
+
+    Args:
+        time: Sample times, ascending, shape ``(n,)``.
+        values: Samples, shape ``(n,)``.
+        quantum: Smallest step that their text resolves.
+        time_quantum: The same of the times.
+    """
+    sigma = max(quantum * ROUNDING, white_noise(values))
+    if not time_quantum:
+        return sigma
+    rate = float(np.quantile(np.abs(np.diff(values) / np.diff(time)), 0.95))
+    return math.hypot(sigma, rate * uneven(time, time_quantum))

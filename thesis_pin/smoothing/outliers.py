@@ -29,12 +29,13 @@ class Outlier:
     error: float
 
 
-def outliers(values: Array, quantum: float) -> list[Outlier]:
+def outliers(values: Array, quantum: float, least: float = 0.0) -> list[Outlier]:
     """Samples whose error alone makes the pattern 1, −4, 6, −4, 1 in fourth differences.
 
     Args:
         values: Samples at about equal steps, shape ``(n,)``.
         quantum: Smallest step that their text resolves.
+        least: Errors below this aren't looked for.
     """
     if len(values) < 12:
         return []
@@ -48,6 +49,6 @@ def outliers(values: Array, quantum: float) -> list[Outlier]:
         places = np.arange(k - 2, k + 3)
         inside = (places >= 0) & (places < len(high))
         off = np.abs(high[places[inside]] - error * _PATTERN[inside])
-        if abs(error) > _QUANTA * quantum and (off <= _ALIKE * abs(error)).all():
+        if abs(error) > max(_QUANTA * quantum, least) and (off <= _ALIKE * abs(error)).all():
             found.append(Outlier(int(k) + 2, float(error)))
     return found

@@ -16,6 +16,9 @@ _LINES = 2_000
 _LARGEST = 5
 """Largest values that have to agree before their digits count rather than all cells'."""
 
+_STEPS = 4
+"""Steps between values that show a counter: a column with one bad sample has only one."""
+
 
 def quantum(cells: Sequence[str], values: Array) -> float:
     """Smallest step that a column's samples resolve, in the unit they are written in.
@@ -44,7 +47,7 @@ def quantum(cells: Sequence[str], values: Array) -> float:
         fixed = places.min(initial=0) < -1 and all(cell.endswith("0") for cell in looked)
         return digit if fixed else 0.0
     steps = np.diff(np.unique(values))
-    if not (np.diff(values) == 0).any():
+    if len(steps) < _STEPS or not (np.diff(values) == 0).any():
         return digit
     least = float(steps.min())
     multiples = steps / least

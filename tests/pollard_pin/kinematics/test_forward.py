@@ -114,14 +114,15 @@ def test_wrong_number_of_motor_angles_is_refused(pollard):
 
 def test_modes_outside_the_joint_limits_are_marked(rng):
     data = pollard_pin.Specification.read().model_dump()
-    upper = [360.0] * 12
-    upper[2] = 10.0
-    data["assumptions"]["joint_limits"]["upper_deg"] = tuple(upper)
+    lower, upper = [-360.0] * 12, [360.0] * 12
+    lower[2], upper[2] = -90.0, 10.0  # from −360° on, 20° would be inside as −340°
+    data["assumptions"]["joint_limits"] |= {"lower_deg": tuple(lower), "upper_deg": tuple(upper)}
     robot = pollard_pin.load(pollard_pin.Specification.model_validate(data))
     poses = random_poses(rng, 60)
     found = pollard_pin.load().inverse_kinematics(poses)
     modes = robot.forward_kinematics(found.angles[found.valid][:, ACTUATORS])
     expected = np.zeros(modes.angles.shape, dtype=bool)
-    expected[..., 2] = modes.angles[..., 2] > np.radians(10.0)
+    elbow = np.degrees(modes.angles[..., 2])
+    expected[..., 2] = (elbow > 10.0) | (elbow < -90.0)
     np.testing.assert_array_equal(modes.outside, expected)
     assert 0 < expected.sum() < modes.count.sum()

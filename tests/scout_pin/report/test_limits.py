@@ -203,7 +203,7 @@ def test_the_headline_is_the_interval_with_the_given_unit_or_else_the_nearest():
         found = headline(report.time_units, report.time_unit)
         if report.time_unit == 3.0:  # a fifth of it is already too slow
             assert found is None
-            assert "At no time unit from 0.6 to 15 s" in " ".join(report.verdict())
+            assert "At no time unit from 0.6 to 15 s would it" in " ".join(report.verdict())
         else:
             assert found.longest == pytest.approx(0.3122, abs=1e-4)
     assert "It walks, and the servos carry it, at" in " ".join(at[0.25].verdict())

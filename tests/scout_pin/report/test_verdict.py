@@ -54,3 +54,29 @@ def test_a_margin_outside_turns_the_answer_to_no_and_says_where(report):
     assert (
         f"outside the stance sole by 3.2 mm in 1 of {len(margin)} samples" in tipping.verdict()[0]
     )
+
+
+@pytest.mark.parametrize(
+    ("use", "said"),
+    [(0.996, "99.6%"), (1.0, "uses 100%"), (1.0004, "needs 100.04%"), (1.2, "needs 120%")],
+)
+def test_a_share_is_written_so_that_one_sees_on_which_side_of_the_limit_it_is(report, use, said):
+    torque = 0.0 * report.dynamics.torque
+    torque[:, 3] = use * report.robot.stall_torque[3]
+    still = dataclasses.replace(report.joints, v=0.0 * report.joints.v)
+    exact = dataclasses.replace(changed(report, torque=torque), joints=still)
+    (sentence,) = [one for one in exact.verdict() if one.startswith("The servos")]
+    assert said in sentence
+    assert ("can't" in sentence) == (use > 1)
+
+
+def test_a_margin_of_micrometres_isnt_called_zero(report):
+    thin = dataclasses.replace(report, margin=np.full(len(report.margin), 3e-6))
+    assert "at least 0.003 mm inside" in thin.verdict()[0]
+
+
+def test_the_page_shows_clearance_and_time_units(report):
+    page = unescape(gait_page(report).decode())
+    assert f"{report.clearance * 1e3:.1f} mm" in page
+    (found,) = report.time_units
+    assert f"{found.shortest:.4g} to {found.longest:.4g} s" in page

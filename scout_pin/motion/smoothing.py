@@ -1,0 +1,278 @@
+"""Gaits from samples of finite resolution: smooth within it, exact where they are exact.
+
+Source: the method is :mod:`thesis_pin.smoothing`; docs/rounding.md shows what it gives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scout_pin.coordinates import POSE_NAMES
+from scout_pin.motion.contact import check_stance
+from scout_pin.motion.feet import Foot, Moving, Stance, foot, stances
+from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
+from scout_pin.motion.thinning import thinned
+from scout_pin.motion.variants import Change, RateJump, Resolution, Variants
+from scout_pin.specification import SIDES
+from thesis_pin.errors import TrajectoryError
+from thesis_pin.files import name_as_text
+from thesis_pin.smoothing.curve import (
+    SEED,
+    SmoothCurve,
+    constant_curve,
+    generator,
+    rest,
+    smooth_curve,
+)
+from thesis_pin.smoothing.noise import acceleration_noise, sample_noise, still, white_noise
+from thesis_pin.smoothing.outliers import outliers
+from thesis_pin.smoothing.stated import Stated
+from thesis_pin.tables.table import Column
+from thesis_pin.tolerances import TOLERANCES
+
+Array = NDArray[np.float64]
+
+_TORSO = 0  # of random numbers; feet have streams of their own
+_CLOSE = 1e-3  # of the usual step: rows nearer than this are two of the same instant
+
+
+def gait_from_samples(
+    samples: GaitSamples, how: Stated, method: str | None = None, time_unit: float = 1.0
+) -> Gait:
+    """The gait of a table: through every sample that is exact enough, else smoothed.
+
+    Args:
+        samples: The samples.
+        how: What the user says of their resolution.
+        method: How to interpolate, if that is asked for; curves then pass through every
+            sample.
+        time_unit: Seconds in a unit of t.
+
+    Raises:
+        TrajectoryError: A foot that bears load moves or isn't on the floor.
+    """
+    quanta = _quanta(samples, how)
+    if how.through or method is not None:
+        gait = through_samples(samples, method or "free")
+        return replace(gait, notes=(*gait.notes, *_warning(samples, quanta, time_unit)))
+    samples, notes = _mended(samples)
+    notes = (*notes, *_close_rows(samples))
+    if all(error <= limit for _, error, limit in errors(samples, quanta, time_unit)):
+        gait = through_samples(samples, "free")
+        # A spline through a jump of rate rings; pieces that end there don't.
+        with suppress(TrajectoryError):
+            check_stance(gait.name, gait.curves, gait.phases)
+            return replace(gait, notes=(*gait.notes, *notes))
+    return _smoothed(thinned(samples), quanta, notes)
+
+
+def _warning(samples: GaitSamples, quanta: dict[str, float], time_unit: float) -> Iterator[str]:
+    """What interpolation as asked for makes of samples that aren't exact."""
+    worst = max(errors(samples, quanta, time_unit), key=lambda one: one[1] / one[2], default=None)
+    if worst is not None and worst[1] > worst[2]:
+        unit = "rad/s²" if _turns(worst[0]) else "m/s²"
+        yield (
+            f"curves pass through every sample as asked, though {worst[0]} doesn't resolve "
+            f"accelerations below {worst[1]:.2g} {unit}; numbers may be those of rounding"
+        )
+
+
+def errors(
+    samples: GaitSamples, quanta: dict[str, float], time_unit: float = 1.0
+) -> Iterator[tuple[str, float, float]]:
+    """By how much curves through every sample would be wrong, and may be.
+
+    Args:
+        samples: The samples.
+        quanta: Resolution of each column [m] or [rad].
+        time_unit: Seconds in a unit of t.
+
+    Yields:
+        A column's name, the error of its second derivative [m/s²] or [rad/s²], the limit.
+    """
+    time = samples.time.values
+    step = float(np.diff(time).min()) * time_unit
+    for name, column in samples.poses.items():
+        if np.ptp(column.values) > 0:
+            sigma = sample_noise(time, column.values, quanta[name], samples.time.quantum)
+            limit = TOLERANCES.exact_turn if _turns(name) else TOLERANCES.exact_move
+            # Where a joint rests, the sign of a wrong rate would count as friction's.
+            rate = acceleration_noise(TOLERANCES.exact_rate, 1.0) / step
+            yield name, acceleration_noise(sigma, step), min(limit, rate)
+
+
+def _quanta(samples: GaitSamples, how: Stated) -> dict[str, float]:
+    """Resolution of each column."""
+    return {
+        name: max(column.quantum, how.angle if _turns(name) else how.length)
+        for name, column in samples.poses.items()
+    }
+
+
+def _mended(samples: GaitSamples) -> tuple[GaitSamples, tuple[str, ...]]:
+    """The samples without those that don't belong to their neighbours, and a note on each."""
+    poses, notes = dict(samples.poses), []
+    step = float(np.median(np.diff(samples.time.values)))
+    for name, column in samples.poses.items():
+        limit = TOLERANCES.exact_turn if _turns(name) else TOLERANCES.exact_move
+        # What is exact enough to be interpolated has none.
+        found = outliers(column.values, column.quantum, limit * step**2)
+        if not found:
+            continue
+        values = column.values.copy()
+        for one in found:
+            values[one.sample] -= one.error
+            size = f"{np.degrees(one.error):.3g}°" if _turns(name) else f"{one.error * 1e3:.3g} mm"
+            notes.append(
+                f"{samples.table.where(one.sample)}: {name} is {size} off its neighbours, an "
+                "outlier; what they say stands in for it"
+            )
+        poses[name] = replace(column, values=values)
+    return replace(samples, poses=poses), tuple(notes)
+
+
+def _close_rows(samples: GaitSamples) -> Iterator[str]:
+    steps = np.diff(samples.time.values)
+    for row in np.flatnonzero(steps < _CLOSE * np.median(steps))[:10]:
+        yield (
+            f"{samples.table.between((int(row), int(row) + 1))}: these rows are only "
+            f"{steps[row]:.2g} s apart"
+        )
+
+
+def _smoothed(samples: GaitSamples, quanta: dict[str, float], notes: tuple[str, ...]) -> Gait:
+    t = samples.time.values
+    standing = np.array([(name != "right", name != "left") for name in samples.support])
+    feet, rested = [], dict(samples.poses)
+    for side, body in enumerate(BODIES[1:]):
+        stood = _stances(samples, quanta, standing[:, side], side)
+        steps = np.array([quanta.get(f"{body}_{c}", 0.0) for c in POSE_NAMES])
+        feet.append(foot(t, _poses(samples, body), stood, steps, side))
+        rested |= _at_rest(samples, body, stood)
+    phases, more, labels = phases_of(replace(samples, poses=rested))
+    torso = tuple(_torso(samples, quanta, k) for k in range(len(POSE_NAMES)))
+    every = dict(zip(BODIES, (torso, *(one.curves for one in feet)), strict=True))
+    hidden = sorted({pair for one in feet for pair in one.hidden})
+    jumps = [
+        RateJump(float(t[row : row + 2].mean()), body, POSE_NAMES[k], size)
+        for body, one in zip(BODIES[1:], feet, strict=True)
+        for row, k, size in one.jumps
+    ]
+    variants = Variants(
+        curves={body: tuple(curve.variants for curve in own) for body, own in every.items()},
+        columns=tuple(_resolutions(samples, quanta, every)),
+        rate=1.0 / float(np.median(np.diff(t))),
+        changes=tuple(_changes(t, labels)),
+        hidden=tuple((float(t[a]), float(t[b])) for a, b in hidden),
+        jumps=tuple(jumps),
+        seed=SEED,
+    )
+    file = Path(samples.table.file)
+    return Gait(
+        name_as_text(file.stem),
+        name_as_text(file),
+        1.0,
+        {body: tuple(curve.value for curve in own) for body, own in every.items()},
+        phases,
+        (*samples.notes, *more, *notes, *_jump_notes(samples, feet)),
+        reference=samples.reference,
+        variants=variants,
+        rows=samples.rows,
+    )
+
+
+def _poses(samples: GaitSamples, body: str) -> Array:
+    return np.stack([samples.values(f"{body}_{c}") for c in POSE_NAMES], axis=1)
+
+
+def _stances(
+    samples: GaitSamples, quanta: dict[str, float], standing: NDArray[np.bool_], side: int
+) -> list[Stance]:
+    """Where a foot stands.
+
+    Raises:
+        TrajectoryError: It moves meanwhile, or isn't on the floor.
+    """
+    body = BODIES[1 + side]
+    poses = _poses(samples, body)
+    steps = np.array([quanta.get(f"{body}_{c}", 0.0) for c in POSE_NAMES])
+    noise = np.array([white_noise(poses[:, k]) for k in range(len(POSE_NAMES))])
+    found = []
+    for one in stances(poses, standing, steps, noise, side):
+        if isinstance(one, Moving):
+            raise _refusal(samples, one, SIDES[side])
+        found.append(one)
+    return found
+
+
+def _refusal(samples: GaitSamples, one: Moving, side: str) -> TrajectoryError:
+    name, table = POSE_NAMES[one.coordinate], samples.table
+    length = name in "xyz"
+    size = f"{one.size * 1e3:.3g} mm" if length else f"{one.size:.3g} rad"
+    return TrajectoryError(
+        f"the {side} foot bears load but "
+        + (f"{name} is {size}" if one.off_floor else f"{name} moves by {size}"),
+        where=f"{table.file}:{table.lines[one.first]}–{table.lines[one.last]}",
+        allowed=f"{TOLERANCES.stance_drift * 1e3:g} mm, {TOLERANCES.stance_tilt:g} rad beyond "
+        "the column's noise: " + ("flat on the floor z = 0" if one.off_floor else "at rest"),
+        remedy="Correct the samples, or the column support",
+    )
+
+
+def _at_rest(samples: GaitSamples, body: str, stood: list[Stance]) -> dict[str, Column]:
+    """The columns of a foot without noise while it stands: who stands doesn't hang on it."""
+    result = {}
+    for k, coordinate in enumerate(POSE_NAMES):
+        values = samples.values(f"{body}_{coordinate}").copy()
+        for one in stood:
+            values[one.first : one.last + 1] = one.place[k].value
+        name = f"{body}_{coordinate}"
+        result[name] = Column(name, values)
+    return result
+
+
+def _torso(samples: GaitSamples, quanta: dict[str, float], k: int) -> SmoothCurve:
+    name = f"torso_{POSE_NAMES[k]}"
+    values, t = samples.values(name), samples.time.values
+    step, random = quanta.get(name, 0.0), generator(_TORSO, k)
+    at_rest = still(values, step)
+    if at_rest is not None:
+        return constant_curve(float(t[0]), float(t[-1]), rest(at_rest, random))
+    return smooth_curve(t, values, step, random)
+
+
+def _resolutions(
+    samples: GaitSamples, quanta: dict[str, float], every: dict[str, tuple[SmoothCurve, ...]]
+) -> Iterator[Resolution]:
+    for body, curves in every.items():
+        for coordinate, curve in zip(POSE_NAMES, curves, strict=True):
+            name = f"{body}_{coordinate}"
+            if name in samples.poses:
+                moves = len(curve.variants.c) > 1
+                yield Resolution(body, coordinate, quanta[name], curve.sigma, moves)
+
+
+def _changes(t: Array, labels: NDArray[np.bool_]) -> Iterator[Change]:
+    for k in np.flatnonzero((labels[1:] != labels[:-1]).any(axis=1)) + 1:
+        before, after = ((bool(a), bool(b)) for a, b in (labels[k - 1], labels[k]))
+        yield Change(float(t[k - 1]), float(t[k]), before, after)
+
+
+def _jump_notes(samples: GaitSamples, feet: list[Foot]) -> Iterator[str]:
+    for side, one in zip(SIDES, feet, strict=True):
+        for a, b in one.hidden:
+            yield (
+                f"{samples.table.between((a, b))}: a rate of the {side} foot jumps between these "
+                "rows; nothing is judged in between"
+            )
+
+
+def _turns(name: str) -> bool:
+    return name[-1] not in "xyz"

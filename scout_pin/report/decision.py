@@ -1,0 +1,70 @@
+"""Whether samples of finite resolution carry a verdict, and which.
+
+A yes or no counts where the whole interval of each number that decides lies on one side of
+its limit. Exact gaits are decided by their numbers alone.
+"""
+
+from __future__ import annotations
+
+from scout_pin.report import verdict
+from scout_pin.report.numbers import GaitNumbers
+from scout_pin.report.uncertainty.headlines import Headlines
+from thesis_pin.tolerances import TOLERANCES
+
+LOST = 0.5
+"""Share of draws that may fail before nothing is decided."""
+
+
+def can_walk(numbers: GaitNumbers) -> bool | None:
+    """As :func:`scout_pin.report.verdict.can_walk`; None where the samples can't say."""
+    found, held = verdict.can_walk(numbers), numbers.headlines
+    if held is None:
+        return found
+    if falls(held) or not verdict.feet_and_rates(numbers):
+        return False
+    return None if few_draws(numbers) or not stands(held) else found
+
+
+def servos_carry(numbers: GaitNumbers) -> bool | None:
+    """As :func:`scout_pin.report.verdict.servos_carry`; None where the samples can't say."""
+    held = numbers.headlines
+    if held is None:
+        return verdict.servos_carry(numbers)
+    sides = [use.side(1.0) for use in held.servo_use]
+    if 1 in sides:
+        return False
+    return True if all(side < 0 for side in sides) and not few_draws(numbers) else None
+
+
+def within_limits(numbers: GaitNumbers) -> bool | None:
+    """Both; None where neither is no and one is open."""
+    both = can_walk(numbers), servos_carry(numbers)
+    if False in both:
+        return False
+    return None if None in both else True
+
+
+def falls(held: Headlines) -> bool:
+    """Whether, whatever the samples leave open, the floor can't supply what it has to."""
+    return (
+        held.margin.high < 0
+        or (held.contact is not None and held.contact.high < -TOLERANCES.wrench)
+        or held.violation.low > TOLERANCES.wrench
+    )
+
+
+def stands(held: Headlines) -> bool:
+    """Whether, whatever the samples leave open, the floor can supply it."""
+    return (
+        held.margin.low > 0
+        and (held.contact is None or held.contact.low >= 0)
+        and held.violation.high <= TOLERANCES.wrench
+    )
+
+
+def few_draws(numbers: GaitNumbers) -> bool:
+    """Whether most motions that the samples leave open can't be worked out."""
+    drawn = numbers.drawn
+    if drawn is None:
+        return False
+    return drawn.lost > LOST * (drawn.lost + len(drawn.draws.margin))
