@@ -5,7 +5,7 @@ import re
 import pytest
 from commands import OUTPUTS, ROOT, VERBS, example, flags, into, run
 
-ERROR = re.compile(r"^[a-z]+-pin( [a-z]+)?: error: ", flags=re.MULTILINE)
+ERROR = re.compile(r"^[a-z]+-pin( [a-z-]+)?: error: ", flags=re.MULTILINE)
 
 HOPELESS = {"nothing": "", "two dashes": "--", "a NUL": "\0x", "far too long": "9" * 5000}
 """Values that no flag of any command takes."""
