@@ -17,7 +17,7 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.model import Scout
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
-from scout_pin.motion.smoothing import gait_from_samples
+from scout_pin.motion.resolution.reading import gait_from_samples
 from scout_pin.motion.tables import read_gait_table
 from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName

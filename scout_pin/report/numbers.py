@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from scout_pin.dynamics.headlines import Headlines, Worked, headlines
 from scout_pin.dynamics.impact import Impact
 from scout_pin.dynamics.variants import Drawn
 from scout_pin.model import Scout
@@ -17,7 +18,6 @@ from scout_pin.motion.variants import RateJump
 from scout_pin.report.ends import Ends, ends
 from scout_pin.report.limits import FastestTimeUnit, TimeUnits, fastest_time_unit, time_units
 from scout_pin.report.speeds import Speeds
-from scout_pin.report.uncertainty.headlines import Headlines, Worked, headlines
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks, intervals

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import check_stance
-from scout_pin.motion.feet import Foot, Moving, Stance, foot, stances
 from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.resolution.feet import Foot, Moving, Stance, foot, stances
+from scout_pin.motion.resolution.thinning import thinned
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
-from scout_pin.motion.thinning import thinned
 from scout_pin.motion.variants import Change, RateJump, Resolution, Variants
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError

@@ -14,8 +14,8 @@ from scout_pin.report.document import gait_report
 from scout_pin.report.page import gait_page
 from thesis_pin.report.writers import json_bytes
 
-from ..conftest import EXAMPLES
-from ..motion.test_smoothing import log
+from ...conftest import EXAMPLES
+from ...motion.resolution.test_reading import log
 
 
 @cache

@@ -11,8 +11,8 @@ from scout_pin.specification import JOINT_NAMES
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.numeric.interpolation import interpolate
 
-from ..conftest import EXAMPLES
-from .test_contact import write_log
+from ...conftest import EXAMPLES
+from ..test_contact import write_log
 
 NAMES = ("x", "y", "z", "pitch", "roll", "yaw")
 

@@ -1,0 +1,1 @@
+"""Gaits from samples of finite resolution: curves through them, and where they stand."""
