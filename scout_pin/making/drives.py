@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -64,7 +63,7 @@ def one_or_all(values: list[float]) -> float | tuple[float, ...]:
     return values[0] if len(set(values)) == 1 else tuple(values)
 
 
-def friction_of(description: Description, joints: Sequence[str]) -> tuple[dict[str, Any], str]:
+def friction_of(description: Description, joints: Sequence[str]) -> tuple[dict[str, object], str]:
     """Friction of all joints, and what to say if it is one number for several."""
     beside = description.supplement
     viscous = [description.joints[j].damping + beside.damping.get(j, 0.0) for j in joints]

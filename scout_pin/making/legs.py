@@ -5,8 +5,6 @@ Source: Scout thesis, 3.1 (transformations), appendix B.2 and B.3.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from scout_pin.making.axes import TINY, LegAxes
@@ -21,7 +19,7 @@ _PARALLEL = 1e-9
 
 def leg_entry(
     axes: LegAxes, foot: Sole, torso: Matrix
-) -> tuple[dict[str, Any], list[Matrix], list[int]]:
+) -> tuple[dict[str, object], list[Matrix], list[int]]:
     """Keys of a leg, the frames of its links in the torso's, and its angles' signs."""
     e, i3, j3, a, signs = axes.e, axes.i3, axes.j3, axes.a, list(axes.signs)
     turn = torso[:3, :3].T @ foot.frame[:3, :3]
