@@ -35,6 +35,9 @@ class Tolerances:
         exact_turn: The same of angular accelerations [rad/s²].
         exact_rate: The same of rates [m/s], [rad/s]: a joint that rests must not seem to
             turn, or all of its Coulomb friction counts.
+        outlier_move: Acceleration that a single sample beside its neighbours would take, from
+            which it counts as wrong [m/s²]: slower corners may be meant.
+        outlier_turn: The same of angular accelerations [rad/s²].
         stance_near: How far from its place a foot may be that a log's first or last row of
             a stance has standing: a switch under the sole closes that early [m].
         stance_near_tilt: The same of its angles [rad].
@@ -132,6 +135,8 @@ class Tolerances:
     exact_move: float = 5e-4
     exact_turn: float = 1e-2
     exact_rate: float = 1e-6
+    outlier_move: float = 0.5
+    outlier_turn: float = 5.0
     stance_near: float = 1e-3
     stance_near_tilt: float = 1e-2
     sole_misfit: float = 1e-2

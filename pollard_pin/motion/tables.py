@@ -71,6 +71,11 @@ class PoseTable:
     written: np.ndarray | None
     notes: tuple[str, ...]
 
+    @property
+    def quaternion(self) -> bool:
+        """Whether the orientation's columns are a quaternion's."""
+        return len(self.orientation) == len(FORMS["qx", "qy", "qz", "qw"])
+
 
 def read_poses(file: str | Path, euler: str | None = None) -> PoseTable:
     """Poses of the tool from a table.
