@@ -8,6 +8,7 @@ it as CSV, and asks for a report. Rates, offsets and seeds are those of no const
 
 from __future__ import annotations
 
+import runpy
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -22,6 +23,7 @@ from scout_pin.motion.gait import BODIES
 from scout_pin.report.document import gait_report
 
 ROOT = Path(__file__).parents[1]
+PATHS = ROOT / "docs" / "rounding_paths.py"
 RATES = (25, 60, 100, 200, 300, 1000)
 DECIMALS = (3, 4, 5, 6, 7)
 NOISES = (1e-5, 1e-4)
@@ -229,7 +231,12 @@ def cell(truth: Truth, rate: float, how: float, random: np.random.Generator) -> 
     return Cell(truth.name, rate, said, one[0], one[1], one[2], verdict, truth)
 
 
-HOOKS: list[Callable[[], Iterator[str]]] = []
+def _paths() -> Iterator[str]:
+    section: Callable[[], Iterator[str]] = runpy.run_path(str(PATHS))["section"]
+    return section()
+
+
+HOOKS: list[Callable[[], Iterator[str]]] = [_paths]
 """More sections: of other robots, each a maker of lines."""
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
-from thesis_pin.command.options import add_branch, add_json, add_robot, count, number
+from thesis_pin.command.options import add_branch, add_json, add_robot, add_smooth, count, number
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 
@@ -16,6 +16,7 @@ def _which_path(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--path", metavar="FILE", help=".csv or .toml path (default: the curve of appendix B)"
     )
+    add_smooth(words)
     words.add_argument(
         "--duration",
         type=number("--duration", positive=True),

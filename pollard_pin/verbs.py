@@ -49,7 +49,11 @@ def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPa
     from pollard_pin.motion.files import load_path
 
     return load_path(
-        arguments.path, euler=arguments.euler, feed=arguments.feed, timing=arguments.timing
+        arguments.path,
+        euler=arguments.euler,
+        feed=arguments.feed,
+        timing=arguments.timing,
+        smooth=arguments.smooth,
     )
 
 

@@ -14,10 +14,8 @@ from .loops.dynamics import (
 )
 
 # Motions of any robot
-from .loops.motion.files import (
-    JointMotion as JointMotion,
-    read_motion as read_motion,
-)
+from .loops.motion.files import read_motion as read_motion
+from .loops.motion.told import JointMotion as JointMotion
 from .report.torque.document import (
     TorqueReport as TorqueReport,
     torque_report as torque_report,

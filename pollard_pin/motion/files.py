@@ -16,11 +16,12 @@ import numpy as np
 
 from pollard_pin.motion.feed import at_speed
 from pollard_pin.motion.path import Timing, ToolPath
-from pollard_pin.motion.samples import through_orientations
+from pollard_pin.motion.smoothing import timed
 from pollard_pin.motion.tables import PoseTable, read_poses
 from pollard_pin.motion.toml import read_toml_path
 from thesis_pin.errors import BadInput
 from thesis_pin.files import name_as_text
+from thesis_pin.smoothing.stated import Stated, stated
 from thesis_pin.tables.reading import TABLES
 
 _G_CODE = (".nc", ".ngc", ".gcode", ".tap")
@@ -32,6 +33,7 @@ def load_path(
     euler: str | None = None,
     feed: float | None = None,
     timing: Timing | None = None,
+    smooth: str = "auto",
 ) -> ToolPath:
     """A path from a table or a TOML file; see the head of this module.
 
@@ -41,14 +43,18 @@ def load_path(
             (capitals about the turned axes, small letters about the fixed ones).
         feed: Speed of the spray tip [m/s], for a table without time.
         timing: How it starts and ends, see :func:`pollard_pin.motion.feed.at_speed`.
+        smooth: Of a table with times: ``auto`` takes its samples for as fine as they show
+            themselves to be, ``none`` for exact, and a length such as ``0.1mm``, an angle
+            such as ``0.05deg`` or both with a comma for no finer than that.
 
     Raises:
         BadInput: The file can't be read, or what it says doesn't go together.
         TrajectoryError: Its poses can't be followed by a curve.
     """
+    how = stated(smooth)
     suffix = Path(str(file)).suffix.lower()
     if suffix in TABLES:
-        return read_csv(file, euler=euler, feed=feed, timing=timing)
+        return read_csv(file, euler=euler, feed=feed, timing=timing, how=how)
     if suffix == ".toml":
         for name, value in (("euler", euler), ("speed", feed), ("timing", timing)):
             if value is not None:
@@ -68,13 +74,23 @@ def load_path(
 
 def read_csv(
     file: str | Path,
-    method: str = "free",
+    method: str | None = None,
     *,
     euler: str | None = None,
     feed: float | None = None,
     timing: Timing | None = None,
+    how: Stated | None = None,
 ) -> ToolPath:
     """A path from a table of poses; see :func:`load_path` and the head of this module.
+
+    Args:
+        file: The file.
+        method: How to interpolate, if that is asked for; curves then pass through every
+            sample.
+        euler: See :func:`load_path`.
+        feed: See there.
+        timing: See there.
+        how: What the user says of the samples' resolution; None for nothing.
 
     Raises:
         BadInput: It can't be read, a column is missing or a cell isn't a number.
@@ -82,7 +98,6 @@ def read_csv(
     """
     poses = read_poses(file, euler)
     name, where = name_as_text(Path(file).name), poses.table.where
-    position = np.stack([column.values for column in poses.position], axis=-1)
     if poses.time is not None:
         for what, given in (("a tool speed", feed), ("a timing law", timing)):
             if given is not None:
@@ -91,18 +106,10 @@ def read_csv(
                     where=str(file),
                     remedy="Leave out one of the two",
                 )
-        path = through_orientations(
-            poses.time.values,
-            position,
-            poses.rotation,
-            method,
-            written=poses.written,
-            where=where,
-            name=name,
-        )
+        path = timed(poses, poses.time, method, how or Stated(), name)
     else:
         path = at_speed(
-            position,
+            np.stack([column.values for column in poses.position], axis=-1),
             poses.rotation,
             _speed(poses, feed),
             timing or "ramped",

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pollard_pin.coordinates import pose_from_placement, pose_rates, tool_motion
+from pollard_pin.motion.variants import Variants
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
@@ -124,6 +125,8 @@ class ToolPath:
         function: Times ``(n,)`` → the tool's motion, and angles next to which to name it.
         parameters: What it was made from, for reports.
         notes: What was chosen for the user, in plain words.
+        variants: What samples of finite resolution leave open; None if the path is exact,
+            as far as anybody knows.
     """
 
     name: str
@@ -131,6 +134,7 @@ class ToolPath:
     function: Callable[[np.ndarray], Sampled]
     parameters: dict[str, object]
     notes: tuple[str, ...] = ()
+    variants: Variants | None = None
 
     def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""

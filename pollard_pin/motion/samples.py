@@ -82,17 +82,11 @@ def through_orientations(
     begin = time[0] if len(time) else 0.0
     curves = [interpolate(time - begin, column, method) for column in position.T]
     place = where or (lambda k: f"t = {time[k]:.6g} s")
-    try:
-        turn = turns(rotation, written)
-    except quaternions.HalfTurn as error:
-        k = error.step
-        raise quaternions.HalfTurn(k, f"{place(k)} to {place(k + 1)}") from None
-    quaternion = quaternions.continuous(rotation, turn)
+    quaternion, largest, notes = continued(rotation, written, place)
     # A quaternion bends with the square of the rate of its turn, where angles would stay
     # straight: two degrees more keep what a cubic spline of the angles is worth.
     turned = free_quintic if method == "free" else partial(interpolate, method=method)
     curves += [turned(time - begin, column) for column in quaternion.T]
-    size = np.linalg.norm(turn, axis=-1)
     angles = named_alike(rotation, np.zeros(3) if written is None else written[0])
     return along_curves(
         curves[:3],
@@ -102,10 +96,37 @@ def through_orientations(
             "path": name,
             "nodes": len(time),
             "interpolation": method,
-            "largest_turn": float(size.max()),
+            "largest_turn": largest,
         },
-        tuple(_notes(size, written, place)),
+        notes,
     )
+
+
+def continued(
+    rotation: np.ndarray, written: np.ndarray | None, place: Callable[[int], str]
+) -> tuple[np.ndarray, float, tuple[str, ...]]:
+    """Orientations as quaternions that go on the shorter way from each to the next.
+
+    Args:
+        rotation: Orientations of the tool, shape ``(n, 3, 3)``.
+        written: See :func:`through_orientations`.
+        place: Says where a pose stands, given its number.
+
+    Returns:
+        Quaternions x, y, z, w, shape ``(n, 4)``; the largest turn between two [rad]; notes on
+        what may surprise.
+
+    Raises:
+        TrajectoryError: Half a turn between two.
+    """
+    try:
+        turn = turns(rotation, written)
+    except quaternions.HalfTurn as error:
+        k = error.step
+        raise quaternions.HalfTurn(k, f"{place(k)} to {place(k + 1)}") from None
+    size = np.linalg.norm(turn, axis=-1)
+    notes = tuple(_notes(size, written, place))
+    return quaternions.continuous(rotation, turn), float(size.max()), notes
 
 
 def _notes(

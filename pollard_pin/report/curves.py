@@ -9,7 +9,18 @@ from numpy.typing import NDArray
 
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_SYMBOLS
-from thesis_pin.report.curves import BLUE, GREEN, PALETTE, VERMILLION, Curve, Dash, Limit, Plot
+from thesis_pin.report.curves import (
+    BLUE,
+    GREEN,
+    PALETTE,
+    VERMILLION,
+    Area,
+    Curve,
+    Dash,
+    Limit,
+    Plot,
+    spread,
+)
 
 Samples = NDArray[np.intp]
 
@@ -123,10 +134,22 @@ def motors(report: TrajectoryReport, keep: Samples) -> list[list[Plot]]:
                     for k in numbers
                 ],
                 report.joints.time[keep],
+                areas=_left_open(report, numbers) if values is report.torque else (),
             )
             for place, numbers in _MOTORS.items()
         ]
         for title, label, values, text in quantities
+    ]
+
+
+def _left_open(report: TrajectoryReport, numbers: Sequence[int]) -> list[Area]:
+    """Between which torques the path's samples leave each motor's."""
+    held = report.headlines
+    if held is None:
+        return []
+    return [
+        spread("left open by the samples", held.time, held.torque_band[..., k], PALETTE[k % 3])
+        for k in numbers
     ]
 
 

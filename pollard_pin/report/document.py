@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from typing import Literal
 
@@ -11,6 +12,7 @@ import numpy as np
 from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.dynamics.inverse import inverse_dynamics
 from pollard_pin.dynamics.three_motors import three_torques
+from pollard_pin.dynamics.variants import Way, drawn
 from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
@@ -23,8 +25,10 @@ from pollard_pin.kinematics.singularity import (
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.motion.trajectory import joint_trajectory
-from pollard_pin.report import verdict
+from pollard_pin.report import decision
 from pollard_pin.report.numbers import TrajectoryNumbers
+from pollard_pin.report.reason import reason, sentences
+from pollard_pin.report.uncertainty.document import uncertainty
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.elementwise import blocks
@@ -45,13 +49,18 @@ class TrajectoryReport(TrajectoryNumbers):
     """Everything known of a path on a robot: its numbers, its verdict, its documents."""
 
     @property
-    def within_limits(self) -> bool:
-        """Whether no motor exceeds its limits."""
-        return verdict.within_limits(self)
+    def within_limits(self) -> bool | None:
+        """Whether no motor exceeds its limits; None where the path's samples can't say."""
+        return decision.within_limits(self)
 
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
-        return verdict.sentences(self)
+        return sentences(self)
+
+    @property
+    def reason(self) -> str | None:
+        """Why the path's samples carry no verdict; None if they do, or it is exact."""
+        return reason(self)
 
     def doubts(self) -> list[str]:
         """What is to be asked before the numbers are believed."""
@@ -119,6 +128,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "assumptions": self.assumptions(),
             "summary": self.summary(),
             "notes": list(self.path.notes),
+            "uncertainty": uncertainty(self.headlines, self.drawn, self.path.variants),
         }
         if self.three is not None:
             document["missing_force"] = self.three.missing
@@ -155,7 +165,8 @@ class TrajectoryReport(TrajectoryNumbers):
         worst, least = int(np.argmax(self.holding.condition)), int(np.argmin(self.solutions.margin))
         summary: dict[str, object] = {
             "within_limits": self.within_limits,
-            "verdict": self.verdict(),
+            "verdict": None if self.within_limits is None else self.verdict(),
+            "reason": self.reason,
             "implausible": implausible(self.robot.specification),
             "doubts": self.doubts(),
             **self.actuators.document(),
@@ -238,10 +249,21 @@ def trajectory_report(
     require_one_sign(determinant, motion.time, holding.base_determinant)
     progress(3, 4)
     dynamics = inverse_dynamics(robot, motion, joints)
-    progress(4, 4)
     three = None
     if motors == "three":
         three = three_torques(rate_jacobian(solutions.posture, motion.pose), dynamics.joint_force)
-    return TrajectoryReport(
+    report = TrajectoryReport(
         robot, path, branch, motors, motion, joints, solutions, dynamics, holding, three
     )
+    if path.variants is not None:
+        way = Way(robot, branch, three is not None)
+        report = replace(report, drawn=drawn(way, motion, joints, _extremes(report)))
+    progress(4, 4)
+    return report
+
+
+def _extremes(report: TrajectoryReport) -> list[int]:
+    """Samples of the largest torques, speeds and ball-joint forces, and of the least reach."""
+    sizes = (np.abs(report.torque), np.abs(report.speed), report.loop_force_size)
+    found = [k for size in sizes for k in size.argmax(axis=0)]
+    return [int(k) for k in (*found, report.solutions.margin.argmin())]

@@ -11,6 +11,7 @@ import numpy as np
 from pollard_pin.dynamics.inverse import PollardDynamics, inverse_dynamics_at
 from pollard_pin.dynamics.reactions import joint_reactions
 from pollard_pin.dynamics.three_motors import ThreeTorques
+from pollard_pin.dynamics.variants import Drawn, Judged
 from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.kinematics.singularity import (
     Actuation,
@@ -19,6 +20,7 @@ from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.report.limits import MotorUse, distance_class
+from pollard_pin.report.uncertainty.headlines import Headlines, headlines
 from pollard_pin.specification import (
     ACTUATOR_NAMES,
     ACTUATORS,
@@ -45,6 +47,7 @@ class TrajectoryNumbers:
         dynamics: Torques and ball-joint forces with six motors.
         holding: Condition and determinants of the actuation.
         three: The thesis's form, if it was asked for.
+        drawn: What the path's samples leave open, judged; None if it is exact.
     """
 
     robot: Pollard
@@ -57,6 +60,23 @@ class TrajectoryNumbers:
     dynamics: PollardDynamics
     holding: Actuation
     three: ThreeTorques | None
+    drawn: Drawn | None = None
+
+    @cached_property
+    def headlines(self) -> Headlines | None:
+        """Intervals that the path's samples leave its numbers; None if it is exact."""
+        if self.drawn is None:
+            return None
+        keep = self.drawn.keep
+        values = {
+            "torque": self.torque[keep],
+            "speed": self.joints.part(keep).v[:, ACTUATORS],
+            "loop_force": self.loop_force_size[keep],
+            "reach": self.solutions.margin[keep],
+        }
+        own = Judged(**{name: value[None] for name, value in values.items()})
+        use = self.motor_use
+        return headlines(own, self.drawn, self.joints.time[keep], (use.effort, use.velocity))
 
     @cached_property
     def torque(self) -> np.ndarray:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from pollard_pin.report.curves import plots
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.report.tables import motors_table
+from pollard_pin.report.uncertainty.document import open_table
 from pollard_pin.report.view import path_scene
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
+from thesis_pin.report.uncertainty import columns_table
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -55,6 +57,14 @@ def _tiles(report: TrajectoryReport) -> list[Tile]:
     ]
 
 
+def _open(report: TrajectoryReport) -> list[Table]:
+    """What samples of finite resolution leave open, and what they resolve."""
+    held, variants = report.headlines, report.path.variants
+    if held is None or variants is None:
+        return []
+    return [open_table(held), columns_table(variants.columns, variants.rate)]
+
+
 def _tables(report: TrajectoryReport) -> list[Table]:
     joints = Table(
         "Joint reactions, peaks",
@@ -68,6 +78,7 @@ def _tables(report: TrajectoryReport) -> list[Table]:
     )
     return [
         motors_table(report),
+        *_open(report),
         joints,
         *closing_tables(report.assumptions(), report.parameters),
     ]

@@ -12,6 +12,7 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.report.document import TrajectoryReport
+from pollard_pin.report.uncertainty.document import open_table
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.report import branches
 from thesis_pin.report.tables import Part, Table
@@ -66,6 +67,10 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         f"t = {time[tool.argmax()]:.3f} s).",
         f"With {reading} inertias the base motors of six would peak at "
         f"{', '.join(f'{value:.3f}' for value in other[:3])} N·m.",
+    )
+    if report.headlines is not None:
+        yield open_table(report.headlines)
+    yield from (
         "",
         *(f"Warning: {one}." for one in report.doubts()),
         *report.verdict(),

@@ -21,11 +21,16 @@ def within_limits(numbers: TrajectoryNumbers) -> bool:
     return numbers.motor_use.within
 
 
-def sentences(numbers: TrajectoryNumbers) -> list[str]:
-    """The verdict, most important first: reach, singularities, motors, energy."""
+def sentences(numbers: TrajectoryNumbers, *, motors: bool = True) -> list[str]:
+    """The verdict, most important first: reach, singularities, motors, energy.
+
+    Args:
+        numbers: What it is about.
+        motors: Whether to say if the motors can do it.
+    """
     return [
         *_reach(numbers),
-        *_motors(numbers),
+        *(_motors(numbers) if motors else ()),
         *_balance(numbers),
         *_turns(numbers),
     ]

@@ -39,3 +39,16 @@ def test_cells_come_out_again(name, rate, how):
     assert not found.wrong
     line = f"| {rate:g} Hz | {found.how} | {script['bounds'](found.margin, 1e3, 2)} |"
     assert line in PAGE.replace("**", "")
+
+
+def test_cells_of_paths_come_out_again():
+    script = runpy.run_path(str(ROOT / "docs" / "rounding_paths.py"))
+    name, path = next(one for one in script["paths"]() if one[0] == "nod")
+    place = [*script["DECIMALS"], *script["NOISES"]].index(4)
+    random = np.random.default_rng(script["seeds"](name, 60, place))
+    robot = script["pollard_pin"].load()
+    true = script["trajectory_report"](robot, path, samples=4001).actuators.peak_torque
+    found = script["cell"](robot, path, 60, 4, random, true)
+    assert not found.outside
+    assert f" {script['told'](found)} |" in PAGE
+    assert len(re.findall("42 cells; in 42 the true peaks", PAGE)) == 2

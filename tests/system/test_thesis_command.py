@@ -186,15 +186,21 @@ def test_wrenches_that_can_not_be_used_are_refused(capfd, words, says):
     assert says in " ".join(err.split())
 
 
-def test_a_motion_without_rates_is_answered_and_what_is_not_judged_is_said(capfd, tmp_path):
+def test_a_motion_without_rates_is_answered_and_what_it_leaves_open_is_said(capfd, tmp_path):
     lines = [line.split(",") for line in MOTION.read_text().splitlines()[1:]]
     kept = [k for k, name in enumerate(lines[0]) if not name.endswith(("_rate", "_acceleration"))]
     bare = tmp_path / "bare.csv"
     bare.write_text("\n".join(",".join(line[k] for k in kept) for line in lines) + "\n")
     code, out, err = torque(capfd, *POLLARD, bare)
     assert (code, err) == (0, "")
-    assert "come from a cubic spline" in " ".join(out.split())
-    assert "isn't judged yet" in " ".join(out.split())
+    assert "come from a cubic spline through the samples" in " ".join(out.split())
+    assert "leaves open" not in out
+    rows = [",".join(f"{float(line[k]):.4f}" for k in kept) for line in lines[1:]]
+    bare.write_text("\n".join([",".join(lines[0][k] for k in kept), *rows]) + "\n")
+    code, out, err = torque(capfd, *POLLARD, bare)
+    assert (code, err) == (0, "")
+    assert "smooth curves within the samples' resolution" in " ".join(out.split())
+    assert "The samples' resolution leaves open: peak of motor" in " ".join(out.split())
 
 
 def test_torque_beyond_a_limit_is_a_no_only_when_asked_strictly(capfd, tmp_path):

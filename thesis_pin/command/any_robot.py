@@ -43,7 +43,7 @@ def torque(arguments: argparse.Namespace) -> ExitCode:
 
     def make(_: object) -> TorqueReport:
         robot = _loaded(arguments)
-        motion = read_motion(robot, arguments.motion)
+        motion = read_motion(robot, arguments.motion, smooth=arguments.smooth)
         x = arguments.precision
         pose = assembly(robot, arguments.pose, precision=x).q
         external = _external(arguments)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command.options import add_json, add_report, number, wrench
+from thesis_pin.command.options import add_json, add_report, add_smooth, number, wrench
 from thesis_pin.command.registry import Command, Parser, Verb, Words
 
 
@@ -30,6 +30,7 @@ def _which_motion(words: Words) -> None:
         help="CSV with t [s] and a column per motor or joint: NAME, NAME_rate, "
         "NAME_acceleration (SI, or NAME_deg and the like)",
     )
+    add_smooth(words)
 
 
 def _which_wrenches(words: Words) -> None:

@@ -29,8 +29,9 @@ from thesis_pin.loops.forces.loads import (
     Wrenches,
     checked_wrenches,
 )
+from thesis_pin.loops.forces.uncertainty import State
 from thesis_pin.loops.system.idle import IdleGroup
-from thesis_pin.numeric.arrays import finite_array, together
+from thesis_pin.numeric.arrays import finite_array, spread, together
 from thesis_pin.numeric.checks import instance
 
 Array = NDArray[np.float64]
@@ -97,6 +98,7 @@ def inverse_dynamics(
     a: ArrayLike,
     *,
     external: Wrenches | None = None,
+    sliding: ArrayLike | None = None,
     check: bool = True,
     precision: float | None = None,
 ) -> LoopDynamics:
@@ -113,6 +115,8 @@ def inverse_dynamics(
         a: Accelerations that do, shape ``(..., nv)``.
         external: Frame → wrench that acts on it from outside: force, then moment about the
             frame's origin, world axes [N], [N·m], shape ``(6,)`` or ``(..., 6)``.
+        sliding: Which way each joint's Coulomb friction is overcome, 1, −1 or 0, as v; None for
+            the sign of its rate where that isn't zero.
         check: Refuse motions that open the loops, and loads that neither motors nor loops
             carry.
         precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
@@ -136,6 +140,9 @@ def inverse_dynamics(
     if not q.size:
         raise BadInput("the stack is empty", allowed="at least one sample")
     wrenches = checked_wrenches(robot, external, stack)
+    if sliding is not None:
+        sliding = spread("sliding", finite_array("sliding", sliding, model.nv), stack)
+        sliding = sliding.reshape(-1, model.nv)
     q, v, a = (x.reshape(-1, x.shape[-1]) for x in (q, v, a))
     survey = surveyed(robot, q[0], precision)
     work = InverseWork(robot, survey, precision, check)
@@ -143,7 +150,8 @@ def inverse_dynamics(
     for first in range(0, len(q), _CHUNK):
         some = slice(first, first + _CHUNK)
         pushed = [(frame, wrench[some]) for frame, wrench in wrenches]
-        parts.append(work.chunk(first, q[some], v[some], a[some], pushed))
+        slides = None if sliding is None else sliding[some]
+        parts.append(work.chunk(first, State(q[some], v[some], a[some], pushed, slides)))
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     shaped = {name: x.reshape((*stack, *x.shape[1:])) for name, x in joined.items()}
     digits = () if robot.rounding is None else robot.rounding.digits

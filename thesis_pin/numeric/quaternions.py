@@ -77,6 +77,17 @@ def continuous(matrix: np.ndarray, turns: np.ndarray) -> np.ndarray:
     return np.asarray(found * sign[:, None])
 
 
+def unbroken(quaternion: np.ndarray) -> np.ndarray:
+    """The same rotations without a change of sign from one to the next: q and −q are one.
+
+    Args:
+        quaternion: Unit quaternions in order, shape ``(n, 4)``.
+    """
+    same = np.einsum("ij,ij->i", quaternion[1:], quaternion[:-1]) >= 0
+    sign = np.concatenate([[1.0], np.cumprod(np.where(same, 1.0, -1.0))])
+    return np.asarray(quaternion * sign[:, None])
+
+
 def motion(
     value: np.ndarray, first: np.ndarray, second: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -9,7 +9,9 @@ from thesis_pin.report.tables import Table
 from thesis_pin.report.torque.curves import plots
 from thesis_pin.report.torque.document import TorqueReport
 from thesis_pin.report.torque.tables import loops_table, motors_table
+from thesis_pin.report.torque.uncertainty import open_table
 from thesis_pin.report.torque.verdict import carried
+from thesis_pin.report.uncertainty import columns_table
 
 MOST_SAMPLES = 1201
 """Of a plot."""
@@ -54,4 +56,11 @@ def _tiles(report: TorqueReport) -> list[Tile]:
 
 def _tables(report: TorqueReport) -> list[Table]:
     loops = [loops_table(report)] if report.robot.loops else []
-    return [motors_table(report), *loops, parameters_table(report.parameters), software()]
+    held, variants, opened = report.headlines, report.motion.variants, list[Table]()
+    if held is not None and variants is not None:
+        opened = [
+            open_table(held, report.names),
+            columns_table(variants.columns, variants.rate),
+        ]
+    closing = (parameters_table(report.parameters), software())
+    return [motors_table(report), *opened, *loops, *closing]

@@ -7,6 +7,7 @@ import numpy as np
 from thesis_pin.smoothing.intervals import Interval
 from thesis_pin.smoothing.noise import ROUNDING
 
+_MICRO, _NANO = 1e-5, 1e-8  # lengths [m] below which micrometres, nanometres say it better
 _WRITTEN = 1.5  # how many times rounding's own noise still is rounding
 
 
@@ -17,9 +18,9 @@ def millimetres(held: Interval) -> str:
 
 
 def percent(held: Interval) -> str:
-    """``98%, between 96% and 101%``."""
+    """``98%, between 96% and 101%``; ``98%`` alone where these are the same."""
     value, low, high = (f"{x:.0%}" for x in (held.value, held.low, held.high))
-    return f"{value}, between {low} and {high}"
+    return value if low == high else f"{value}, between {low} and {high}"
 
 
 def newton_metres(held: Interval) -> str:
@@ -31,9 +32,9 @@ def size(value: float, turns: bool) -> str:
     """A length [m] or angle [rad] in a unit that suits it: ``0.1 mm``, ``1 µm``, ``0.01°``."""
     if turns:
         return f"{np.degrees(value):.2g}°"
-    if value >= 1e-5:
+    if value >= _MICRO:
         return f"{value * 1e3:.3g} mm"
-    return f"{value * 1e6:.3g} µm" if value >= 1e-8 else f"{value * 1e9:.3g} nm"
+    return f"{value * 1e6:.3g} µm" if value >= _NANO else f"{value * 1e9:.3g} nm"
 
 
 def how_fine(quantum: float, noise: float, turns: bool, rate: float) -> str:

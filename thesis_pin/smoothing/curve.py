@@ -11,7 +11,7 @@ from scipy.interpolate import PPoly
 from thesis_pin.smoothing.basis import DEGREE, Array, Basis
 from thesis_pin.smoothing.fit import Fit, Strength, strongest
 from thesis_pin.smoothing.local import localised
-from thesis_pin.smoothing.noise import ROUNDING, Still, difference_noise, run_lengths
+from thesis_pin.smoothing.noise import ROUNDING, Still, difference_noise, run_lengths, still
 from thesis_pin.smoothing.posterior import draws as posterior_draws
 from thesis_pin.smoothing.samples import Samples
 
@@ -92,6 +92,20 @@ def constant_curve(start: float, end: float, at: End) -> SmoothCurve:
     return SmoothCurve(PPoly(values[None, None], np.array([start, end])), sd)
 
 
+def fitted(
+    time: Array,
+    values: Array,
+    quantum: float,
+    random: np.random.Generator,
+    runs: Array | None = None,
+) -> SmoothCurve:
+    """The curve of one column that nobody holds: of something at rest, or :func:`smooth_curve`."""
+    at_rest = still(values, quantum)
+    if at_rest is not None:
+        return constant_curve(float(time[0]), float(time[-1]), rest(at_rest, random))
+    return smooth_curve(time, values, quantum, random, runs=runs)
+
+
 def smooth_curve(
     time: Array,
     values: Array,
@@ -100,6 +114,7 @@ def smooth_curve(
     *,
     ends: tuple[End | None, End | None] = (None, None),
     draws: int = DRAWS,
+    runs: Array | None = None,
 ) -> SmoothCurve:
     """Fit one column.
 
@@ -110,13 +125,16 @@ def smooth_curve(
         random: See :func:`generator`.
         ends: Where the curve starts and ends at rest; None where it goes on.
         draws: How many draws.
+        runs: Samples in a row whose errors are one, of values that were made from others,
+            shape ``(n,)``; None for runs of equal values.
 
     Source: see :mod:`thesis_pin.smoothing.fit`; two orders because intervals of one smoothing
     spline cover on average, not pointwise: D. Nychka, "Bayesian confidence intervals
     for smoothing splines", J. Am. Stat. Assoc. 83 (1988).
     """
     floor, noise = quantum * ROUNDING, difference_noise(values, 6)
-    main = _with_enough_spans(time, values, floor, noise, ends)
+    weight = 1.0 / (run_lengths(values) if runs is None else runs)
+    main = _with_enough_spans(time, values, weight, floor, noise, ends)
     samples = main.fit.samples
     rival = strongest(Fit(samples, RIVAL), floor, noise)
     count = samples.rows.basis.count
@@ -136,6 +154,7 @@ def smooth_curve(
 def _with_enough_spans(
     time: Array,
     values: Array,
+    weight: Array,
     floor: float,
     noise: float,
     ends: tuple[End | None, End | None],
@@ -145,7 +164,7 @@ def _with_enough_spans(
     spans = min(most, max(_FIRST, len(time) // 8))
     for _ in range(_TRIES):
         basis = Basis(float(time[0]), float(time[-1]), spans)
-        found = strongest(Fit(_samples(basis, time, values, ends), ORDER), floor, noise)
+        found = strongest(Fit(_samples(basis, time, values, weight, ends), ORDER), floor, noise)
         if found.sigma > 2.0 * max(floor, noise) and spans < most:
             wanted = 2 * spans  # the basis can't follow what isn't noise
         elif _SHORT <= found.reach <= _LONG:
@@ -160,7 +179,11 @@ def _with_enough_spans(
 
 
 def _samples(
-    basis: Basis, time: Array, values: Array, ends: tuple[End | None, End | None]
+    basis: Basis,
+    time: Array,
+    values: Array,
+    weight: Array,
+    ends: tuple[End | None, End | None],
 ) -> Samples:
     first, last = (None if end is None else end.value for end in ends)
     # A fixed end first: a mean would leave the difference of two large numbers there.
@@ -169,7 +192,7 @@ def _samples(
     return Samples(
         basis.rows(time),
         values - origin,
-        1.0 / run_lengths(values),
+        weight,
         origin,
         (fixed[0], fixed[1]),
     )

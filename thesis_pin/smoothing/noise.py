@@ -17,6 +17,9 @@ GAIN = 6.0
 """A cubic spline through samples of noise σ, a step h apart, has second derivatives that are
 wrong by GAIN·σ/h² (root mean square at the samples; measured, not-a-knot ends)."""
 
+RATE_GAIN = 1.2
+"""The same of first derivatives: RATE_GAIN·σ/h."""
+
 _NORMAL = 1.4826  # from the median of sizes to the standard deviation of a normal variable
 _FEW = 8  # samples that don't tell noise from motion by themselves
 _FAR = 4.5  # standard deviations that noise doesn't reach
@@ -32,6 +35,16 @@ def acceleration_noise(sigma: float, step: float) -> float:
         step: Time between two.
     """
     return GAIN * sigma / step**2
+
+
+def rate_noise(sigma: float, step: float) -> float:
+    """Error of first derivatives that a spline through noisy samples has.
+
+    Args:
+        sigma: Noise of the samples.
+        step: Time between two.
+    """
+    return RATE_GAIN * sigma / step
 
 
 def difference_noise(values: Array, order: int) -> float:

@@ -45,16 +45,15 @@ class InverseWork:
         self.data = robot.model.createData()
         self.driven = np.concatenate([robot.actuated, robot.base])
 
-    def chunk(
-        self, first: int, q: Array, v: Array, a: Array, wrenches: list[tuple[int, Array]]
-    ) -> dict[str, NDArray[np.generic]]:
+    def chunk(self, first: int, state: State) -> dict[str, NDArray[np.generic]]:
         """Every array of the result for samples ``(n, …)``, the first of them numbered."""
         robot, survey, equations = self.robot, self.survey, self.robot.system
+        q, v, a, wrenches = state.q, state.v, state.a, state.wrenches
         poses = equations.poses(self.data, q, v if self.check else None)
         matrices = equations.jacobian(poses)
         if self.check:
             refuse_opening(robot, survey, poses, matrices, v, a, first)
-        tau = open_tree_forces(robot, self.data, q, v, a)
+        tau = open_tree_forces(robot, self.data, q, v, a, state.sliding)
         if wrenches:
             tau -= external_forces(robot, self.data, poses, wrenches)
         solved = solve(survey, robot.scale, matrices, tau, self.driven, robot.passive)
@@ -64,7 +63,6 @@ class InverseWork:
         )
         for k in np.flatnonzero(doubtful):
             rank[k] = self._judge(first, int(k), poses, matrices, tau, solved)
-        state = State(q, v, a, wrenches)
         uncertainty = self._uncertainty(first, state, matrices, tau, solved)
         return self._arrays(first, poses, tau, solved, rank, uncertainty)
 

@@ -18,14 +18,22 @@ Array = NDArray[np.float64]
 Wrenches = Mapping[str, ArrayLike]
 
 
-def passive_forces(robot: ClosedRobot, q: Array, v: Array) -> Array:
+def passive_forces(robot: ClosedRobot, q: Array, v: Array, sliding: Array | None = None) -> Array:
     """What moves against damping, friction and springs, shape ``(n, nv)``.
 
     Friction of a joint at rest is taken as zero.
+
+    Args:
+        robot: The robot.
+        q: Configurations, shape ``(n, nq)``.
+        v: Rates, shape ``(n, nv)``.
+        sliding: Which way each joint's friction is overcome, 1, −1 or 0, same shape; None for
+            that of its rate, where this isn't zero.
     """
     model = robot.model
-    moving = np.abs(v) > TOLERANCES.static
-    forces = model.damping * v + model.upperDryFrictionLimit * np.where(moving, np.sign(v), 0.0)
+    if sliding is None:
+        sliding = np.where(np.abs(v) > TOLERANCES.static, np.sign(v), 0.0)
+    forces = model.damping * v + model.upperDryFrictionLimit * sliding
     for spring in robot.springs:
         joint = model.joints[model.getJointId(spring.joint)]
         position = q[:, joint.idx_q]
@@ -38,12 +46,17 @@ def passive_forces(robot: ClosedRobot, q: Array, v: Array) -> Array:
     return np.asarray(forces)
 
 
-def open_tree_forces(robot: ClosedRobot, data: pin.Data, q: Array, v: Array, a: Array) -> Array:
-    """Generalized forces that the motion of the open tree needs, shape ``(n, nv)``."""
+def open_tree_forces(
+    robot: ClosedRobot, data: pin.Data, q: Array, v: Array, a: Array, sliding: Array | None = None
+) -> Array:
+    """Generalized forces that the motion of the open tree needs, shape ``(n, nv)``.
+
+    ``sliding`` is that of :func:`passive_forces`.
+    """
     tau = np.empty_like(v)
     for k in range(len(q)):
         tau[k] = pin.rnea(robot.model, data, q[k], v[k], a[k])
-    tau += passive_forces(robot, q, v)
+    tau += passive_forces(robot, q, v, sliding)
     return tau
 
 

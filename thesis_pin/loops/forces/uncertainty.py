@@ -8,7 +8,7 @@ made round is asked for the same motion (:mod:`thesis_pin.model.formats.rounding
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pinocchio as pin
@@ -41,23 +41,27 @@ class State:
     Attributes:
         q, v, a: Configurations, rates and accelerations, shape ``(n, …)``.
         wrenches: Frames and the wrenches on them, ``(n, 6)`` each.
+        sliding: Which way friction is overcome, see
+            :func:`thesis_pin.loops.forces.loads.passive_forces`.
     """
 
     q: Array
     v: Array
     a: Array
     wrenches: list[tuple[int, Array]]
+    sliding: Array | None = None
 
     def at(self, places: NDArray[np.intp]) -> State:
         """Some of them."""
         wrenches = [(frame, wrench[places]) for frame, wrench in self.wrenches]
-        return State(self.q[places], self.v[places], self.a[places], wrenches)
+        sliding = None if self.sliding is None else self.sliding[places]
+        return State(self.q[places], self.v[places], self.a[places], wrenches, sliding)
 
 
 def motor_loads(robot: ClosedRobot, survey: Survey, data: pin.Data, state: State) -> Solved:
     """What carries the load of states, without checks."""
     poses = robot.system.poses(data, state.q)
-    tau = open_tree_forces(robot, data, state.q, state.v, state.a)
+    tau = open_tree_forces(robot, data, state.q, state.v, state.a, state.sliding)
     if state.wrenches:
         tau -= external_forces(robot, data, poses, state.wrenches)
     driven = np.concatenate([robot.actuated, robot.base])
@@ -103,7 +107,7 @@ def by_noise(
         moved = np.array(
             [pin.integrate(robot.model, *both) for both in zip(here.q, moves, strict=True)]
         )
-        there = State(moved, here.v, here.a, here.wrenches)
+        there = replace(here, q=moved)
         other = motor_loads(robot, survey, data, there).driven[:, : torque.shape[1]]
         share = np.maximum(share, _change(other, torque[some], largest[some]))
     # A step as long as the way to the singularity may end beyond it: nothing is known.
@@ -184,7 +188,7 @@ def _torque_when_round(
         return lost
     v, a = state.v.copy(), state.a.copy()
     errors = passive_rates(other, known, data, closed.q, v, a)
-    moved = State(closed.q, v, a, state.wrenches)
+    moved = replace(state, q=closed.q, v=v, a=a)
     torque = motor_loads(other, known, data, moved).driven[:, : len(robot.actuators)]
     open_ones = [bool(why or error) for why, error in zip(reasons, errors, strict=True)]
     torque[open_ones] = np.inf

@@ -12,7 +12,7 @@ may be written is said in :mod:`thesis_pin.tables`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,75 +22,51 @@ from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.files import name_as_text
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.motion.sampled import (
-    resolution_warning,
-    unlike,
-    unwound,
-    with_derivatives,
+from thesis_pin.loops.motion.base import (
+    BASE_ANGLES,
+    BASE_PLACE,
+    BASE_QUATERNION,
+    read_flight,
 )
+from thesis_pin.loops.motion.sampled import unlike, unwound, with_derivatives
+from thesis_pin.loops.motion.smoothing import within_resolution
+from thesis_pin.loops.motion.told import JointMotion
+from thesis_pin.smoothing.stated import stated
 from thesis_pin.tables.meaning import Chosen, Meaning, chosen, time_column, time_names
 from thesis_pin.tables.reading import read_table
+from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, warning
 from thesis_pin.tables.table import Column, Table
 from thesis_pin.tables.units import ANGLE, LENGTH, PLAIN, headings
 
 Array = NDArray[np.float64]
 
 _ORDERS = (("", ""), ("_rate", "_s"), ("_acceleration", "_s2"))
-BASE_PLACE = ("base_x", "base_y", "base_z")
-BASE_ANGLES = ("base_roll", "base_pitch", "base_yaw")
-BASE_QUATERNION = ("base_qx", "base_qy", "base_qz", "base_qw")
+LEAST = 12
+"""Rows below which nothing is known of their noise: curves pass through them."""
 
 
-@dataclass(frozen=True, eq=False)
-class JointMotion:
-    """How some joints of a robot move.
-
-    Attributes:
-        name: What it is called in reports.
-        time: Sample times [s], shape ``(n,)``.
-        joints: Names of the joints, ``k`` of them.
-        position: [rad] or [m], shape ``(n, k)``.
-        rate: [rad/s] or [m/s], the same shape.
-        acceleration: [rad/s²] or [m/s²], the same.
-        base: Placement of a free root over time, position and quaternion x, y, z, w,
-            shape ``(n, 7)``; None if it isn't given.
-        interpolated: Joints whose rates or accelerations were made from the samples, ``base``
-            among them.
-        warnings: What is odd about the samples.
-        notes: How the file was read, where that isn't plain.
-    """
-
-    name: str
-    time: Array
-    joints: tuple[str, ...]
-    position: Array
-    rate: Array
-    acceleration: Array
-    base: Array | None = None
-    interpolated: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
-
-
-def read_motion(robot: ClosedRobot, file: str | Path) -> JointMotion:
+def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -> JointMotion:
     """A motion of a robot's joints from CSV; see the head of this module.
 
     Args:
         robot: The robot, for the names of its joints and motors.
         file: The file.
+        smooth: Of columns whose rates aren't given: ``auto`` takes their samples for as fine
+            as they show themselves to be, ``none`` for exact, and a length such as ``0.1mm``,
+            an angle such as ``0.05deg`` or both with a comma for no finer than that.
 
     Raises:
-        BadInput: It can't be read, a column is missing or means two things, a cell isn't a
-            number.
+        BadInput: ``smooth`` is none of these, the file can't be read, a column is missing or
+            means two things, a cell isn't a number.
         UnknownName: A column is none of the robot's.
         TrajectoryError: Time doesn't increase, or there are too few samples.
     """
+    how = stated(smooth)
     table = read_table("motion", file)
-    where = table.file
     columns = _columns(robot, table)
     if len(table) < 2:
-        raise TrajectoryError(f"{len(table)} samples", where=where, allowed="at least 2")
-    time = time_column(table, columns).values
+        raise TrajectoryError(f"{len(table)} samples", where=table.file, allowed="at least 2")
+    time = time_column(table, columns)
     values = {
         key: table.column(*place, key[0] + _ORDERS[key[1]][0])
         for key, place in columns.items()
@@ -99,45 +75,84 @@ def read_motion(robot: ClosedRobot, file: str | Path) -> JointMotion:
     kinds = singles(robot.model)
     joints = tuple(dict.fromkeys(of for of, _ in values if of in kinds))
     if not joints:
-        raise BadInput("no column is a joint's", where=where, allowed=", ".join(kinds))
-    position, rate, acceleration = np.empty((3, len(time), len(joints)))
-    interpolated, warnings = [], []
-    for j, joint in enumerate(joints):
-        column, turns = values[joint, 0], kinds[joint].turns
-        value = column.values
-        if turns:
-            value, doubts = unwound(joint, value)
+        raise BadInput("no column is a joint's", where=table.file, allowed=", ".join(kinds))
+    warnings = []
+    for joint in joints:
+        if kinds[joint].turns:
+            found, doubts = unwound(joint, values[joint, 0].values)
+            values[joint, 0] = replace(values[joint, 0], values=found)
             warnings += doubts
-        given = [values[joint, o].values if (joint, o) in values else None for o in (1, 2)]
-        position[:, j] = value
+        warnings += unlike(joint, time.values, values[joint, 0].values, _given(values, joint))
+    read = _differentiated(robot, table, time, values)
+    friction = bool(robot.model.upperDryFrictionLimit.any())
+    resolved, notes = quanta(read, how), list(table.dialect.notes)
+    through = how.through or len(table) < LEAST
+    if through:
+        warnings += warning(read, resolved, friction)
+    else:
+        read, mending = mended(read)
+        notes += [*mending, *close_rows(read)]
+        values |= {
+            key: read.columns[one.name] for key, one in values.items() if one.name in read.columns
+        }
+    motion = _splined(values, joints, table, time.values)
+    motion = replace(motion, warnings=tuple(warnings), notes=tuple(notes))
+    if through or exact(read, resolved, friction):
+        return motion
+    return within_resolution(motion, read, resolved, read_flight(values, table))
+
+
+def _given(values: Mapping[tuple[str, int], Column], joint: str) -> list[Array | None]:
+    """Rates and accelerations of a joint, as far as columns hold them."""
+    return [values[joint, o].values if (joint, o) in values else None for o in (1, 2)]
+
+
+def _splined(
+    values: Mapping[tuple[str, int], Column], joints: tuple[str, ...], table: Table, time: Array
+) -> JointMotion:
+    """The motion through every sample."""
+    position, rate, acceleration = np.empty((3, len(time), len(joints)))
+    interpolated = []
+    for j, joint in enumerate(joints):
+        given = _given(values, joint)
         if given[1] is None and len(time) < 4:
             raise TrajectoryError(
                 f"{len(time)} samples of {joint!r} without {joint}_rate and {joint}_acceleration",
-                where=where,
+                where=table.file,
                 allowed="at least 4",
             )
-        rate[:, j], acceleration[:, j] = with_derivatives(time, value, *given)
-        if given[0] is None:
+        position[:, j] = values[joint, 0].values
+        rate[:, j], acceleration[:, j] = with_derivatives(time, position[:, j], *given)
+        if given[1] is None:
             interpolated.append(joint)
-            warnings += resolution_warning(joint, time, column.quantum, acceleration[:, j], turns)
-        elif given[1] is None:
-            interpolated.append(joint)
-        warnings += unlike(joint, time, value, given)
-    base = _base(values, table)
-    if base is not None:
+    flight = read_flight(values, table)
+    if flight is not None:
         interpolated.append("base")
     return JointMotion(
-        name_as_text(Path(file).name),
+        name_as_text(Path(table.file).name),
         time,
         joints,
         position,
         rate,
         acceleration,
-        base,
+        None if flight is None else flight.base,
         tuple(interpolated),
-        tuple(warnings),
-        table.dialect.notes,
     )
+
+
+def _differentiated(
+    robot: ClosedRobot, table: Table, time: Column, values: Mapping[tuple[str, int], Column]
+) -> Samples:
+    """The columns of which rates or accelerations are made."""
+    kinds, columns, turning = singles(robot.model), {}, set()
+    for (of, order), column in values.items():
+        if of in kinds and (order == 2 or (of, order + 1) in values):
+            continue
+        columns[column.name] = column
+        if kinds[of].turns if of in kinds else of not in BASE_PLACE:
+            turning.add(column.name)
+    rates = {column.name for (_, order), column in values.items() if order == 1}
+    return Samples(table, time, columns, frozenset(turning), frozenset(rates))
 
 
 def _known(robot: ClosedRobot) -> dict[str, list[Meaning]]:
@@ -181,41 +196,3 @@ def _columns(robot: ClosedRobot, table: Table) -> Chosen:
                     where=table.file,
                 )
     return columns
-
-
-def _base(
-    values: Mapping[tuple[str, int], Column],
-    table: Table,
-) -> Array | None:
-    """The root's placement over time; None if no column says it."""
-    from scipy.spatial.transform import Rotation
-
-    parts = [of for of, _ in values if of in (*BASE_PLACE, *BASE_ANGLES, *BASE_QUATERNION)]
-    if not parts:
-        return None
-    angles = [part for part in parts if part in BASE_ANGLES]
-    wanted = {*BASE_PLACE, *(BASE_ANGLES if angles else BASE_QUATERNION)}
-    if set(parts) != wanted:
-        raise BadInput(
-            f"the base has the columns {', '.join(parts)}",
-            where=table.file,
-            allowed=f"{', '.join(BASE_PLACE)} and {', '.join(BASE_ANGLES)}, or these and "
-            f"{', '.join(BASE_QUATERNION)} instead of angles",
-        )
-    place = np.empty((len(table), 7))
-    place[:, :3] = np.column_stack([values[part, 0].values for part in BASE_PLACE])
-    if angles:
-        turns = np.column_stack([values[part, 0].values for part in BASE_ANGLES])
-        place[:, 3:] = Rotation.from_euler("xyz", turns).as_quat()
-        return place
-    quaternion = np.column_stack([values[part, 0].values for part in BASE_QUATERNION])
-    length = np.linalg.norm(quaternion, axis=1)
-    if (np.abs(length - 1) > 1e-3).any():
-        k = int(np.argmax(np.abs(length - 1)))
-        raise BadInput(
-            f"the quaternion of the base has length {length[k]:.6g}",
-            where=table.where(k),
-            allowed="1",
-        )
-    place[:, 3:] = quaternion / length[:, None]
-    return place

@@ -1,6 +1,6 @@
-"""Rates and accelerations of sampled coordinates, and what the samples can't carry.
+"""Rates and accelerations of sampled coordinates, and what is odd about them.
 
-Everything that is made from samples goes through :func:`with_derivatives`.
+Everything that is made from samples that are exact goes through :func:`with_derivatives`.
 """
 
 from __future__ import annotations
@@ -14,9 +14,6 @@ from numpy.typing import NDArray
 from thesis_pin.numeric.interpolation import interpolate
 
 Array = NDArray[np.float64]
-
-COARSE = 0.1
-"""Share of the largest acceleration that the samples' steps may make up without a warning."""
 
 UNLIKE = 0.25
 """Share by which a column of rates may differ from the derivative of its values, of both
@@ -81,33 +78,6 @@ def unwound(joint: str, angle: Array) -> tuple[Array, list[str]]:
         f"{joint} jumps by more than half a turn between samples, which is read as its shorter "
         f"way; its steps of up to {step:.3g} rad leave that in doubt. Sample more finely, or "
         "count turns in the column."
-    ]
-
-
-def resolution_warning(
-    joint: str, time: Array, step: float, acceleration: Array, turns: bool
-) -> list[str]:
-    """A warning where the samples' steps drown the acceleration that is made from them.
-
-    A step of size q is an error of q/√12; a second difference of such errors over a time
-    h is 6 q/√12/h² where it is largest.
-
-    Args:
-        joint: Name of the joint, for the message.
-        time: Sample times [s], shape ``(n,)``.
-        step: What the samples resolve [rad] or [m].
-        acceleration: Made from them, shape ``(n,)``.
-        turns: Whether it is a turn.
-    """
-    size = float(np.abs(acceleration).max())
-    noise = 6 * step / math.sqrt(12) / float(np.median(np.diff(time))) ** 2
-    if not size or noise <= COARSE * size:
-        return []
-    unit = "rad" if turns else "m"
-    return [
-        f"{joint} is sampled in steps of {step:.2g} {unit}, which alone make an acceleration of "
-        f"{noise:.2g} {unit}/s²; the samples' largest is {size:.2g} {unit}/s². Give "
-        f"{joint}_rate and {joint}_acceleration, or smoother samples."
     ]
 
 

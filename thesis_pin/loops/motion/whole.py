@@ -14,10 +14,11 @@ from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.closing import close, motor_positions
 from thesis_pin.loops.configurations.following import follow
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.motion.files import JointMotion
 from thesis_pin.loops.motion.sampled import with_derivatives
+from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.loops.system.idle import joint_names
 from thesis_pin.model.mechanism.supplement import Motor
+from thesis_pin.numeric import quaternions
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -82,7 +83,11 @@ def whole_motion(
         np.column_stack([values, np.zeros((count, len(still)))])
         for values in (motion.rate, motion.acceleration)
     )
-    base = None if motion.base is None else base_motion(robot, motion.time, motion.base)
+    base = None
+    if motion.base is not None:
+        base = base_motion(robot, motion.time, motion.base)
+        if motion.base_change is not None:
+            base = flown(motion.base, *motion.base_change)
     guess = _approach(view, start, position[0], precision)
     found = follow(
         view, motion.time, position, rate, acceleration, guess, base=base, precision=precision
@@ -150,37 +155,42 @@ def base_motion(robot: ClosedRobot, time: Array, base: Array) -> tuple[Array, Ar
     Raises:
         TrajectoryError: A loop ties the robot to the world, or there are too few samples.
     """
-    from scipy.spatial.transform import Rotation
+    _refuse_tied_base(robot)
+    if len(time) < 4:
+        raise TrajectoryError(f"{len(time)} samples of the base", allowed="at least 4")
+    size = np.linalg.norm(base[:, 3:], axis=1, keepdims=True)
+    places = np.column_stack([base[:, :3], quaternions.unbroken(base[:, 3:] / size)])
+    courses = [with_derivatives(time, column, None, None) for column in places.T]
+    rates, pushes = (np.column_stack(columns) for columns in zip(*courses, strict=True))
+    return flown(places, rates, pushes)
 
+
+def flown(value: Array, first: Array, second: Array) -> tuple[Array, Array, Array]:
+    """What a free root does whose position and quaternion move in a known way.
+
+    Args:
+        value: Positions and quaternions x, y, z, w, nearly of unit length, shape ``(n, 7)``.
+        first: Their first derivatives, same shape.
+        second: Their second derivatives, same shape.
+
+    Returns:
+        As :func:`base_motion`.
+    """
+    size = np.linalg.norm(value[:, 3:], axis=1, keepdims=True)
+    places = np.column_stack([value[:, :3], value[:, 3:] / size])
+    turn, omega, alpha = quaternions.motion(value[:, 3:], first[:, 3:], second[:, 3:])
+    omega, alpha, linear, pushed = (
+        np.einsum("nji,nj->ni", turn, x) for x in (omega, alpha, first[:, :3], second[:, :3])
+    )
+    # Pinocchio's acceleration is the derivative of the velocity's components in moving axes.
+    pushed = pushed - np.cross(omega, linear)
+    return places, np.column_stack([linear, omega]), np.column_stack([pushed, alpha])
+
+
+def _refuse_tied_base(robot: ClosedRobot) -> None:
     for loop in robot.loops:
         if any(robot.model.frames[k].parentJoint == 0 for k in loop.ids):
             raise TrajectoryError(
                 f"the base moves, and loop {loop.name!r} ties the robot to the world",
                 remedy="Leave the base's columns out",
             )
-    if len(time) < 4:
-        raise TrajectoryError(f"{len(time)} samples of the base", allowed="at least 4")
-    turns = Rotation.from_quat(base[:, 3:])
-    quaternion = turns.as_quat()
-    same = np.einsum("ij,ij->i", quaternion[1:], quaternion[:-1]) >= 0
-    quaternion[1:] *= np.cumprod(np.where(same, 1.0, -1.0))[:, None]  # q and −q are one turn
-    places = np.column_stack([base[:, :3], quaternion])
-    courses = [with_derivatives(time, column, None, None) for column in places.T]
-    rates, pushes = (np.column_stack(columns) for columns in zip(*courses, strict=True))
-    omega, alpha = (2 * _seen_from(quaternion, x[:, 3:]) for x in (rates, pushes))
-    velocity, acceleration = rates[:, :3], pushes[:, :3]
-    linear = turns.apply(velocity, inverse=True)
-    # Pinocchio's acceleration is the derivative of the velocity's components in moving axes.
-    pushed = turns.apply(acceleration, inverse=True) - np.cross(omega, linear)
-    return (
-        places,
-        np.column_stack([linear, omega]),
-        np.column_stack([pushed, alpha]),
-    )
-
-
-def _seen_from(quaternion: Array, change: Array) -> Array:
-    """Vector part of q̄ q̇ for quaternions x, y, z, w, shape ``(n, 3)``."""
-    along, real = change[:, :3], quaternion[:, 3:]
-    turned = np.cross(quaternion[:, :3], along)
-    return np.asarray(real * along - quaternion[:, :3] * change[:, 3:] - turned)

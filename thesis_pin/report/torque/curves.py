@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.loops.joints import singles
-from thesis_pin.report.curves import PALETTE, VERMILLION, Curve, Dash, Limit, Plot
+from thesis_pin.report.curves import PALETTE, VERMILLION, Area, Curve, Dash, Limit, Plot, spread
 from thesis_pin.report.torque.document import TorqueReport
 from thesis_pin.report.torque.verdict import UNEXPLAINED
 
@@ -35,7 +37,14 @@ def motors(report: TorqueReport, keep: Samples) -> list[list[Plot]]:
             names = [report.names[k] for k in some]
             rows.append(
                 [
-                    _plot(report, keep, title, text, label, names, values[:, some])
+                    _plot(
+                        report,
+                        keep,
+                        (title, text, label),
+                        names,
+                        values[:, some],
+                        _left_open(report, some) if values is report.dynamics.torque else (),
+                    )
                     for title, text, label, values in (
                         (
                             kind,
@@ -59,9 +68,7 @@ def loops(report: TorqueReport, keep: Samples) -> list[Plot]:
         _plot(
             report,
             keep,
-            "Loop forces",
-            "Size of the force that closes each loop.",
-            "force [N]",
+            ("Loop forces", "Size of the force that closes each loop.", "force [N]"),
             names[k : k + PER_PLOT],
             size[:, k : k + PER_PLOT],
         )
@@ -82,9 +89,11 @@ def joints(report: TorqueReport, keep: Samples) -> list[Plot]:
                 _plot(
                     report,
                     keep,
-                    "Joint angles" if turns else "Slides",
-                    "Motors and passive joints.",
-                    "angle [°]" if turns else "position [mm]",
+                    (
+                        "Joint angles" if turns else "Slides",
+                        "Motors and passive joints.",
+                        "angle [°]" if turns else "position [mm]",
+                    ),
                     [one.name for one in some],
                     np.column_stack(columns) * (1.0 if turns else 1e3),
                 )
@@ -119,14 +128,25 @@ def plots(report: TorqueReport, keep: Samples) -> list[Plot]:
 def _plot(
     report: TorqueReport,
     keep: Samples,
-    title: str,
-    text: str,
-    label: str,
+    words: tuple[str, str, str],
     names: list[str],
     values: Array,
+    areas: Sequence[Area] = (),
 ) -> Plot:
+    """Curves over time; words are its title, its text and the label of its y axis."""
     curves = [
         Curve(name, values[keep, k], PALETTE[k % 6], _DASHES[k // 6 % 2])
         for k, name in enumerate(names)
     ]
-    return Plot(title, text, label, curves, report.joints.time[keep])
+    return Plot(*words, curves, report.joints.time[keep], areas=areas)
+
+
+def _left_open(report: TorqueReport, some: Samples) -> list[Area]:
+    """Between which torques the motion's samples leave those of some motors."""
+    held = report.headlines
+    if held is None:
+        return []
+    return [
+        spread("left open by the samples", held.time, held.torque_band[..., k], PALETTE[j % 6])
+        for j, k in enumerate(some)
+    ]

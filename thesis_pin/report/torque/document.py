@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,35 +14,44 @@ from thesis_pin.loops.configurations.closing import close
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.loops.forces.loads import checked_wrenches
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.motion.files import JointMotion
+from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.loops.motion.whole import whole_motion
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.report import pace
-from thesis_pin.report.torque import verdict
+from thesis_pin.report.torque import decision
+from thesis_pin.report.torque.drawn import drawn
 from thesis_pin.report.torque.numbers import TorqueNumbers
+from thesis_pin.report.torque.uncertainty import uncertainty
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
 SCHEMA, VERSION = "thesis-pin/torque", 2
 
-INTERPOLATED = (
-    "Rates and accelerations of {names} come from a cubic spline through the samples. Nothing "
-    "is smoothed, and what the samples' finite resolution does to the torques isn't judged yet."
-)
+INTERPOLATED = "Rates and accelerations of {names} come from {how}."
+THROUGH = "a cubic spline through the samples"
+WITHIN = "smooth curves within the samples' resolution"
 
 
 class TorqueReport(TorqueNumbers):
     """Everything known of a motion of a robot: its numbers, its verdict, its documents."""
 
     @property
-    def within_limits(self) -> bool:
-        """Whether motors and loops carry the load, and nothing leaves its limits."""
-        return verdict.within_limits(self)
+    def within_limits(self) -> bool | None:
+        """Whether motors and loops carry the load, and nothing leaves its limits.
+
+        None where the motion's samples don't carry an answer.
+        """
+        return decision.within_limits(self)
 
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
-        return verdict.sentences(self)
+        return decision.sentences(self)
+
+    @property
+    def reason(self) -> str | None:
+        """Why the motion's samples carry no verdict; None if they do, or it is exact."""
+        return decision.reason(self)
 
     def doubts(self) -> list[str]:
         """What is to be asked before the numbers are believed."""
@@ -60,7 +70,8 @@ class TorqueReport(TorqueNumbers):
         """What may make the numbers wrong: of the motion, then of the description."""
         said = list(self.motion.warnings)
         if self.motion.interpolated:
-            said.append(INTERPOLATED.format(names=", ".join(self.motion.interpolated)))
+            how = THROUGH if self.motion.variants is None else WITHIN
+            said.append(INTERPOLATED.format(names=", ".join(self.motion.interpolated), how=how))
         if self.whole.still:
             said.append(f"No column moves {', '.join(self.whole.still)}: they stay at the pose.")
         return said + list(self.robot.description.warnings)
@@ -112,6 +123,7 @@ class TorqueReport(TorqueNumbers):
             "parameters": self.parameters,
             "summary": self.summary(),
             "notes": list(self.motion.notes),
+            "samples_uncertainty": uncertainty(self.headlines, self.drawn, self.motion.variants),
         }
 
     def columns(self) -> dict[str, np.ndarray]:
@@ -146,7 +158,8 @@ class TorqueReport(TorqueNumbers):
         force = self.loop_force_size
         return {
             "within_limits": self.within_limits,
-            "verdict": self.verdict(),
+            "verdict": None if self.within_limits is None else self.verdict(),
+            "reason": self.reason,
             "doubts": self.doubts(),
             "warnings": self.warnings(),
             **self.actuators.document(),
@@ -216,4 +229,20 @@ def torque_report(
     dynamics = inverse_dynamics(
         robot, joints.q, joints.v, joints.a, precision=precision, external=pushed
     )
-    return TorqueReport(robot, motion, whole, dynamics, external=pushed)
+    report = TorqueReport(robot, motion, whole, dynamics, precision, external=pushed)
+    if motion.variants is None:
+        return report
+    sizes = (np.abs(dynamics.torque), np.abs(report.speed), report.loop_force_size)
+    extremes = [int(k) for size in sizes for k in size.argmax(axis=0)]
+    found = drawn(report.way, extremes)
+    if found is not None and found.sliding is not None:
+        dynamics = inverse_dynamics(
+            robot,
+            joints.q,
+            joints.v,
+            joints.a,
+            precision=precision,
+            external=pushed,
+            sliding=found.sliding,
+        )
+    return replace(report, dynamics=dynamics, drawn=found)

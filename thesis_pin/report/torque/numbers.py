@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import LoopDynamics
 from thesis_pin.loops.joints import singles
-from thesis_pin.loops.motion.files import JointMotion
+from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.loops.motion.whole import WholeMotion
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
+from thesis_pin.report.torque.drawn import Drawn, Judged, Way
+from thesis_pin.report.torque.uncertainty import Headlines, headlines, shares
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -31,6 +33,8 @@ class TorqueNumbers:
         motion: The motion that was asked for.
         whole: What all joints do in it.
         dynamics: Torques of the motors and forces of the loops.
+        precision: What counted as dependent, if that was asked for.
+        drawn: What the motion's samples leave open, judged; None if it is exact.
         external: Frame → constant wrench on it from outside: force, then moment about the
             frame's origin, world axes [N], [N·m], shape ``(6,)``.
     """
@@ -39,7 +43,25 @@ class TorqueNumbers:
     motion: JointMotion
     whole: WholeMotion
     dynamics: LoopDynamics
+    precision: float | None = None
+    drawn: Drawn | None = None
     external: Mapping[str, Array] = field(default_factory=dict)
+
+    @property
+    def way(self) -> Way:
+        """How the motion is carried."""
+        return Way(self.robot, self.motion, self.whole, self.precision, self.external)
+
+    @cached_property
+    def headlines(self) -> Headlines | None:
+        """Intervals that the motion's samples leave its numbers; None if it is exact."""
+        if self.drawn is None:
+            return None
+        keep = self.drawn.keep
+        values = (self.dynamics.torque, self.speed, self.loop_force_size)
+        own = Judged(*(one[keep][None] for one in values))
+        limits = self.effort_limits, self.speed_limits
+        return headlines(own, self.drawn, self.joints.time[keep], limits)
 
     @property
     def joints(self) -> JointTrajectory:
@@ -116,11 +138,8 @@ class TorqueNumbers:
     @cached_property
     def effort_use(self) -> Array:
         """Largest share of each motor's torque limit, shape ``(motors,)``; 0 without a limit."""
-        least, most = self.effort_limits
-        torque = self.dynamics.torque
-        with np.errstate(divide="ignore", invalid="ignore"):
-            share = np.where(torque >= 0, torque / most, torque / least)
-        return np.asarray(np.nan_to_num(share, nan=0.0, posinf=np.inf).max(axis=0, initial=0.0))
+        used = shares(self.dynamics.torque, self.effort_limits)
+        return np.asarray(used.max(axis=0, initial=0.0))
 
     @property
     def speed_use(self) -> Array:

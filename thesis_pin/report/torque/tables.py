@@ -8,6 +8,7 @@ import numpy as np
 
 from thesis_pin.report.tables import Part, Table
 from thesis_pin.report.torque.document import TorqueReport
+from thesis_pin.report.torque.uncertainty import open_table
 
 
 def motors_table(report: TorqueReport) -> Table:
@@ -50,6 +51,8 @@ def summary(report: TorqueReport) -> Iterator[Part]:
     if report.robot.loops:
         yield loops_table(report)
     yield f"Unexplained load: {report.unexplained.max():.1e} of the largest."
+    if report.headlines is not None:
+        yield open_table(report.headlines, report.names)
     yield from (f"Warning: {one}." for one in report.doubts())
     yield from report.verdict()
     yield from (f"Note: {note}." for note in report.motion.notes)

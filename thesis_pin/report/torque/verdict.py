@@ -22,11 +22,16 @@ def within_limits(report: TorqueNumbers) -> bool:
     return carried(report) and bool((used <= 1).all()) and not report.outside
 
 
-def sentences(report: TorqueNumbers) -> list[str]:
-    """The answer, the most important first."""
+def sentences(report: TorqueNumbers, *, motors: bool = True) -> list[str]:
+    """The answer, the most important first.
+
+    Args:
+        report: What it is about.
+        motors: Whether to say if the motors can do it.
+    """
     return [
         *_carried(report),
-        *_efforts(report),
+        *(_efforts(report) if motors else ()),
         *_ranges(report),
         *_external(report),
         *_base(report),

@@ -1,25 +1,8 @@
-"""What samples can carry, held against samples whose true derivatives are known."""
+"""Derivatives of samples, held against samples whose true ones are known."""
 
 import numpy as np
-import pytest
 
-from thesis_pin.loops.motion.sampled import resolution_warning, with_derivatives
-
-
-@pytest.mark.parametrize("rate", [100, 500, 2000])
-@pytest.mark.parametrize("places", [3, 4, 5, 6, 7, 8])
-def test_a_warning_is_given_where_rounding_really_spoils_the_acceleration(rate, places):
-    time = np.arange(0, 1, 1 / rate)
-    true = -0.3 * 9 * np.sin(3 * time)
-    rounded = np.round(0.3 * np.sin(3 * time), places)
-    acceleration = with_derivatives(time, rounded, None, None)[1]
-    inner = slice(5, -5)  # a spline's ends are worse
-    spoilt = np.abs(acceleration - true)[inner].max() / np.abs(true).max()
-    said = bool(resolution_warning("hip", time, 10.0**-places, acceleration, True))
-    if spoilt > 0.3:
-        assert said
-    if spoilt < 0.01:
-        assert not said
+from thesis_pin.loops.motion.sampled import with_derivatives
 
 
 def test_given_rates_are_not_touched_and_accelerations_come_from_them():

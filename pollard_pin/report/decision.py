@@ -1,0 +1,28 @@
+"""Whether samples of finite resolution carry a verdict, and which.
+
+A yes or no counts where the whole interval of each number that decides lies on one side of
+its limit. Exact paths are decided by their numbers alone.
+"""
+
+from __future__ import annotations
+
+from pollard_pin.report import verdict
+from pollard_pin.report.numbers import TrajectoryNumbers
+from thesis_pin.report import uncertainty
+
+
+def within_limits(numbers: TrajectoryNumbers) -> bool | None:
+    """As :func:`pollard_pin.report.verdict.within_limits`; None where the samples can't say."""
+    held = numbers.headlines
+    if held is None:
+        return verdict.within_limits(numbers)
+    sides = [use.side(1.0) for use in (*held.torque_use, *held.speed_use)]
+    if 1 in sides:
+        return False
+    return True if all(side < 0 for side in sides) and not few_draws(numbers) else None
+
+
+def few_draws(numbers: TrajectoryNumbers) -> bool:
+    """Whether most motions that the samples leave open can't be worked out."""
+    drawn = numbers.drawn
+    return drawn is not None and uncertainty.few_draws(drawn.lost, len(drawn.draws.torque))

@@ -1,0 +1,1 @@
+"""What samples of finite resolution leave open of a path's numbers."""

@@ -1,0 +1,210 @@
+"""What the samples of a motion leave open, carried through loops and dynamics.
+
+Every variant of a smoothed motion (see :mod:`thesis_pin.loops.motion.variants`) is judged as the
+motion itself is, at some of its samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thesis_pin.errors import ThesisPinError
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.loops.dynamics import inverse_dynamics
+from thesis_pin.loops.motion.near import near_motions
+from thesis_pin.loops.motion.smoothing import itself
+from thesis_pin.loops.motion.told import JointMotion
+from thesis_pin.loops.motion.whole import WholeMotion
+from thesis_pin.tolerances import TOLERANCES
+
+Array = NDArray[np.float64]
+
+KNOWN = 4.0
+"""Standard deviations by which a joint's rate must differ from zero for its friction to count."""
+
+SAMPLES = 101
+"""Evenly spaced samples at which variants are judged, beside extremes: that bounds the cost."""
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """Numbers of some samples for each variant that could be worked out.
+
+    Attributes:
+        torque, speed: Of each motor, shape ``(variants, k, motors)``.
+        loop_force: Size of the force in each loop [N], ``(variants, k, loops)``.
+    """
+
+    torque: Array
+    speed: Array
+    loop_force: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """The variants of a motion beside its own curves, judged.
+
+    Attributes:
+        keep: Samples of the motion at which they are judged, shape ``(k,)``.
+        rival: Order 3's curve, one variant; None if it couldn't be worked out.
+        draws: The draws that could; None if none could.
+        lost: How many draws couldn't.
+        sliding: Which way each joint's friction is overcome where its rate is known to differ
+            from zero, at all samples of the motion, ``(n, nv)``; None without friction.
+        unknown: Friction of which nobody knows whether it counts, at the samples that are
+            judged [N·m] or [N], ``(k, motors)``.
+    """
+
+    keep: NDArray[np.intp]
+    rival: Judged | None
+    draws: Judged | None
+    lost: int
+    sliding: Array | None
+    unknown: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """How a motion is carried.
+
+    Attributes:
+        robot: The robot.
+        motion: The motion of some joints.
+        whole: What all joints do in it.
+        precision: See :func:`thesis_pin.loops.motion.whole.whole_motion`.
+        external: Constant wrenches from outside, see
+            :func:`thesis_pin.loops.dynamics.inverse_dynamics`.
+    """
+
+    robot: ClosedRobot
+    motion: JointMotion
+    whole: WholeMotion
+    precision: float | None
+    external: Mapping[str, Array]
+
+
+def drawn(way: Way, extremes: Sequence[int]) -> Drawn | None:
+    """Judge the variants of a motion; None if it has none.
+
+    Args:
+        way: How it is carried.
+        extremes: Samples at which the motion itself has its largest numbers.
+    """
+    variants = way.motion.variants
+    if variants is None:
+        return None
+    last = len(way.motion.time) - 1
+    even = np.linspace(0, last, min(last + 1, SAMPLES)).round().astype(np.intp)
+    keep = np.union1d(even, np.asarray(extremes, dtype=np.intp))
+    moved = variants.moved(itself(way.motion, keep), _since_start(way)[keep], variants.others())
+    *whole, good = near_motions(way.robot, way.whole, keep, moved, way.precision)
+    sliding, unknown = None, np.zeros((len(keep), len(way.robot.actuators)))
+    if way.robot.model.upperDryFrictionLimit.any():
+        sliding, creeping = _sliding(way, keep, whole[1][1:][good[1:]])
+        unknown = _unknown(way, keep, sliding[keep], creeping[keep])
+    found = _judged(way, whole, good, None if sliding is None else sliding[keep])
+    draws = [one for one in found[1:] if one is not None]
+    stacked = _stacked(draws) if draws else None
+    return Drawn(keep, found[0], stacked, len(found) - 1 - len(draws), sliding, unknown)
+
+
+def _since_start(way: Way) -> Array:
+    return np.asarray(way.motion.time - way.motion.time[0])
+
+
+def _sliding(way: Way, keep: NDArray[np.intp], rates: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Which way each joint is known to move, and which joints may move either way.
+
+    Args:
+        way: How the motion is carried.
+        keep: The samples that were judged, shape ``(k,)``.
+        rates: Rates of the draws there, shape ``(draws, k, nv)``.
+    """
+    v, time = way.whole.joints.v, way.motion.time
+    spread = rates.std(axis=0, ddof=1) if len(rates) > 1 else np.zeros(rates.shape[1:])
+    wide = KNOWN * np.stack([np.interp(time, time[keep], column) for column in spread.T], axis=1)
+    resting = np.abs(v) <= np.maximum(wide, TOLERANCES.static)
+    creeping = resting & (np.abs(v) + wide > TOLERANCES.static)
+    return np.where(resting, 0.0, np.sign(v)), creeping
+
+
+def _unknown(
+    way: Way, keep: NDArray[np.intp], sliding: Array, creeping: NDArray[np.bool_]
+) -> Array:
+    """What friction of joints that may move either way can add to each motor's torque."""
+    joints, total = way.whole.joints, np.zeros((len(keep), len(way.robot.actuators)))
+    state = joints.q[keep], joints.v[keep], joints.a[keep]
+    rubs = (way.robot.model.upperDryFrictionLimit > 0) & creeping.any(axis=0)
+    if not rubs.any():
+        return total
+    without = _torque(way, *state, sliding)
+    for joint in np.flatnonzero(rubs):
+        one = sliding.copy()
+        one[creeping[:, joint], joint] = 1.0
+        total += np.abs(_torque(way, *state, one) - without)
+    return total
+
+
+def _torque(way: Way, q: Array, v: Array, a: Array, sliding: Array) -> Array:
+    found = inverse_dynamics(
+        way.robot, q, v, a, sliding=sliding, precision=way.precision, check=False
+    )
+    return np.asarray(found.torque)
+
+
+def judged(way: Way, keep: NDArray[np.intp], pick: NDArray[np.intp]) -> list[Judged | None]:
+    """Numbers of some variants at some samples; None for those that can't be worked out.
+
+    Args:
+        way: How the motion is carried.
+        keep: The samples, shape ``(k,)``.
+        pick: Which curve of each column in each variant, ``(curves, variants)``.
+    """
+    variants = way.motion.variants
+    assert variants is not None
+    moved = variants.moved(itself(way.motion, keep), _since_start(way)[keep], pick)
+    *whole, good = near_motions(way.robot, way.whole, keep, moved, way.precision)
+    return _judged(way, whole, good, None)
+
+
+def _judged(
+    way: Way, whole: Sequence[Array], good: NDArray[np.bool_], sliding: Array | None
+) -> list[Judged | None]:
+    found: list[Judged | None] = [None] * len(good)
+    alive = np.flatnonzero(good)
+    try:
+        every = _dynamics(way, [x[alive] for x in whole], sliding) if len(alive) else None
+    except ThesisPinError:
+        every = None
+    for place, k in enumerate(alive):
+        if every is not None:
+            found[k] = Judged(**{name: x[place : place + 1] for name, x in vars(every).items()})
+            continue
+        with suppress(ThesisPinError):
+            found[k] = _dynamics(way, [x[k : k + 1] for x in whole], sliding)
+    return found
+
+
+def _dynamics(way: Way, whole: Sequence[Array], sliding: Array | None) -> Judged:
+    q, v, a = whole
+    dynamics = inverse_dynamics(
+        way.robot,
+        q,
+        v,
+        a,
+        precision=way.precision,
+        external=way.external,
+        sliding=sliding,
+    )
+    force = np.linalg.norm(dynamics.force, axis=-1)
+    return Judged(dynamics.torque, v[..., way.robot.actuated], force)
+
+
+def _stacked(found: Sequence[Judged]) -> Judged:
+    names = vars(found[0])
+    return Judged(**{name: np.concatenate([getattr(one, name) for one in found]) for name in names})
