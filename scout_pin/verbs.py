@@ -118,6 +118,8 @@ def new(arguments: argparse.Namespace) -> ExitCode:
     kind, name = arguments.motion or "specification", None
     if arguments.motion and arguments.example:
         raise BadInput("--motion and --example are two files", remedy="Write one at a time")
+    if arguments.specification and not arguments.motion:
+        raise BadInput("--specification means nothing without --motion", remedy="Add --motion sway")
     with Bar("making it"):
         from thesis_pin.report.writers import json_bytes
 
@@ -133,10 +135,10 @@ def new(arguments: argparse.Namespace) -> ExitCode:
             content = (folder / choice("example", arguments.example, names)).read_bytes()
         else:
             content = NEW_PATH.read_bytes()
-    put_new(arguments.file, content, replace=arguments.force)
+    put_new(arguments.target, content, replace=arguments.force)
     if arguments.json:
         document = {"schema": "scout-pin/new", "version": 1, "kind": kind, "robot": name}
-        put(arguments.json, json_bytes(document | {"file": arguments.file}))
+        put(arguments.json, json_bytes(document | {"file": arguments.target}))
     return ExitCode.DONE
 
 

@@ -48,6 +48,10 @@ class Tolerances:
         sole_misfit_tilt: The same of its angles [rad].
         inertia_unfelt: Largest acceleration of a whole motion in which inertia plays no part:
             it moves the zero-moment point of a robot of 0.2 m by 2 µm [m/s²], [rad/s²].
+        far_turned: Angle in radians from which a table is asked whether it is in degrees: tools
+            turn as they need, but seldom by more than once [rad].
+        far_away: Length in metres from which a table is asked whether it is in millimetres: both
+            robots would be lost in a hall of that size [m].
         moves: Travel from which something moves rather than trembles [m], [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
         sole_tilt: Tilt of a sole in the neutral pose below which it counts as level: what
@@ -145,6 +149,8 @@ class Tolerances:
     sole_misfit: float = 1e-2
     sole_misfit_tilt: float = 1e-1
     inertia_unfelt: float = 1e-4
+    far_turned: float = 6.3
+    far_away: float = 50.0
     moves: float = 1e-3
     joint_limit: float = 1e-9
     sole_tilt: float = 5e-3

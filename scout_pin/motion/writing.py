@@ -41,6 +41,29 @@ def rows_of(gait: Gait, samples: int | None = None, *, usual: int = 401) -> np.n
     return np.union1d(even[apart], changes)
 
 
+def supports(gait: Gait, t: np.ndarray) -> list[str]:
+    """Who bears load at each row, so that what is written has the gait's own phases when read.
+
+    A reader takes a change to happen at the first row that shows it, so the row at a change
+    bears the name of the phase that begins there; only where one foot takes over from the
+    other do both stand.
+
+    Args:
+        gait: The gait.
+        t: Times of the rows in its unit, shape ``(n,)``.
+    """
+    lasting = [phase for phase in gait.phases if phase.end > phase.start]
+    begun = np.searchsorted([phase.start for phase in lasting], t, side="right") - 1
+    both = np.asarray(gait.support(t).all(axis=1))
+    found = []
+    for number, at, two in zip(begun.tolist(), t.tolist(), both.tolist(), strict=True):
+        phase = lasting[max(number, 0)]
+        before = lasting[max(number - 1, 0)].support
+        over = at == phase.start and "double" not in (phase.support, before)
+        found.append("double" if over and two else phase.support)
+    return found
+
+
 def _through(curve: object, t: np.ndarray) -> bool:
     """Whether a curve is the spline with free ends through its own nodes."""
     from scipy.interpolate import PPoly

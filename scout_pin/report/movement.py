@@ -13,7 +13,7 @@ from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.model import Scout
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.trajectory import joint_trajectory
-from scout_pin.motion.writing import gait_toml, rows_of
+from scout_pin.motion.writing import gait_toml, rows_of, supports
 from scout_pin.report.document import GaitReport
 from scout_pin.report.stance import branch_asked
 from scout_pin.specification import JOINT_NAMES
@@ -60,7 +60,7 @@ def gait_movement(
 
     return Movement(
         motion.time,
-        {"support": motion.phase},
+        {"support": supports(gait, t)},
         {
             f"{body}_{name}": ("length" if name in "xyz" else "angle", np.asarray(curve(t)))
             for body in BODIES

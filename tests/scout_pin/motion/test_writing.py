@@ -99,3 +99,17 @@ def test_an_ending_says_what_to_write_or_it_is_asked_for():
     assert form_of("b.yml", None) == "joint-trajectory"
     with pytest.raises(ValueError, match=r"'a\.xlsx' doesn't say what to write"):
         form_of("a.xlsx", None)
+
+
+@pytest.mark.parametrize("samples", [61, 101, 1001])
+@pytest.mark.parametrize("form", ["poses", "joints"])
+def test_feet_stand_from_and_until_the_same_instants_when_read_back(given, form, samples, tmp_path):
+    robot, gait = given
+    file = tmp_path / "a.csv"
+    file.write_bytes(content(gait_movement(robot, gait, samples=samples), form, WrittenUnits()))
+    again = scout_pin.load_gait(file, robot=robot)
+    wanted = [(p.start, p.end, p.support) for p in gait.phases if p.end > p.start]
+    found = [(p.start, p.end, p.support) for p in again.phases if p.end > p.start]
+    assert [support for *_, support in found] == [support for *_, support in wanted]
+    times, unit = np.array([p[:2] for p in found]), gait.time_unit
+    np.testing.assert_allclose(times, np.array([p[:2] for p in wanted]) * unit, atol=1e-12)
