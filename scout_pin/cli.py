@@ -52,7 +52,7 @@ def _which_gait(words: argparse.ArgumentParser) -> None:
 
 
 def _which_new(words: argparse.ArgumentParser) -> None:
-    words.add_argument("file", metavar="FILE|-", help="what to write; - is standard output")
+    words.add_argument("target", metavar="FILE|-", help="what to write; - is standard output")
     words.add_argument(
         "--motion",
         choices=("squat", "sway"),

@@ -66,9 +66,15 @@ def motion(arguments: argparse.Namespace, robot: Scout) -> Movement:
     """The gait that the arguments ask for, to be written down."""
     from scout_pin.report.movement import gait_movement
 
+    gait = _gait(arguments, robot)
+    if gait.variants is not None:
+        say(
+            "warning: the samples are smoothed within their resolution, which what is written "
+            "doesn't tell; --smooth none writes them as they are"
+        )
     return gait_movement(
         robot,
-        _gait(arguments, robot),
+        gait,
         samples=arguments.samples,
         time_unit=arguments.time_unit,
         branch=arguments.branch,
@@ -118,6 +124,8 @@ def new(arguments: argparse.Namespace) -> ExitCode:
     kind, name = arguments.motion or "specification", None
     if arguments.motion and arguments.example:
         raise BadInput("--motion and --example are two files", remedy="Write one at a time")
+    if arguments.specification and not arguments.motion:
+        raise BadInput("--specification means nothing without --motion", remedy="Add --motion sway")
     with Bar("making it"):
         from thesis_pin.report.writers import json_bytes
 
@@ -133,10 +141,10 @@ def new(arguments: argparse.Namespace) -> ExitCode:
             content = (folder / choice("example", arguments.example, names)).read_bytes()
         else:
             content = NEW_PATH.read_bytes()
-    put_new(arguments.file, content, replace=arguments.force)
+    put_new(arguments.target, content, replace=arguments.force)
     if arguments.json:
         document = {"schema": "scout-pin/new", "version": 1, "kind": kind, "robot": name}
-        put(arguments.json, json_bytes(document | {"file": arguments.file}))
+        put(arguments.json, json_bytes(document | {"file": arguments.target}))
     return ExitCode.DONE
 
 

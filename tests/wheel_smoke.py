@@ -46,6 +46,8 @@ for script in distribution("thesis-pin").entry_points.select(group="console_scri
         output(script.name, *shlex.split(verb.example))
         print(f"{script.name} {verb.example}", flush=True)
 
+walk = Path("examples/walk.toml").read_text(encoding="utf-8")
+assert output("scout-pin", "new", "-", "--example", "walk.toml") == walk, "examples don't travel"
 report = json.loads(output("scout-pin", "gait", "--json", "-"))
 assert report["summary"]["can_walk"] is False
 motors = json.loads(output("pollard-pin", "trajectory", "--json", "-"))["actuators"]

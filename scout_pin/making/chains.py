@@ -67,8 +67,10 @@ def find_chains(description: Description, left: str | None = None) -> Chains:
         UnknownName: No leg has the joint ``left``.
     """
     beside = description.supplement
-    if beside.closures or beside.couplings or any(j.mimic for j in description.joints.values()):
-        raise _not(description, "it has loops, or joints that follow others")
+    names = [one.name for one in beside.closures] + [one.name for one in beside.couplings]
+    if tied := [shown(name) for name in names]:
+        more = f" and {len(tied) - 3} more" if len(tied) > 3 else ""
+        raise _not(description, f"it has loops or tied joints: {', '.join(tied[:3])}{more}")
     bodies = {body.joint: body for body in moving_bodies(description)}
     root = bodies[""]
     for body in bodies.values():
@@ -79,12 +81,12 @@ def find_chains(description: Description, left: str | None = None) -> Chains:
     for body in bodies.values():
         if body.joint:
             below.setdefault(body.above, []).append(body)
-    found = [list(_chain(first, below, description)) for first in below.get(root.joint, [])]
+    chains = [list(_chain(first, below, description)) for first in below.get(root.joint, [])]
     moving = sorted(name for name in bodies if name and name != root.joint)
-    _check_legs(description, found, moving)
-    sides = _sides(found, left, description)
+    _check_legs(description, chains, moving)
+    sides = _sides(chains, left, description)
     frames = {
-        name: tuple(_turns(chain, description)) for name, chain in zip(sides, found, strict=True)
+        name: tuple(_turns(chain, description)) for name, chain in zip(sides, chains, strict=True)
     }
     return Chains(root, {side: frames[side] for side in SIDES})
 

@@ -43,7 +43,7 @@ def _lines(spec: Specification, notes: Sequence[str]) -> Iterator[str]:
         yield f"[servos.{_text(name)}]"
         yield f"stall_torque = {servo.stall_torque!r} # N·m"
         yield f"no_load_speed = {servo.no_load_speed!r} # rad/s"
-        yield f"size = {_list(servo.size)}"
+        yield f"size = {_list(servo.size)} # m, to draw it and to judge its power by"
         if servo.rotor_inertia:
             yield f"rotor_inertia = {servo.rotor_inertia!r} # kg·m², about the motor's axis"
             yield f"gear_ratio = {servo.gear_ratio!r}"

@@ -54,7 +54,7 @@ def supports(gait: Gait, t: np.ndarray) -> list[str]:
     """
     lasting = [phase for phase in gait.phases if phase.end > phase.start]
     begun = np.searchsorted([phase.start for phase in lasting], t, side="right") - 1
-    both = gait.support(t).all(axis=1)
+    both = np.asarray(gait.support(t).all(axis=1))
     found = []
     for number, at, two in zip(begun.tolist(), t.tolist(), both.tolist(), strict=True):
         phase = lasting[max(number, 0)]

@@ -5,7 +5,7 @@ import re
 import pytest
 from commands import OUTPUTS, ROOT, VERBS, example, flags, into, run
 
-ERROR = re.compile(r"^[a-z]+-pin( [a-z]+)?: error: ", flags=re.MULTILINE)
+ERROR = re.compile(r"^[a-z]+-pin( [a-z-]+)?: error: ", flags=re.MULTILINE)
 
 HOPELESS = {"nothing": "", "two dashes": "--", "a NUL": "\0x", "far too long": "9" * 5000}
 """Values that no flag of any command takes."""
@@ -87,6 +87,9 @@ NUMBERS = {
     "--z": {"0", "-1", "2.5"},
     "pose": {"0", "-1", "2.5"},
     "motors": {"0", "-1", "2.5"},
+    "--sole": {"2.5"},
+    "--servo": {"2.5"},
+    "--friction": {"2.5"},
 }
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
@@ -118,7 +121,9 @@ CONTRADICTIONS = {
         ["--branch=+-"],
     ],
     "scout-pin ik": [["--branch=+-"]],
-    "scout-pin info": [],
+    "scout-pin info": [["--json", "-", "--html", "-"]],
+    "scout-pin new": [["--specification", "examples/lopsided.toml"], ["--example", "none"]],
+    "scout-pin from-urdf": [["--json", "-", "--to", "-"], ["--left", "none"]],
     "scout-pin urdf": [],
     "scout-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
     "pollard-pin trajectory": [
@@ -134,7 +139,7 @@ CONTRADICTIONS = {
     "pollard-pin ik": [["--branch=+-"]],
     "pollard-pin fk": [],
     "pollard-pin workspace": [["--x", "0.8", "0.1"], ["--z", "0", "1", "2"], ["--branch=+-"]],
-    "pollard-pin info": [],
+    "pollard-pin info": [["--json", "-", "--html", "-"]],
     "pollard-pin urdf": [],
     "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
     "thesis-pin check": [],

@@ -8,6 +8,7 @@ import pinocchio as pin
 import pytest
 
 import scout_pin
+from scout_pin.implausible import implausible
 from scout_pin.making.from_urdf import from_urdf
 from scout_pin.making.text import toml
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
@@ -52,6 +53,62 @@ def test_our_own_urdf_gives_the_same_robot(name, tmp_path, rng):
     for side in SIDES:  # what a mesh holds, in single precision
         outlines = [np.array(sorted(s.leg(side).sole)) for s in (spec, text)]
         np.testing.assert_allclose(outlines[1], outlines[0], atol=1e-7)
+
+
+def ros_biped(left="left", right="right", yaw="0 0 1"):
+    """As such robots are written for ROS: x forward, all frames alike, legs straight, boxes."""
+    yield '<robot name="ros biped">'
+    yield from ros_link("base_link", 2.0)
+    for side, y in ((left, 0.1), (right, -0.1)):
+        above = "base_link"
+        for name, axis, xyz in (
+            ("hip_yaw", yaw, f"0 {y} -0.05"),
+            ("hip_roll", "1 0 0", "0 0 0"),
+            ("hip_pitch", "0 1 0", "0 0 0"),
+            ("knee", "0 1 0", "0 0 -0.25"),
+            ("ankle_pitch", "0 1 0", "0 0 -0.3"),
+            ("ankle_roll", "1 0 0", "0 0 0"),
+        ):
+            foot = '<collision><origin xyz="0.03 0 -0.04"/><geometry><box size="0.16 0.08 0.02"/>'
+            shape = f"{foot}</geometry></collision>" if name == "ankle_roll" else ""
+            yield from ros_link(f"{side}_{name}_link", 0.4, shape)
+            yield (
+                f'<joint name="{side}_{name}" type="revolute"><parent link="{above}"/>'
+                f'<child link="{side}_{name}_link"/><origin xyz="{xyz}"/><axis xyz="{axis}"/>'
+                '<limit lower="-1.5" upper="1.2" effort="40" velocity="8"/></joint>'
+            )
+            above = f"{side}_{name}_link"
+    yield "</robot>"
+
+
+def ros_link(name, mass, more=""):
+    yield (
+        f'<link name="{name}"><inertial><origin xyz="0 0 -0.02"/><mass value="{mass}"/>'
+        '<inertia ixx="0.002" iyy="0.002" izz="0.002" ixy="0" ixz="0" iyz="0"/></inertial>'
+        f"{more}</link>"
+    )
+
+
+def test_a_biped_written_for_ros_has_the_lengths_its_file_says(tmp_path):
+    found = from_urdf(written(tmp_path / "ros.urdf", ros_biped()))
+    spec = found.specification
+    for side in SIDES:
+        leg = spec.leg(side)
+        lengths = [leg.x_0, leg.z_1, leg.x_2, leg.x_3, leg.x_4, leg.x_5, leg.y_6]
+        np.testing.assert_allclose(lengths, [0.1, 0.05, 0, 0.25, 0.3, 0, 0.05], atol=1e-15)
+        box = [(-0.04, -0.05), (-0.04, 0.11), (0.04, -0.05), (0.04, 0.11)]
+        np.testing.assert_allclose(sorted(leg.sole), box, atol=1e-15)
+    np.testing.assert_allclose(found.torso[:3, 1], [1, 0, 0], atol=1e-15)  # its x is forward
+    assert spec.name == "ros_biped"
+    assert spec.mass == pytest.approx(2.0 + 12 * 0.4)
+    assert implausible(spec) == []
+    feet = scout_pin.load(spec).neutral_feet()
+    np.testing.assert_allclose(feet["left"][:3, 3], [-0.1, 0, -0.65], atol=1e-15)
+    # A yaw axis that points down counts the other way.
+    other = from_urdf(written(tmp_path / "down.urdf", ros_biped(yaw="0 0 -1")))
+    assert [int(x) for x in other.signs] == [-1, 1, 1, 1, 1, 1] * 2
+    lower, upper = other.specification.assumptions.joint_range.radians()
+    np.testing.assert_allclose([lower[0], upper[0]], [-1.2, 1.5], atol=1e-12)
 
 
 def random_rotation(rng):
