@@ -66,9 +66,15 @@ def motion(arguments: argparse.Namespace, robot: Scout) -> Movement:
     """The gait that the arguments ask for, to be written down."""
     from scout_pin.report.movement import gait_movement
 
+    gait = _gait(arguments, robot)
+    if gait.variants is not None:
+        say(
+            "warning: the samples are smoothed within their resolution, which what is written "
+            "doesn't tell; --smooth none writes them as they are"
+        )
     return gait_movement(
         robot,
-        _gait(arguments, robot),
+        gait,
         samples=arguments.samples,
         time_unit=arguments.time_unit,
         branch=arguments.branch,

@@ -38,6 +38,8 @@ class Tolerances:
         outlier_move: Acceleration that a single sample beside its neighbours would take, from
             which it counts as wrong [m/s²]: slower corners may be meant.
         outlier_turn: The same of angular accelerations [rad/s²].
+        node_step: Time between rows [s] from which what scatters about a smooth curve is taken for
+            motion rather than noise: those who write nodes by hand write no more of them.
         stance_near: How far from its place a foot may be that a log's first or last row of
             a stance has standing: a switch under the sole closes that early [m].
         stance_near_tilt: The same of its angles [rad].
@@ -46,6 +48,10 @@ class Tolerances:
         sole_misfit_tilt: The same of its angles [rad].
         inertia_unfelt: Largest acceleration of a whole motion in which inertia plays no part:
             it moves the zero-moment point of a robot of 0.2 m by 2 µm [m/s²], [rad/s²].
+        far_turned: Angle in radians from which a table is asked whether it is in degrees: tools
+            turn as they need, but seldom by more than once [rad].
+        far_away: Length in metres from which a table is asked whether it is in millimetres: both
+            robots would be lost in a hall of that size [m].
         moves: Travel from which something moves rather than trembles [m], [rad].
         joint_limit: Excess still taken as inside a joint limit [rad].
         sole_tilt: Tilt of a sole in the neutral pose below which it counts as level: what
@@ -135,13 +141,16 @@ class Tolerances:
     exact_move: float = 5e-4
     exact_turn: float = 1e-2
     exact_rate: float = 1e-6
-    outlier_move: float = 0.5
-    outlier_turn: float = 5.0
+    outlier_move: float = 0.05
+    outlier_turn: float = 0.5
+    node_step: float = 0.1
     stance_near: float = 1e-3
     stance_near_tilt: float = 1e-2
     sole_misfit: float = 1e-2
     sole_misfit_tilt: float = 1e-1
     inertia_unfelt: float = 1e-4
+    far_turned: float = 6.3
+    far_away: float = 50.0
     moves: float = 1e-3
     joint_limit: float = 1e-9
     sole_tilt: float = 5e-3

@@ -10,7 +10,8 @@ import numpy as np
 
 from pollard_pin.motion import naming
 from thesis_pin.errors import BadInput, TrajectoryError
-from thesis_pin.tables.meaning import Chosen, chosen, known_names, time_column, time_names
+from thesis_pin.tables.doubts import doubted
+from thesis_pin.tables.meaning import Chosen, chosen, known_names, reader, time_column, time_names
 from thesis_pin.tables.reading import read_table
 from thesis_pin.tables.table import Column, Table
 from thesis_pin.tables.units import ANGLE, LENGTH, PLAIN, TIME, Unit, headings
@@ -92,7 +93,7 @@ def read_poses(file: str | Path, euler: str | None = None) -> PoseTable:
     """
     if euler is not None:
         naming.check_order(euler)
-    table = read_table("path", file, bare=_BARE)
+    table = read_table("path", file, bare=_BARE, means=reader(_KNOWN))
     columns, unused = chosen(table, _KNOWN, tuple(_UNITS), lenient=True)
     form = _form(table, columns)
     timed = "t" in columns
@@ -104,11 +105,12 @@ def read_poses(file: str | Path, euler: str | None = None) -> PoseTable:
     time = time_column(table, columns) if timed else None
     position = tuple(table.column(*columns[name], name) for name in _PLACE)
     orientation = tuple(table.column(*columns[name], name) for name in form)
+    asked = doubted(table.file, position, orientation if form[0] != "qx" else ())
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} poses", where=table.file, allowed="at least 2")
     values = np.stack([column.values for column in orientation], axis=-1)
     rotation, said = _oriented(table, form, values, euler)
-    notes = [*table.dialect.notes, *said]
+    notes = [*table.dialect.notes, *asked, *said]
     if unused:
         names = ", ".join(sorted(unused, key=table.header.index))
         notes.append(f"these columns mean nothing here and aren't used: {names}")

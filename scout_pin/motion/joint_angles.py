@@ -124,7 +124,7 @@ def _refuse_range(robot: Scout, table: Table, angles: Sequence[Column]) -> None:
         if (over > TOLERANCES.joint_limit + column.quantum).any():
             row = int(np.argmax(over))
             value = float(column.values[row])
-            plain = column.heading == name and abs(value) > 2 * np.pi
+            plain = column.unit.size == 1.0 and abs(value) > np.pi
             raise TrajectoryError(
                 f"{name} is {value:.6g} rad",
                 where=table.where(row),

@@ -23,6 +23,7 @@ from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.interpolation import constant, interpolate
+from thesis_pin.tables.doubts import doubted
 from thesis_pin.tables.meaning import chosen, known_names, text_names, time_column, time_names
 from thesis_pin.tables.reading import read_table
 from thesis_pin.tables.table import Column, Table, alike
@@ -101,14 +102,17 @@ def read_gait_table(path: str | Path, robot: Scout | None = None) -> GaitSamples
         raise TrajectoryError(f"{len(table)} samples", where=table.file, allowed="at least 4")
     time = time_column(table, columns)
     support = table.texts(columns["support"][0]) if "support" in columns else []
+    support = [name if name in SUPPORTS else name.casefold() for name in support]
     for row, name in enumerate(support):
         if name not in SUPPORTS:
             raise UnknownName("support", name, SUPPORTS, where=table.where(row))
     found = [table.column(*columns[name], name) for name in POSES if name in columns]
-    lengths = alike([column for column in found if column.name[-1] in "xyz"])
-    turns = alike([_unwrapped(column) for column in found if column.name[-1] not in "xyz"])
+    places = [column for column in found if column.name[-1] in "xyz"]
+    angular = [column for column in found if column.name[-1] not in "xyz"]
+    asked = doubted(table.file, places, angular)
+    lengths, turns = alike(places), alike([_unwrapped(column) for column in angular])
     poses = {column.name: column for column in (*lengths, *turns)}
-    samples = GaitSamples(table, time, tuple(support), poses, (), table.dialect.notes)
+    samples = GaitSamples(table, time, tuple(support), poses, (), (*table.dialect.notes, *asked))
     if not joints:
         return samples
     missing = [name for name in JOINT_NAMES if name not in columns]

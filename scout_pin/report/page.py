@@ -50,11 +50,14 @@ def gait_page(report: GaitReport) -> bytes:
 def _tiles(report: GaitReport) -> list[Tile]:
     use = report.servo_use.max()
     used, held = report.peak_friction_used, report.headlines
+    margin = None if held is None else held.margin
+    peaks = report.actuators.peak_torque
+    most = None if held is None else held.peak_torque[int(peaks.argmax())]
     return [
         Tile(
             "worst ZMP margin",
-            f"{report.margin.min() * 1e3:z.1f} mm",
-            _side(None if held is None else held.margin, float(report.margin.min()), 0.0),
+            f"{report.margin.min() * 1e3:z.1f} mm" + _bounds(margin, 1e3, 1),
+            _side(margin, float(report.margin.min()), 0.0),
         ),
         Tile(
             "samples whose wrench the floor can give",
@@ -62,13 +65,20 @@ def _tiles(report: GaitReport) -> list[Tile]:
             bool(report.dynamics.admissible.all()),
         ),
         Tile("worst use of a servo's torque-speed line", f"{use:.0%}", report.servos_carry),
-        Tile("peak torque", f"{report.actuators.peak_torque.max():.3f} N·m"),
+        Tile("peak torque", f"{peaks.max():.3f} N·m" + _bounds(most, 1.0, 3)),
         _clearance(report),
         Tile("soles apart, least", f"{report.sole_gap[0] * 1e3:.1f} mm", not report.soles_collide),
         _time_units(report),
         Tile("work of all servos", f"{report.actuators.positive_work.sum() * 1e3:.0f} mJ"),
         Tile("friction used, most", "–" if used is None else f"{used:.0%}"),
     ]
+
+
+def _bounds(held: Interval | None, factor: float, digits: int) -> str:
+    """An interval behind its number; nothing if there is none."""
+    if held is None:
+        return ""
+    return f" ({held.low * factor:z.{digits}f} to {held.high * factor:z.{digits}f})"
 
 
 def _side(held: Interval | None, value: float, limit: float) -> bool | None:

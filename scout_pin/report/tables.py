@@ -57,8 +57,7 @@ def summary(report: GaitReport) -> Iterator[Part]:
         f"Servo limits: {'; '.join(servo_limits(s.specification))}; "
         "'servo' is |τ|/stall + |ω|/no-load, at most 100%.",
         f"Fastest time unit by speed {f.speed:.4f} s, by torque {torque}, by both (line) {line}.",
-        f"ZMP margin: worst {report.margin.min() * 1e3:z.1f} mm; stable in "
-        f"{report.stable_share:.1%} of the time.",
+        f"ZMP margin: worst {_margin(report)}; stable in {report.stable_share:.1%} of the time.",
         f"Floor wrench: admissible in {report.dynamics.admissible.mean():.1%} of samples; "
         "friction used up to " + ("–." if used is None else f"{used:.0%}."),
         _clearance(report),
@@ -95,6 +94,15 @@ def _left_out(report: GaitReport) -> Iterator[str]:
             "left out: neighbours"
             + (f", and what touches in the neutral pose: {touching}." if touching else ".")
         )
+
+
+def _margin(report: GaitReport) -> str:
+    """The least margin, with its interval if samples leave it one."""
+    if report.headlines is None:
+        return f"{report.margin.min() * 1e3:z.1f} mm"
+    from thesis_pin.report.resolution import millimetres
+
+    return millimetres(report.headlines.margin)
 
 
 def _clearance(report: GaitReport) -> str:

@@ -123,7 +123,8 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         if arguments.units and form == "joint-trajectory":
             raise BadInput("a joint trajectory is in SI", remedy="Leave --units out")
         loaded = _load(robot, arguments)
-        motion: Movement = _hook(robot, robot.moves)(arguments, loaded)
+        with warned():
+            motion: Movement = _hook(robot, robot.moves)(arguments, loaded)
         servos = USUAL
         if arguments.servos is not None:
             servos = read_servos(arguments.servos, motion.joints)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from thesis_pin.command.text import say
 from thesis_pin.errors import BadInput, ModelWarning
@@ -20,16 +20,25 @@ def warned(strict: bool = False) -> Iterator[None]:
     Raises:
         BadInput: There are some and they are errors.
     """
-    with warnings.catch_warnings(record=True) as found:
-        warnings.simplefilter("always", ModelWarning)
-        yield
+    found: list[warnings.WarningMessage] = []
+    try:
+        with warnings.catch_warnings(record=True) as found:
+            warnings.simplefilter("always", ModelWarning)
+            yield
+    except BaseException:
+        _say(found)  # what was warned of may be why
+        raise
     odd = [str(one.message) for one in found if issubclass(one.category, ModelWarning)]
     if strict and odd:
         raise BadInput(
             "; ".join(odd), where="--strict", remedy="Correct the sizes, or leave --strict out"
         )
-    for text in odd:
-        say(f"warning: {text}")
+    _say(found)
+
+
+def _say(found: Sequence[warnings.WarningMessage]) -> None:
     for one in found:
-        if not issubclass(one.category, ModelWarning):
+        if issubclass(one.category, ModelWarning):
+            say(f"warning: {one.message}")
+        else:
             warnings.showwarning(one.message, one.category, one.filename, one.lineno)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import select
 import stat
 import time
@@ -13,6 +14,7 @@ from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import shown
 
 _CHUNK = 2**20
+_CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 
 
 def read_bytes(kind: str, path: str | Path, most: int) -> bytes:
@@ -67,6 +69,52 @@ def read_text(kind: str, path: str | Path, most: int = LIMITS.toml_bytes) -> str
     except UnicodeDecodeError:
         raise BadInput(f"can't read the {kind}: it isn't UTF-8 text", where=str(path)) from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def read_any_text(kind: str, path: str | Path, most: int) -> tuple[str, str]:
+    """Text of a file in UTF-8 or in what spreadsheets write instead of it.
+
+    Args:
+        kind: What the file is, for messages.
+        path: The file.
+        most: Bytes at most.
+
+    Returns:
+        The text, and the encoding if it isn't UTF-8: ``"UTF-16"`` or ``"Windows-1252"``.
+
+    Raises:
+        BadInput: As :func:`read_bytes`, or it is none of them.
+    """
+    content = read_bytes(kind, path, most)
+    found = _decoded(content)
+    if found is None:
+        sheet = content.startswith((b"PK\x03\x04", b"\xd0\xcf\x11\xe0"))
+        raise BadInput(
+            f"can't read the {kind}: it isn't text in UTF-8, UTF-16 or Windows-1252",
+            where=str(path),
+            remedy="Save the sheet as CSV" if sheet else "",
+        )
+    text, encoding = found
+    return text.replace("\r\n", "\n").replace("\r", "\n"), encoding
+
+
+def _decoded(content: bytes) -> tuple[str, str] | None:
+    """Text and encoding of bytes; None if they aren't text."""
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        tries = [("utf-16", "UTF-16")]
+    elif b"\0" in content[:2]:  # the first character is one that a header begins with
+        tries = [("utf-16-be" if content[:1] == b"\0" else "utf-16-le", "UTF-16")]
+    else:
+        tries = [("utf-8-sig", ""), ("cp1252", "Windows-1252")]
+    for codec, name in tries:
+        try:
+            text = content.decode(codec)
+        except UnicodeDecodeError:
+            continue
+        if name and _CONTROL.search(text):
+            return None
+        return text, name
+    return None
 
 
 def _from_file(path: str | Path, most: int) -> bytes:

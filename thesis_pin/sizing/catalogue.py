@@ -23,6 +23,7 @@ from thesis_pin.model.specification import Strict, read_toml
 from thesis_pin.sizing.actuator import Actuator
 from thesis_pin.sizing.bam import read_identified
 from thesis_pin.sizing.rows import Cell, actuators_of, meanings_of, unsaid
+from thesis_pin.sizing.units import understood
 from thesis_pin.tables.reading import read_table
 
 KIND = "list of servos"
@@ -102,7 +103,7 @@ def _read(path: str | Path, voltage: float | None) -> tuple[list[Actuator], list
         return found, notes
     if where.lower().endswith(".json"):
         return [read_identified(read_text(KIND, path), where, voltage)], []
-    table = read_table(KIND, path)
+    table = read_table(KIND, path, means=understood)
     meanings = meanings_of(table.header, where)
     comma = table.dialect.decimal == ","
     rows: list[dict[str, Cell]] = [

@@ -34,16 +34,18 @@ class Dialect:
         separator: What stands between cells, a key of :data:`MARKS`.
         decimal: Decimal mark, ``"."`` or ``","``.
         header: Line of the header where that is a comment (``# t, x``); 0 where it is not.
+        encoding: Of its text, where that isn't UTF-8.
     """
 
     separator: str = ","
     decimal: str = "."
     header: int = 0
+    encoding: str = ""
 
     @property
     def notes(self) -> tuple[str, ...]:
         """What isn't plain CSV about it, for people, without a full stop; empty if nothing is."""
-        said = []
+        said = [f"as {self.encoding}, since it isn't UTF-8"] if self.encoding else []
         if self.separator != ",":
             said.append(f"with {MARKS[self.separator]} between cells")
         if self.decimal != ".":

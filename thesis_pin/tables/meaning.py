@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+import re
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from thesis_pin.errors import BadInput, UnknownName
@@ -59,6 +60,51 @@ def text_names(*names: str) -> dict[str, list[Meaning]]:
     return {name: [Meaning(name, PLAIN[0], name)] for name in names}
 
 
+_BRACKETS = re.compile(r"(.*?)[\s_]*[\[(]\s*([^\[\]()]*?)\s*[\])]")
+_SPELT = (
+    ("°", "deg"),
+    ("degrees", "deg"),
+    ("degree", "deg"),
+    ("radians", "rad"),
+    ("millimetres", "mm"),
+    ("millimeters", "mm"),
+    ("milliseconds", "ms"),
+    ("microseconds", "us"),
+    ("seconds", "s"),
+    ("sec", "s"),
+    ("µ", "u"),
+    ("μ", "u"),
+    ("²", "2"),
+    ("^", ""),
+    ("ψ", "psi"),
+    ("θ", "theta"),
+    ("φ", "phi"),
+)
+
+
+def spelt(heading: str) -> str:
+    """A heading in our spelling: ``Time [ms]`` → ``time_ms``, ``X (mm)`` → ``x_mm``.
+
+    A lone T, which may be a temperature or a tool, stays as it is.
+    """
+    if heading == "T":
+        return heading
+    text = heading.strip().casefold()
+    found = _BRACKETS.fullmatch(text)
+    name, unit = found.groups() if found else (text, "")
+    for written, meant in _SPELT:
+        name, unit = name.replace(written, meant), unit.replace(written, meant)
+    return "_".join(filter(None, re.split(r"[\s/_·-]+", f"{name} {unit}")))
+
+
+def reader(known: Known) -> Callable[[str], Sequence[Meaning]]:
+    """What a heading may mean: as it is written, else in our spelling; nothing, if neither."""
+    folded: dict[str, list[Meaning]] = {}
+    for name, meanings in known.items():
+        folded.setdefault(spelt(name), []).extend(meanings)
+    return lambda heading: known.get(heading, ()) or folded.get(spelt(heading), ())
+
+
 def chosen(
     table: Table, known: Known, allowed: Sequence[str], *, lenient: bool = False
 ) -> tuple[Chosen, list[str]]:
@@ -79,13 +125,16 @@ def chosen(
     """
     found: Chosen = {}
     unused = []
+    look = reader(known)
+    exact = {one.quantity for heading in table.header for one in known.get(heading, ())}
     for place, heading in enumerate(table.header):
-        meanings = known.get(heading)
+        meanings = look(heading)
         if not heading:
-            if any(row[place] for row in table.rows):
+            if any(row[place] for row in table.rows) and not (place == 0 and _counts(table)):
                 raise BadInput(f"column {place + 1} has no name", where=table.file)
             continue
-        if meanings is None:
+        named_by_another = heading not in known and exact & {one.quantity for one in meanings}
+        if not meanings or (lenient and named_by_another):
             if not lenient:
                 raise _unknown(table, heading, known, allowed)
             unused.append(heading)
@@ -125,8 +174,17 @@ def time_column(table: Table, columns: Chosen) -> Column:
     return time
 
 
+def _counts(table: Table) -> bool:
+    """Whether the first column numbers the rows, as data frames write it."""
+    first = table.rows[0][0] if table.rows else ""
+    if not first.isdecimal() or len(first) > 9:
+        return False
+    return all(row[0] == str(k) for k, row in enumerate(table.rows, start=int(first)))
+
+
 def _unknown(table: Table, name: str, known: Known, allowed: Sequence[str]) -> UnknownName:
     near = difflib.get_close_matches(name, known, 3, CLOSE)
+    near = near or difflib.get_close_matches(name.casefold(), known, 3, CLOSE)
     if not near:  # a name that only lacks or has another unit
         near = [one for one in known if name and (one.startswith(name) or name.startswith(one))]
     remedy = f"Did you mean {' or '.join(map(repr, near[:3]))}?" if near else ""

@@ -9,14 +9,14 @@ import csv
 import io
 import itertools
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from thesis_pin.errors import BadInput
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.source import read_text
+from thesis_pin.model.source import read_any_text
 from thesis_pin.tables.dialect import MARKS, NUMBER, Dialect, decimal_of, separator_of, split
 from thesis_pin.tables.table import Table
 
@@ -31,32 +31,41 @@ _Row = tuple[int, tuple[str, ...]]
 """Number of a line, from 1, and its cells."""
 
 
-def read_table(kind: str, file: str | Path, *, bare: Sequence[str] = ()) -> Table:
+def read_table(
+    kind: str,
+    file: str | Path,
+    *,
+    bare: Sequence[str] = (),
+    means: Callable[[str], object] | None = None,
+) -> Table:
     """A table with a header from a text file.
 
     Args:
         kind: What the file is, for messages ("gait", "path").
         file: The file.
         bare: Names of the columns of a table that has no header; none, where it has to.
+        means: Whether a column of that name is used; how numbers are written in others, as
+            prices, doesn't matter. None: all are.
 
     Raises:
         BadInput: It can't be read, is empty, has no header, lines of different widths or two
             decimal marks, or passes a limit of :mod:`thesis_pin.model.limits`.
     """
     name = str(file)
-    text, separator = _separated(read_text(kind, file, LIMITS.csv_bytes))
+    whole, encoding = read_any_text(kind, file, LIMITS.csv_bytes)
+    text, separator = _separated(whole)
     rows = list(_bounded(kind, name, _rows(kind, name, text, separator)))
     if not rows:
         raise BadInput(f"the {kind} is empty", where=name)
+    header, commented = _header(kind, name, text, rows, bare, separator)
     decimal = "."
     if separator != "," or '"' in text:
-        decimal = decimal_of(name, rows)
-    header, commented = _header(kind, name, text, rows, bare, separator)
+        decimal = decimal_of(name, _used(rows, header, means))
     if not commented and not _numeric(rows[0][1]):
         rows = rows[1:]
     cells = list(_of_one_width(name, rows, header, commas=separator == ","))
     lines = np.array([line for line, _ in rows], dtype=np.intp)
-    return Table(name, header, lines, cells, Dialect(separator, decimal, commented))
+    return Table(name, header, lines, cells, Dialect(separator, decimal, commented, encoding))
 
 
 def _separated(text: str) -> tuple[str, str]:
@@ -146,6 +155,18 @@ def _header(
             remedy="Write the columns' names into the first line",
         )
     return tuple(bare), 0
+
+
+def _used(
+    rows: Sequence[_Row], header: Sequence[str], means: Callable[[str], object] | None
+) -> Sequence[_Row]:
+    """The rows with the cells of those columns only that are used."""
+    if means is None:
+        return rows
+    places = [k for k, heading in enumerate(header) if means(heading)]
+    if not places or len(places) == len(header):
+        return rows
+    return [(line, tuple(cells[k] for k in places if k < len(cells))) for line, cells in rows]
 
 
 def _without_last(cells: tuple[str, ...]) -> tuple[str, ...]:

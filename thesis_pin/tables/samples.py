@@ -17,6 +17,7 @@ from thesis_pin.tolerances import TOLERANCES
 Array = NDArray[np.float64]
 
 _CLOSE = 1e-3  # of the usual step: rows nearer than this are two of the same instant
+_FAR = 6.0  # times the usual distance from a curve that none of many samples of noise reaches
 _MOST = 10  # pairs of rows that are named
 
 
@@ -144,3 +145,45 @@ def close_rows(samples: Samples) -> Iterator[str]:
             f"{samples.table.between((int(row), int(row) + 1))}: these rows are only "
             f"{steps[row]:.2g} s apart"
         )
+
+
+def scatter(
+    samples: Samples, resolved: Mapping[str, float], curves: Mapping[str, Array]
+) -> tuple[bool, tuple[str, ...]]:
+    """Whether what smooth curves leave out is motion, and a note on what it is taken for.
+
+    Args:
+        samples: The samples.
+        resolved: Of :func:`quanta`.
+        curves: Values of the curves at the samples, by the columns' names.
+
+    Returns:
+        True if rows are so far apart that their scatter is taken for motion.
+    """
+    largest = {True: 0.0, False: 0.0}
+    names = []
+    for name, values in curves.items():
+        off = np.abs(samples.columns[name].values - values)
+        usual, worst, turns = (
+            float(np.sqrt(np.mean(off**2))),
+            float(off.max()),
+            name in samples.turning,
+        )
+        # Rounding leaves a third of a step, half of one at most.
+        if usual > resolved[name] or worst > max(1.5 * resolved[name], _FAR * usual):
+            names.append(name)
+            largest[turns] = max(largest[turns], worst)
+    if not names:
+        return False, ()
+    sizes = [f"{largest[False] * 1e3:.2g} mm"] * (largest[False] > 0)
+    sizes += [f"{np.degrees(largest[True]):.2g}°"] * (largest[True] > 0)
+    found = (
+        f"{', '.join(names)}: rows scatter about a smooth curve by up to {' and '.join(sizes)}, "
+    )
+    step = float(np.median(np.diff(samples.time.values)))
+    if step >= TOLERANCES.node_step:
+        return True, (
+            f"{found}which at {step:.3g} s from row to row is taken for motion: curves pass "
+            "through every row",
+        )
+    return False, (f"{found}which is taken for noise; --smooth none takes it for motion",)

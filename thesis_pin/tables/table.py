@@ -15,7 +15,7 @@ from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import shown
 from thesis_pin.tables.dialect import Dialect
 from thesis_pin.tables.resolution import quantum
-from thesis_pin.tables.units import Unit
+from thesis_pin.tables.units import SI, Unit
 
 Array = NDArray[np.float64]
 
@@ -29,12 +29,14 @@ class Column:
         values: In SI, shape ``(n,)``.
         quantum: Smallest step that its text resolves, in SI; 0.0 if unknown.
         heading: What it is called in the file, for messages.
+        unit: What it is written in.
     """
 
     name: str
     values: Array
     quantum: float = 0.0
     heading: str = ""
+    unit: Unit = SI
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +88,7 @@ class Table:
             cells = [cell.replace(",", ".") for cell in cells]
         values = self._values(cells, place, name, unit) * unit.factor
         step = float(quantum(cells, values / unit.size)) * unit.size
-        return Column(name, values, step, self.header[place])
+        return Column(name, values, step, self.header[place], unit)
 
     def _values(self, cells: Sequence[str], place: int, name: str, unit: Unit) -> Array:
         tail = f"e{unit.tens}" if unit.tens else ""

@@ -32,6 +32,9 @@ class Unit:
 
 Units = tuple[Unit, ...]
 
+SI = Unit("")
+"""What a name without a unit is in."""
+
 LENGTH: Units = (Unit(""), Unit("_m"), Unit("_mm", -3), Unit("_cm", -2))
 ANGLE: Units = (Unit(""), Unit("_rad"), Unit("_deg", factor=math.pi / 180))
 TIME: Units = (Unit(""), Unit("_s"), Unit("_ms", -3), Unit("_us", -6))

@@ -55,8 +55,11 @@ def reason(numbers: GaitNumbers) -> str | None:
 def _left_open(numbers: GaitNumbers, held: Headlines) -> str:
     peak, use = numbers.actuators.peak_torque, numbers.servo_use
     j, k = int(np.argmax(peak)), int(np.argmax(use))
+    worst, last = int(numbers.margin.argmin()), len(numbers.margin) - 1
+    end = {0: " (worst at the start, where", last: " (worst at the end, where"}.get(worst, "")
+    end += " samples say least)" if end else ""
     return (
-        f"The samples' resolution leaves open: margin {millimetres(held.margin)}; peak torque "
+        f"The samples' resolution leaves open: margin {millimetres(held.margin)}{end}; peak torque "
         f"({JOINT_NAMES[j]}) {newton_metres(held.peak_torque[j])}; torque-speed line "
         f"({JOINT_NAMES[k]}) {percent(held.servo_use[k])}."
     )

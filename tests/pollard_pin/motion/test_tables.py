@@ -9,7 +9,8 @@ from scipy.spatial.transform import Rotation
 import pollard_pin
 from pollard_pin.motion.files import load_path
 from pollard_pin.motion.naming import from_euler, said_order
-from thesis_pin.errors import BadInput, SpecificationError, TrajectoryError
+from pollard_pin.motion.tables import read_poses
+from thesis_pin.errors import BadInput, ModelWarning, SpecificationError, TrajectoryError
 
 FORMS = ("psi", "quaternion", "negated", "rotation vector", "rpy", "ZYX", "ZYZ", "xyz")
 
@@ -246,3 +247,28 @@ def test_flags_of_tables_are_refused_beside_toml(tmp_path):
     for flags, key in (({"euler": "ZYX"}, "euler"), ({"feed": 0.1}, "speed")):
         with pytest.raises(BadInput, match=f"{key} = "):
             load_path(file, **flags)
+
+
+def test_a_path_as_a_robot_s_sheet_has_it_is_the_same_path(tmp_path):
+    plain, sheet = tmp_path / "plain.csv", tmp_path / "sheet.csv"
+    plain.write_text("t,x,y,z,psi,theta,phi\n0,0.45,0,0.3,0,0,0\n1,0.46,0,0.3,0,0,0\n")
+    sheet.write_bytes(
+        "\tTime [ms]\tX (mm)\tY (mm)\tZ (mm)\tψ [°]\tθ [°]\tφ [°]\tPrice\r\n"
+        "0\t0\t450\t0\t300\t0\t0\t0\t1,299.00\r\n"
+        "1\t1000\t460\t0\t300\t0\t0\t0\t12.50\r\n".encode("utf-16")
+    )
+    one, other = read_poses(plain), read_poses(sheet)
+    assert [c.values.tolist() for c in one.position] == [c.values.tolist() for c in other.position]
+    assert one.time.values.tolist() == other.time.values.tolist()
+    assert (one.rotation == other.rotation).all()
+    assert one.notes == ()
+    assert any("UTF-16" in note for note in other.notes)
+    assert any("Price" in note for note in other.notes)
+
+
+def test_degrees_without_their_unit_are_asked_about(tmp_path):
+    file = tmp_path / "a.csv"
+    file.write_text("t,x,y,z,roll,pitch,yaw\n0,0.45,0,0.3,0,0,90\n1,0.46,0,0.3,0,0,92\n")
+    with pytest.warns(ModelWarning, match="yaw reach 92 rad: if these are degrees"):
+        poses = read_poses(file)
+    assert any("call the column yaw_deg" in note for note in poses.notes)

@@ -12,7 +12,7 @@ import scout_pin
 from scout_pin.motion.gait import BODIES
 from scout_pin.motion.writing import rows_of
 from scout_pin.report.movement import gait_movement
-from thesis_pin.errors import BadInput, UnknownName
+from thesis_pin.errors import BadInput, ModelWarning, UnknownName
 
 WALK = Path(__file__).parents[3] / "examples" / "walk.toml"
 TENS = {"": 0, "_m": 0, "_mm": 3, "_cm": 2, "_s": 0, "_ms": 3, "_us": 6, "_rad": 0}
@@ -102,3 +102,25 @@ def test_a_column_too_many_is_refused_with_the_nearest(columns, name, error, say
     (tmp_path / "a.csv").write_text("\n".join(rows) + "\n")
     with pytest.raises(error, match=says):
         scout_pin.load_gait(tmp_path / "a.csv")
+
+
+def test_names_and_supports_in_another_case_are_the_same_gait(columns, tmp_path):
+    text = written(columns, ",", ".", "", "", "")
+    header, _, rows = text.partition("\n")
+    (tmp_path / "a.csv").write_text(text)
+    (tmp_path / "b.csv").write_text(
+        header.replace("t,", "Time [s],", 1).title() + "\n" + rows.replace("double", "Double")
+    )
+    one, two = (scout_pin.load_gait(tmp_path / name) for name in ("a.csv", "b.csv"))
+    assert (one.phases, one.notes) == (two.phases, two.notes)
+    for body in BODIES:
+        for first, second in zip(one.curves[body], two.curves[body], strict=True):
+            np.testing.assert_array_equal(first.c, second.c)
+
+
+def test_a_gait_in_degrees_whose_columns_say_radians_is_asked_about(columns, tmp_path):
+    turned = columns | {"torso_roll": [str(10 * k) for k in range(len(columns["t"]))]}
+    (tmp_path / "a.csv").write_text(written(turned, ",", ".", "", "", ""))
+    with pytest.warns(ModelWarning, match="torso_roll reach .* call the column torso_roll_deg"):
+        gait = scout_pin.load_gait(tmp_path / "a.csv")
+    assert any("torso_roll_deg" in note for note in gait.notes)

@@ -96,7 +96,7 @@ def test_words_may_hold_the_other_mark(tmp_path):
 
 @pytest.mark.parametrize(
     ("text", "says"),
-    [("", "empty"), ("# only\n", "empty"), (b"\xff\xfe", "UTF-8"), ("t," + "9" * 200_000, "CSV")],
+    [("", "empty"), ("# only\n", "empty"), (b"\xff\xfe", "empty"), ("t," + "9" * 200_000, "CSV")],
 )
 def test_a_file_without_samples_is_refused(tmp_path, text, says):
     with pytest.raises(BadInput, match=says):
@@ -184,3 +184,58 @@ def test_too_many_columns_lines_or_cells_are_refused_where_they_begin(
     monkeypatch.setattr(reading, "LIMITS", Limits(rows=1_000, cells=3_000))
     with pytest.raises(BadInput, match=says):
         table(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    ("codec", "encoding"),
+    [
+        ("utf-8", ""),
+        ("utf-8-sig", ""),
+        ("cp1252", "Windows-1252"),
+        ("utf-16", "UTF-16"),
+        ("utf-16-le", "UTF-16"),
+        ("utf-16-be", "UTF-16"),
+    ],
+)
+@pytest.mark.parametrize("separator", [",", "\t"])
+def test_what_spreadsheets_write_instead_of_utf_8_is_read_and_said(
+    tmp_path, codec, encoding, separator
+):
+    text = "t,ψ [°]\r\n0,1.5\r\n1,2.5\r\n".replace(",", separator)
+    if codec == "cp1252":
+        text = text.replace("ψ", "psi")
+    found = table(tmp_path, text.encode(codec))
+    assert found.header[1].endswith(" [°]")
+    assert columns(found) == [[0.0, 1.0], [1.5, 2.5]]
+    assert found.dialect.encoding == encoding
+    assert any(encoding in note for note in found.dialect.notes) or not encoding
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        (b"PK\x03\x04\x14\x00\x06\x00\x08\x00\x00\x00!\x00\xfe\x81", "Save the sheet as CSV"),
+        (b"t,x\n0,\x81\n", "isn't text in UTF-8, UTF-16 or Windows-1252"),
+        (b"t,x\n0,\xb0\x00\n", "isn't text"),
+        (b"\xff\xfet", "isn't text"),
+    ],
+)
+def test_what_is_no_text_is_refused(tmp_path, content, says):
+    with pytest.raises(BadInput, match=says):
+        table(tmp_path, content)
+
+
+def test_prices_do_not_decide_which_mark_decimals_have(tmp_path):
+    def used(heading):
+        return heading in ("t", "x")
+
+    grouped = 't,price,x\n0.5,"1,299.00",1.5\n1.5,"19,90",2.5\n'
+    assert columns_named(table(tmp_path, grouped, means=used)) == [[0.5, 1.5], [1.5, 2.5]]
+    commas = "t;price;x\n0,5;1.299,00;1,5\n1,5;19.90;2,5\n"
+    assert columns_named(table(tmp_path, commas, means=used)) == [[0.5, 1.5], [1.5, 2.5]]
+    with pytest.raises(BadInput, match="groups its digits"):
+        table(tmp_path, grouped)
+
+
+def columns_named(found):
+    return [found.column(found.header.index(n), SI, n).values.tolist() for n in ("t", "x")]

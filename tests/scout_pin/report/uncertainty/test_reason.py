@@ -147,3 +147,12 @@ def test_the_command_prints_and_writes_the_report_and_exits_with_2(tmp_path, cap
     assert main(["gait", "--gait", str(path), "--smooth", "none"]) == 2
     assert "log.csv:" in capfd.readouterr().err  # a spline through rounding falls too fast
     assert main(["gait", "--gait", str(path), "--smooth", "much"]) == 2
+
+
+def test_writing_smoothed_samples_down_is_warned_of(tmp_path, capfd):
+    path = str(log(tmp_path / "log.csv", 60.0, 4))
+    target = str(tmp_path / "copy.csv")
+    assert main(["convert", "--gait", path, "--to", target]) == 0
+    assert "smoothed within their resolution" in capfd.readouterr().err
+    assert main(["convert", "--gait", path, "--to", target, "--smooth", "none"]) == 0
+    assert "warning" not in capfd.readouterr().err
