@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import check_stance
 from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.resolution.corners import starts_with_a_jump
 from scout_pin.motion.resolution.feet import Foot, Moving, Stance, foot, stances
 from scout_pin.motion.resolution.thinning import thinned
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
@@ -69,8 +70,18 @@ def gait_from_samples(
         # A spline through a jump of rate rings; pieces that end there don't.
         with suppress(TrajectoryError):
             check_stance(gait.name, gait.curves, gait.phases)
-            return replace(gait, notes=(*gait.notes, *notes))
+            if not _cornered(samples):
+                return replace(gait, notes=(*gait.notes, *notes))
     return _smoothed(thinned(samples), quanta, notes)
+
+
+def _cornered(samples: GaitSamples) -> bool:
+    """Whether exact samples show a rate of a foot that jumps."""
+    _, _, standing = phases_of(samples)
+    return any(
+        starts_with_a_jump(samples.time.values, _poses(samples, body), standing[:, side])
+        for side, body in enumerate(BODIES[1:])
+    )
 
 
 def _warning(samples: GaitSamples, quanta: dict[str, float], time_unit: float) -> Iterator[str]:
