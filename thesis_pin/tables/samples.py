@@ -112,9 +112,14 @@ def warning(
 
 
 def mended(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
-    """The samples without those that don't belong to their neighbours, and a note on each."""
+    """The samples without those that don't belong to their neighbours, and a note on each.
+
+    Rows that are ``node_step`` apart are nodes, and each is meant.
+    """
     columns, notes = dict(samples.columns), []
     step = float(np.median(np.diff(samples.time.values)))
+    if step >= TOLERANCES.node_step:
+        return samples, ()
     for name, column in samples.columns.items():
         turns = name in samples.turning
         # A slow motion may well be written with one row at its turning point.
