@@ -6,7 +6,6 @@ Source: the method is :mod:`thesis_pin.smoothing`; docs/rounding.md shows what i
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -61,23 +60,32 @@ def gait_from_samples(
     """
     quanta = _quanta(samples, how)
     if how.through or method is not None:
-        gait = through_samples(samples, method or "free")
-        return replace(gait, notes=(*gait.notes, *_warning(samples, quanta, time_unit)))
+        asked = through_samples(samples, method or "free")
+        return replace(asked, notes=(*asked.notes, *_warning(samples, quanta, time_unit)))
     samples, notes = _mended(samples, time_unit)
     notes = (*notes, *_close_rows(samples))
-    if all(error <= limit for _, error, limit in errors(samples, quanta, time_unit)):
-        gait = through_samples(samples, "free")
-        # A spline through a jump of rate rings; pieces that end there don't.
-        with suppress(TrajectoryError):
-            check_stance(gait.name, gait.curves, gait.phases)
-            return replace(gait, notes=(*gait.notes, *notes))
-    few = thinned(samples)
-    gait = _smoothed(few, quanta, notes)
-    nodes, told = _scatter(few, quanta, gait, time_unit)
-    if not nodes:
+    exact = all(error <= limit for _, error, limit in errors(samples, quanta, time_unit))
+    gait = _through(samples, notes) if exact else None
+    if gait is not None:
         return gait
+    few = thinned(samples)
+    smooth = _smoothed(few, quanta, notes)
+    nodes, told = (False, ()) if exact else _scatter(few, quanta, smooth, time_unit)
+    gait = _through(samples, (*notes, *told)) if nodes else None
+    return smooth if gait is None else gait
+
+
+def _through(samples: GaitSamples, notes: tuple[str, ...]) -> Gait | None:
+    """The gait through every sample; None if standing feet don't rest in it.
+
+    A spline through a jump of rate rings; pieces that end there don't.
+    """
     gait = through_samples(samples, "free")
-    return replace(gait, notes=(*gait.notes, *notes, *told))
+    try:
+        check_stance(gait.name, gait.curves, gait.phases)
+    except TrajectoryError:
+        return None
+    return replace(gait, notes=(*gait.notes, *notes))
 
 
 def _scatter(

@@ -223,7 +223,7 @@ def test_angles_in_coarse_steps_are_thinned_to_one_row_a_step(scout, tmp_path):
 def test_a_squat_in_nodes_far_apart_is_motion_not_noise(tmp_path, pattern, step):
     heights = np.resize(pattern, 24)
     file = tmp_path / "squat.csv"
-    rows = [f"{step * k:.1f},double,{z},-0.034,0.034" for k, z in enumerate(heights)]
+    rows = [f"{step * k:.1f},double,{z:.3f},-0.034,0.034" for k, z in enumerate(heights)]
     header = "t,support,torso_z,left_foot_x,right_foot_x"
     file.write_text("\n".join([header, *rows]) + "\n")
     gait = load_gait(file)
