@@ -121,6 +121,10 @@ class Tolerances:
             rates to 1e-15 / σ² [-].
         explicit_rank: Singular value of an explicit model's equations, relative to the
             largest, taken as zero [-].
+        sheet_rounding: By how much a data sheet may differ from itself in another unit, of the
+            larger: 0.06 s in 60° and 0.064 are both 0.06 [-].
+        slow_servo: No-load speed below which nothing of a robot's joint is: a turn takes 20 s; the
+            seconds in 60° of usual servos, read as rad/s, are less [rad/s].
         power_density, torque_density: Greatest power and stall torque of an actuator for its
             size that are taken for right [W/m³], [N·m/m³]; hobby servos have 0.02 to 0.6 W/cm³
             and up to 0.15 N·m/cm³.
@@ -191,6 +195,8 @@ class Tolerances:
     unbalanced: float = 1e-8
     determined: float = 1e-6
     explicit_rank: float = 1e-11
+    sheet_rounding: float = 0.1
+    slow_servo: float = 0.3
     power_density: float = 1e6
     torque_density: float = 3e5
     specific_power: float = 600.0

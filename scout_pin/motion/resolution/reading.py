@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import check_stance
 from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.resolution.corners import starts_with_a_jump
 from scout_pin.motion.resolution.feet import Foot, Moving, Stance, foot, stances
 from scout_pin.motion.resolution.thinning import thinned
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
@@ -66,7 +67,7 @@ def gait_from_samples(
     notes = (*notes, *_close_rows(samples))
     exact = all(error <= limit for _, error, limit in errors(samples, quanta, time_unit))
     gait = _through(samples, notes) if exact else None
-    if gait is not None:
+    if gait is not None and not _cornered(samples):
         return gait
     few = thinned(samples)
     smooth = _smoothed(few, quanta, notes)
@@ -103,6 +104,15 @@ def _scatter(
         frozenset(name for name in columns if _turns(name)),
     )
     return scatter(table, quanta, {name: curves[name](t) for name in columns})
+
+
+def _cornered(samples: GaitSamples) -> bool:
+    """Whether exact samples show a rate of a foot that jumps."""
+    _, _, standing = phases_of(samples)
+    return any(
+        starts_with_a_jump(samples.time.values, _poses(samples, body), standing[:, side])
+        for side, body in enumerate(BODIES[1:])
+    )
 
 
 def _warning(samples: GaitSamples, quanta: dict[str, float], time_unit: float) -> Iterator[str]:
