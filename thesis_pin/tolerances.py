@@ -38,6 +38,8 @@ class Tolerances:
         outlier_move: Acceleration that a single sample beside its neighbours would take, from
             which it counts as wrong [m/s²]: slower corners may be meant.
         outlier_turn: The same of angular accelerations [rad/s²].
+        node_step: Time between rows [s] from which they are nodes, each of them meant, and what
+            scatters about a smooth curve is motion rather than noise: nobody writes more by hand.
         stance_near: How far from its place a foot may be that a log's first or last row of
             a stance has standing: a switch under the sole closes that early [m].
         stance_near_tilt: The same of its angles [rad].
@@ -119,6 +121,10 @@ class Tolerances:
             rates to 1e-15 / σ² [-].
         explicit_rank: Singular value of an explicit model's equations, relative to the
             largest, taken as zero [-].
+        sheet_rounding: By how much a data sheet may differ from itself in another unit, of the
+            larger: 0.06 s in 60° and 0.064 are both 0.06 [-].
+        slow_servo: No-load speed below which nothing of a robot's joint is: a turn takes 20 s; the
+            seconds in 60° of usual servos, read as rad/s, are less [rad/s].
         power_density, torque_density: Greatest power and stall torque of an actuator for its
             size that are taken for right [W/m³], [N·m/m³]; hobby servos have 0.02 to 0.6 W/cm³
             and up to 0.15 N·m/cm³.
@@ -139,8 +145,9 @@ class Tolerances:
     exact_move: float = 5e-4
     exact_turn: float = 1e-2
     exact_rate: float = 1e-7
-    outlier_move: float = 0.5
-    outlier_turn: float = 5.0
+    outlier_move: float = 0.05
+    outlier_turn: float = 0.5
+    node_step: float = 0.1
     stance_near: float = 1e-3
     stance_near_tilt: float = 1e-2
     sole_misfit: float = 1e-2
@@ -188,6 +195,8 @@ class Tolerances:
     unbalanced: float = 1e-8
     determined: float = 1e-6
     explicit_rank: float = 1e-11
+    sheet_rounding: float = 0.1
+    slow_servo: float = 0.3
     power_density: float = 1e6
     torque_density: float = 3e5
     specific_power: float = 600.0

@@ -107,7 +107,7 @@ def _bulge(
 
 def _told(speeds: np.ndarray, timing: Timing, bulge: float) -> str:
     least, most = speeds.min() * 1e3, speeds.max() * 1e3
-    speed = f"{most:.6g}" if most - least <= 1e-9 * most else f"{least:.6g} to {most:.6g}"
+    speed = f"{most:.6g}" if f"{least:.6g}" == f"{most:.6g}" else f"{least:.6g} to {most:.6g}"
     ends = {
         "ramped": "from rest to rest, with ramps over the first and last tenth of the time",
         "rest-to-rest": "from rest to rest, which is reached halfway only",

@@ -16,7 +16,7 @@ import numpy as np
 
 from pollard_pin.motion.feed import at_speed
 from pollard_pin.motion.path import Timing, ToolPath
-from pollard_pin.motion.smoothing import timed
+from pollard_pin.motion.smoothing import coarse, timed
 from pollard_pin.motion.tables import PoseTable, read_poses
 from pollard_pin.motion.toml import read_toml_path
 from thesis_pin.errors import BadInput
@@ -108,15 +108,17 @@ def read_csv(
                 )
         path = timed(poses, poses.time, method, how or Stated(), name)
     else:
+        speed = _speed(poses, feed)
         path = at_speed(
             np.stack([column.values for column in poses.position], axis=-1),
             poses.rotation,
-            _speed(poses, feed),
+            speed,
             timing or "ramped",
             written=poses.written,
             where=where,
             name=name,
         )
+        path = replace(path, notes=(*path.notes, *coarse(poses, speed)))
     return replace(path, notes=(*path.notes, *poses.notes))
 
 

@@ -7,6 +7,7 @@ Source: the method is :mod:`thesis_pin.smoothing`; docs/rounding.md shows what i
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -18,12 +19,13 @@ from pollard_pin.motion.samples import along_curves, continued, through_orientat
 from pollard_pin.motion.tables import PoseTable
 from pollard_pin.motion.variants import PLACE, Variants
 from thesis_pin.smoothing.curve import SEED, SmoothCurve, fitted, generator
-from thesis_pin.smoothing.noise import ROUNDING
+from thesis_pin.smoothing.noise import ROUNDING, acceleration_noise
 from thesis_pin.smoothing.orientation import component_steps, shared_runs
 from thesis_pin.smoothing.resolution import Resolution
 from thesis_pin.smoothing.stated import Stated
-from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, warning
+from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, scatter, warning
 from thesis_pin.tables.table import Column
+from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
 
@@ -64,7 +66,12 @@ def timed(poses: PoseTable, time: Column, method: str | None, how: Stated, name:
         notes += [*told, *close_rows(samples)]
         if told:
             poses = _again(poses, samples)
-    if through or exact(samples, resolved):
+    through = through or exact(samples, resolved)
+    if not through:
+        path, values = _smoothed(poses, samples, resolved, coarsest, name)
+        through, told = scatter(samples, resolved, values)
+        notes += told
+    if through:
         position = np.stack([column.values for column in poses.position], axis=-1)
         path = through_orientations(
             time.values,
@@ -75,9 +82,28 @@ def timed(poses: PoseTable, time: Column, method: str | None, how: Stated, name:
             where=where,
             name=name,
         )
-    else:
-        path = _smoothed(poses, samples, resolved, coarsest, name)
     return replace(path, notes=(*path.notes, *notes))
+
+
+def coarse(poses: PoseTable, speed: float | Array) -> Iterator[str]:
+    """What a path through every row of a table with a speed makes of rounded positions.
+
+    Args:
+        poses: The table.
+        speed: Of the spray tip, one or one at each row [m/s].
+    """
+    position = np.stack([column.values for column in poses.position], axis=-1)
+    chord = np.linalg.norm(np.diff(position, axis=0), axis=1)
+    pace = np.broadcast_to(np.asarray(speed), (len(position),))
+    step = float(np.median(chord / ((pace[1:] + pace[:-1]) / 2)))
+    column = max(poses.position, key=lambda one: one.quantum * (np.ptp(one.values) > 0))
+    error = acceleration_noise(column.quantum * ROUNDING, step)
+    if error > TOLERANCES.outlier_move:
+        yield (
+            f"the path goes through every row, though {column.name}, written to "
+            f"{column.quantum * 1e3:.2g} mm, doesn't resolve accelerations below {error:.2g} m/s² "
+            "at this speed; numbers may be those of rounding"
+        )
 
 
 def _samples(poses: PoseTable, time: Column, quaternion: Array) -> Samples:
@@ -114,7 +140,8 @@ def _again(poses: PoseTable, samples: Samples) -> PoseTable:
 
 def _smoothed(
     poses: PoseTable, samples: Samples, resolved: dict[str, float], coarsest: float, name: str
-) -> ToolPath:
+) -> tuple[ToolPath, dict[str, Array]]:
+    """The path, and its values at the samples by the names of their columns."""
     time = samples.time.values - samples.time.values[0]
     quaternion, largest, notes = continued(poses.rotation, poses.written, poses.table.where)
     moving = [one.values for one in poses.orientation if np.ptp(one.values) > 0]
@@ -161,7 +188,10 @@ def _smoothed(
         },
         notes,
     )
-    return replace(path, variants=variants)
+    values = [curve(time) for curve in own]
+    values[PLACE:] = [_TWICE * one for one in values[PLACE:]]
+    names = (*(column.name for column in poses.position), *_TURN)
+    return replace(path, variants=variants), dict(zip(names, values, strict=True))
 
 
 def _resolution(column: Column, quantum: float, curve: SmoothCurve) -> Resolution:

@@ -95,6 +95,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "robot": self.robot.specification.name,
             **self.path.parameters,
             "branch": str(self.branch),
+            "branch_choice": "the default" if self.branch == DEFAULT_BRANCH else "asked for",
             "samples": len(self.joints.time),
             "inertia": self.robot.inertia,
             "actuators": self.motors,

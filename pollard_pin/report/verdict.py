@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.arrays import wrap
@@ -39,10 +40,10 @@ def sentences(numbers: TrajectoryNumbers, *, motors: bool = True) -> list[str]:
 def _reach(numbers: TrajectoryNumbers) -> list[str]:
     name = numbers.robot.specification.name.capitalize()
     margin, condition = numbers.solutions.margin, numbers.holding.condition
-    k = int(np.argmin(margin))
+    k, default = int(np.argmin(margin)), numbers.branch == DEFAULT_BRANCH
     return [
-        f"{name} can follow this path on branch {numbers.branch}: every pose is reached inside "
-        "the joint limits, and no singularity is crossed.",
+        f"{name} can follow this path on branch {numbers.branch}{' (the default)' * default}: "
+        "every pose is reached inside the joint limits, and no singularity is crossed.",
         f"The path {_NEAR[int(numbers.distance_class.min())]}: reach margin at least "
         f"{margin[k]:z.3f} (t = {numbers.joints.time[k]:.3g} s), condition "
         f"number {condition.min():.1f} to {condition.max():.1f}.",

@@ -56,7 +56,8 @@ class _Panel:
         """Points in the torso's frame → pixels, shape ``(..., 2)``."""
         flat = np.stack([points @ self.right, points @ self.up], axis=-1) - self.centre
         middle = np.array([self.left + _WIDTH / 2, _TOP + _HEIGHT / 2])
-        return np.asarray(middle + flat * (self.scale, -self.scale))
+        # Rounded, so that another processor's last bit doesn't move a label.
+        return np.asarray(np.round(middle + flat * (self.scale, -self.scale), 6))
 
     def block(self, spot: np.ndarray, size: float) -> None:
         """Let no label stand on a spot."""
@@ -71,7 +72,7 @@ class _Panel:
                 c, s = np.cos(turn), np.sin(turn)
                 way = np.array([c * away[0] - s * away[1], s * away[0] + c * away[1]])
                 reach = 9.0 + 7.0 * step + abs(way[0]) * width / 2 + abs(way[1]) * 8.0
-                x, y = spot + way * reach
+                x, y = np.round(spot + way * reach, 6)
                 box = (x - width / 2, y - 9.0, x + width / 2, y + 9.0)
                 inside = self.left + 4 < box[0] and box[2] < self.left + _WIDTH - 4
                 if inside and not any(_meet(box, one) for one in self.taken):

@@ -10,6 +10,7 @@ import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.dynamics.inverse import inverse_dynamics
+from scout_pin.kinematics.branches import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.trajectory import joint_trajectory
@@ -45,6 +46,8 @@ def gait_movement(
     """
     if time_unit is not None:
         gait = replace(gait, time_unit=time_unit)
+    if branch is not None:  # what is written asks for it too
+        gait = replace(gait, branch=branch_label(branch))
     t = rows_of(gait, samples)
     motion = gait.sample(t)
 

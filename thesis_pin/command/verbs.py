@@ -128,7 +128,8 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         servos = USUAL
         if arguments.servos is not None:
             servos = read_servos(arguments.servos, motion.joints)
-        made = content(motion, form, units, servos)
+        tabs = arguments.to.lower().endswith(".tsv")
+        made = content(motion, form, units, servos, tabs=tabs)
     put(arguments.to, made)
     if arguments.json:
         document = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from math import prod
+from math import pi, prod
 
 from thesis_pin.sizing.units import KILOGRAM_CENTIMETRE, RPM
 from thesis_pin.tolerances import TOLERANCES
@@ -89,6 +89,12 @@ class Actuator:
                     f"it is {self.no_load_speed * RPM:.3g} rad/s."
                 )
                 break
+        if self.no_load_speed < limits.slow_servo:
+            yield (
+                f"{self.name}: at {self.no_load_speed:.3g} rad/s a turn takes "
+                f"{2 * pi / self.no_load_speed:.3g} s, and no robot's servo is so slow. Is its "
+                "speed in another unit, as rpm or seconds in 60°?"
+            )
         if self.rated_torque is not None and self.rated_torque > self.stall_torque:
             yield (
                 f"{self.name}: its rated torque of {self.rated_torque:g} N·m is above its stall "

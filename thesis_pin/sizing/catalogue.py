@@ -22,7 +22,8 @@ from thesis_pin.model.source import read_text
 from thesis_pin.model.specification import Strict, read_toml
 from thesis_pin.sizing.actuator import Actuator
 from thesis_pin.sizing.bam import read_identified
-from thesis_pin.sizing.rows import Cell, actuators_of, meanings_of, unsaid
+from thesis_pin.sizing.cells import Cell
+from thesis_pin.sizing.rows import actuators_of, lacking, meanings_of, named, unsaid
 from thesis_pin.sizing.units import understood
 from thesis_pin.tables.reading import read_table
 
@@ -80,9 +81,11 @@ def read_catalogue(
     if len(kept) < len(found):
         notes.append(f"{len(found) - len(kept)} are left out: they are for another voltage")
     if not kept:
+        volts = sorted({one.voltage for one in found if one.voltage is not None})
         raise BadInput(
             "there is no servo" + (f" for {voltage:g} V" if found and voltage else ""),
             where=", ".join(map(str, paths)),
+            allowed="one of " + ", ".join(f"{one:g} V" for one in volts) if volts else "",
         )
     return Catalogue(tuple(_apart(kept)), tuple(dict.fromkeys(notes)))
 
@@ -97,24 +100,33 @@ def _read(path: str | Path, voltage: float | None) -> tuple[list[Actuator], list
         for name, entry in tables:
             here = f"{where}: {name}"
             entry = {**entry, "name": name}
-            meanings = meanings_of(list(entry), here)
+            meanings = meanings_of(list(entry), [entry], here)
             notes += unsaid(meanings, [entry], where)
+            if lacks := lacking(entry, meanings):
+                raise BadInput(f"it has no {lacks}", where=here)
             found += actuators_of(entry, meanings, here)
         return found, notes
     if where.lower().endswith(".json"):
         return [read_identified(read_text(KIND, path), where, voltage)], []
     table = read_table(KIND, path, means=understood)
-    meanings = meanings_of(table.header, where)
+    cells = [dict(zip(table.header, row, strict=True)) for row in table.rows]
+    meanings = meanings_of(table.header, cells, where)
     comma = table.dialect.decimal == ","
     rows: list[dict[str, Cell]] = [
-        dict(zip(table.header, map(_pointed, cells) if comma else cells, strict=True))
-        for cells in table.rows
+        {key: _pointed(one) if comma and key in meanings else one for key, one in row.items()}
+        for row in cells
     ]
     notes = [f"{where}: {one}" for one in table.dialect.notes] + unsaid(meanings, rows, where)
     found = []
+    left_out = []
     for number, row in enumerate(rows):
-        found += actuators_of(row, meanings, table.where(number))
-    return found, notes
+        here = table.where(number)
+        if lacks := lacking(row, meanings):
+            left_out.append(f"{here}: {named(row, meanings)}: it has no {lacks}")
+        found += actuators_of(row, meanings, here)
+    if left_out and not found:
+        raise BadInput(left_out[0])
+    return found, [*notes, *(f"{one}, and is left out" for one in left_out)]
 
 
 def _pointed(cell: str) -> str:

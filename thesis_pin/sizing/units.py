@@ -28,20 +28,21 @@ _TORQUE = {
     "ozin": OUNCE * STANDARD_GRAVITY * INCH,
     "inoz": OUNCE * STANDARD_GRAVITY * INCH,
     "ozfin": OUNCE * STANDARD_GRAVITY * INCH,
-    "lbin": POUND * STANDARD_GRAVITY * INCH,
-    "inlb": POUND * STANDARD_GRAVITY * INCH,
-    "lbfin": POUND * STANDARD_GRAVITY * INCH,
-    "lbft": POUND * STANDARD_GRAVITY * 12 * INCH,
-    "ftlb": POUND * STANDARD_GRAVITY * 12 * INCH,
+    **dict.fromkeys(
+        ("lbin", "lbsin", "inlb", "inlbs", "lbfin", "inlbf"), POUND * STANDARD_GRAVITY * INCH
+    ),
+    **dict.fromkeys(
+        ("lbft", "lbsft", "ftlb", "ftlbs", "lbfft", "ftlbf"), POUND * STANDARD_GRAVITY * 12 * INCH
+    ),
 }
 _SPEED = {
     **dict.fromkeys(("rads", "radsec"), 1.0),
     **dict.fromkeys(("degs", "degsec"), math.pi / 180),
-    **dict.fromkeys(("rpm", "rmin", "revmin", "1min"), RPM),
+    **dict.fromkeys(("rpm", "rmin", "revmin", "1min", "min1"), RPM),
     **dict.fromkeys(("rps", "revs"), 2 * math.pi),
     **dict.fromkeys(("s60deg", "sec60deg", "s60", "sec60"), math.nan),  # the other way round
 }
-_MASS = {"kg": 1.0, "g": 1e-3, "oz": OUNCE, "lb": POUND}
+_MASS = {"kg": 1.0, "g": 1e-3, "grams": 1e-3, "oz": OUNCE, "lb": POUND, "lbs": POUND}
 _INERTIA = {"kgm2": 1.0, "kgcm2": 1e-4, "gcm2": 1e-7, "kgmm2": 1e-6, "gmm2": 1e-9}
 _LENGTH = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": INCH}
 _VOLTAGE = {"v": 1.0, "mv": 1e-3}
@@ -65,7 +66,7 @@ class Quantity:
 
 
 QUANTITIES = {
-    "name": Quantity(("name", "servo", "motor", "actuator", "model", "part", "type"), {}),
+    "name": Quantity(("name", "model", "servo", "motor", "actuator", "part", "type"), {}),
     "stall_torque": Quantity(
         ("stalltorque", "torque", "maxtorque", "peaktorque", "maximumtorque"),
         _TORQUE,
@@ -73,7 +74,7 @@ QUANTITIES = {
         "_Nm, _kgcm, [oz·in] and the like",
     ),
     "no_load_speed": Quantity(
-        ("noloadspeed", "speed", "maxspeed", "maximumspeed"),
+        ("noloadspeed", "speed", "maxspeed", "maximumspeed", "operatingspeed"),
         _SPEED,
         "rad/s",
         "_rad_s, _rpm, [s/60°] and the like",
@@ -81,17 +82,18 @@ QUANTITIES = {
     "rated_torque": Quantity(("ratedtorque", "nominaltorque", "continuoustorque"), _TORQUE, "N·m"),
     "voltage": Quantity(("voltage", "volts", "supply"), _VOLTAGE),
     "mass": Quantity(("mass", "weight"), _MASS, "kg"),
-    "rotor_inertia": Quantity(("rotorinertia", "motorinertia", "inertia"), _INERTIA),
-    "armature": Quantity(("armature", "reflectedinertia"), _INERTIA),
+    "rotor_inertia": Quantity(("rotorinertia", "motorinertia", "inertia"), _INERTIA, "kg·m²"),
+    "armature": Quantity(("armature", "reflectedinertia"), _INERTIA, "kg·m²"),
     "gear_ratio": Quantity(("gearratio", "gear", "reduction", "ratio"), {}),
     "size": Quantity(("size", "dimensions"), _LENGTH),
     "length": Quantity(("length",), _LENGTH),
     "width": Quantity(("width",), _LENGTH),
     "height": Quantity(("height", "depth"), _LENGTH),
 }
-"""Quantity → how it is called and in which units."""
+"""Quantity → how it is called, the likeliest first, and in which units."""
 
 _BRACKETS = re.compile(r"[\[(]([^\])]*)[\])]")
+_ORDER = re.compile(r"^l\s*[x×*]\s*w\s*[x×*]\s*h\b")
 _VOLTS = re.compile(r"(?<![a-z\d.])(?:at|@)?[ _]*(\d+(?:[.,]\d+)?)[ _]*v(?![a-z])")
 
 
@@ -127,7 +129,7 @@ def understood(heading: str) -> Heading | None:
     if match := _VOLTS.search(text):
         volts = float(match[1].replace(",", "."))
         text = text[: match.start()] + " " + text[match.end() :]
-    units = _BRACKETS.findall(text)
+    units = [_ORDER.sub("", unit.strip()) for unit in _BRACKETS.findall(text)]
     name, unit = bare(_BRACKETS.sub(" ", text)), bare("".join(units))
     for quantity, known in QUANTITIES.items():
         for called in known.names:
@@ -145,6 +147,14 @@ def understood(heading: str) -> Heading | None:
 def bare(text: str) -> str:
     """A unit or name with letters and digits only, in one spelling."""
     text = text.lower().replace("sec", "s")
-    for sign, word in (("°", "deg"), ("²", "2"), ("^2", "2"), ("per", ""), ("degrees", "deg")):
+    for sign, word in (
+        ("°", "deg"),
+        ("º", "deg"),
+        ("˚", "deg"),
+        ("²", "2"),
+        ("^2", "2"),
+        ("per", ""),
+        ("degrees", "deg"),
+    ):
         text = text.replace(sign, word)
     return re.sub(r"[^a-z0-9]", "", text)

@@ -17,6 +17,8 @@ from thesis_pin.tolerances import TOLERANCES
 Array = NDArray[np.float64]
 
 _CLOSE = 1e-3  # of the usual step: rows nearer than this are two of the same instant
+_ROUNDED = 0.6  # of a step of the text that rounding may leave about a curve
+_FAR = 6.0  # times the usual distance from a curve that none of many samples of noise reaches
 _MOST = 10  # pairs of rows that are named
 
 
@@ -111,9 +113,14 @@ def warning(
 
 
 def mended(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
-    """The samples without those that don't belong to their neighbours, and a note on each."""
+    """The samples without those that don't belong to their neighbours, and a note on each.
+
+    Rows that are ``node_step`` apart are nodes, and each is meant.
+    """
     columns, notes = dict(samples.columns), []
     step = float(np.median(np.diff(samples.time.values)))
+    if step >= TOLERANCES.node_step:
+        return samples, ()
     for name, column in samples.columns.items():
         turns = name in samples.turning
         # A slow motion may well be written with one row at its turning point.
@@ -144,3 +151,41 @@ def close_rows(samples: Samples) -> Iterator[str]:
             f"{samples.table.between((int(row), int(row) + 1))}: these rows are only "
             f"{steps[row]:.2g} s apart"
         )
+
+
+def scatter(
+    samples: Samples, resolved: Mapping[str, float], curves: Mapping[str, Array]
+) -> tuple[bool, tuple[str, ...]]:
+    """Whether what smooth curves leave out is motion, and a note on what it is taken for.
+
+    Args:
+        samples: The samples.
+        resolved: Of :func:`quanta`.
+        curves: Values of the curves at the samples, by the columns' names.
+
+    Returns:
+        True if rows are so far apart that their scatter is taken for motion.
+    """
+    largest = {True: 0.0, False: 0.0}
+    names, step = [], float(np.median(np.diff(samples.time.values)))
+    for name, values in curves.items():
+        off, turns = np.abs(samples.columns[name].values - values), name in samples.turning
+        usual, worst, quantum = float(np.sqrt(np.mean(off**2))), float(off.max()), resolved[name]
+        # Rounding leaves a third of a step, half of one at most.
+        left = usual > _ROUNDED * quantum or worst > max(1.5 * quantum, _FAR * usual)
+        noise = rate_noise if name in samples.rates else acceleration_noise
+        limit = TOLERANCES.exact_turn if turns else TOLERANCES.exact_move
+        if left and noise(worst, step) > limit:
+            names.append(name)
+            largest[turns] = max(largest[turns], worst)
+    if not names:
+        return False, ()
+    sizes = [f"{largest[False] * 1e3:.2g} mm"] * (largest[False] > 0)
+    sizes += [f"{np.degrees(largest[True]):.2g}°"] * (largest[True] > 0)
+    found = f"{', '.join(names)}: rows scatter about a smooth curve by up to {' and '.join(sizes)}"
+    if step >= TOLERANCES.node_step:
+        return True, (
+            f"{found}, which at {step:.3g} s from row to row is taken for motion: curves pass "
+            "through every row",
+        )
+    return False, (f"{found}, which is taken for noise; --smooth none takes it for motion",)

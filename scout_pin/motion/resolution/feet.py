@@ -32,7 +32,9 @@ FLOOR = (2, 3, 4)
 _STANDS = np.array([TOLERANCES.stance_drift] * 3 + [TOLERANCES.stance_tilt] * 3)
 _NEAR = np.array([TOLERANCES.stance_near] * 3 + [TOLERANCES.stance_near_tilt] * 3)
 _FAR = 4.5  # standard deviations of noise by which a standing foot may seem off the floor
-_ENOUGH = 8  # rows of a swing that tell its rate at an end
+LEAST_ROWS = 8
+"""Rows of a swing that tell its rate at an end."""
+
 _NORMAL = 1.0484  # from the median of neighbours' differences to the deviation of each
 _MISSED = 4.0  # standard deviations of a sample by which a start from rest must miss them
 _STANCES = 1  # one of two kinds of streams of random numbers
@@ -203,7 +205,7 @@ def foot(
             if last <= first:
                 continue
             ends = [None if one is None else one.place[k] for one in (before, after)]
-            if None in ends and len(stood) and last - first < _ENOUGH:
+            if None in ends and len(stood) and last - first < LEAST_ROWS:
                 # Too few rows to tell how a free end moves: it rests at its own sample.
                 row, spread = (first, 0) if ends[0] is None else (last, 1)
                 wrong = max(float(quanta[k]) * ROUNDING, float(noise[k]))
@@ -247,7 +249,7 @@ class _Swing:
         start, stop = first, last
         jumps = [0.0, 0.0]
         inner = (first + (ends[0] is not None), last - (ends[1] is not None))
-        if inner[1] - inner[0] >= _ENOUGH and any(end is not None for end in ends):
+        if inner[1] - inner[0] >= LEAST_ROWS and any(end is not None for end in ends):
             jumps = self._jumps(*inner, ends)
         start, stop = first + (jumps[0] > 0), last - (jumps[1] > 0)
         kept = tuple(None if jump else end for jump, end in zip(jumps, ends, strict=True))

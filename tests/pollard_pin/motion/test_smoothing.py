@@ -172,3 +172,41 @@ def test_a_stated_length_is_the_least_that_counts(pollard, tmp_path):
 def test_few_rows_are_passed_through(tmp_path):
     time = np.linspace(0.0, 4.0, 9)
     assert load_path(posed(tmp_path, time, nodding(time))).variants is None
+
+
+@pytest.mark.parametrize(("count", "step"), [(20, 1.0), (1000, 1.0), (40, 0.2)])
+def test_a_dab_in_one_of_rows_far_apart_is_motion(tmp_path, count, step):
+    time = step * np.arange(count)
+    poses = np.zeros((count, 6))
+    poses[:, 0], poses[10, 2] = 0.45, 0.03
+    path = load_path(posed(tmp_path, time, poses, ".3f"))
+    (note,) = path.notes
+    assert "z: rows scatter about a smooth curve by up to" in note
+    assert "is taken for motion" in note
+    assert path.at(10.0 * step).pose[0, 2] == pytest.approx(0.03, abs=1e-12)
+
+
+def test_rows_to_and_fro_are_motion_where_they_are_far_apart_and_noise_where_not(tmp_path):
+    poses = np.zeros((200, 6))
+    poses[:, 0], poses[:, 2] = 0.45, 1e-3 * np.random.default_rng(1).choice([-1, 1], 200)
+    slow, fast = (
+        load_path(posed(tmp_path, step * np.arange(200), poses, ".4f")) for step in (0.5, 0.005)
+    )
+    assert slow.variants is None
+    assert slow.at(0.5).pose[0, 2] == poses[1, 2]
+    assert fast.variants is not None
+    assert "is taken for noise; --smooth none takes it for motion" in fast.notes[-1]
+
+
+@pytest.mark.parametrize(("feed", "said"), [(0.2, True), (0.002, False)])
+def test_a_speed_at_which_rounded_positions_jerk_is_doubted(tmp_path, feed, said):
+    time = np.linspace(0.0, 4.0, 101)
+    poses = nodding(time)
+    columns = {
+        h: (poses[:, k], ".4f") for k, h in enumerate(("x", "y", "z", "psi", "theta", "phi"))
+    }
+    file = written(tmp_path, time, columns)
+    lines = [line.split(",", 1)[1] for line in file.read_text().splitlines()]
+    file.write_text("\n".join(lines) + "\n")
+    notes = load_path(file, feed=feed).notes
+    assert any("written to 0.1 mm, doesn't resolve" in note for note in notes) == said

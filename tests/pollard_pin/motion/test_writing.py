@@ -55,3 +55,10 @@ def test_ros_gets_the_six_motors(robot, path):
     torque = pollard_pin.inverse_dynamics(robot, path.sample(5)).torque
     np.testing.assert_array_equal([point["effort"] for point in message["points"]], torque)
     assert message["points"][-1]["time_from_start"] == {"sec": 5, "nanosec": 0}
+
+
+def test_a_table_with_tabs_has_no_commas_and_is_the_same(robot, path):
+    movement = path_movement(robot, path, samples=5)
+    text = content(movement, "poses", tabs=True)
+    assert b"," not in text
+    assert text.replace(b"\t", b",") == content(movement, "poses")

@@ -73,8 +73,9 @@ def test_the_path_is_the_spray_tips_in_millimetres(report):
 def test_every_figure_comes_as_png_and_svg(report):
     names = ("positions", "velocities", "accelerations", "actuators", "margins", "tool")
     files = figures(report)
-    assert set(files) == {f"{name}.{kind}" for name in names for kind in ("png", "svg")}
-    for name, content in files.items():
+    drawn = {name: content for name, content in files.items() if name.endswith(("png", "svg"))}
+    assert set(drawn) == {f"{name}.{kind}" for name in names for kind in ("png", "svg")}
+    for name, content in drawn.items():
         assert content.startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
 
 

@@ -1,6 +1,7 @@
 """A verdict only where the samples carry one; else why not, and what would."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -81,3 +82,11 @@ def test_the_same_file_gives_the_same_intervals(pollard, coarse):
         for _ in range(2)
     )
     assert json_bytes(one["uncertainty"]) == json_bytes(other["uncertainty"])
+
+
+def test_where_most_draws_are_lost_nothing_is_decided(pollard, coarse):
+    report = pollard_pin.trajectory_report(pollard, load_path(coarse), samples=301)
+    assert report.within_limits
+    lost = replace(report, drawn=replace(report.drawn, lost=len(report.drawn.draws.torque) + 1))
+    assert lost.within_limits is None
+    assert "most motions that they leave open can't be worked out" in lost.reason

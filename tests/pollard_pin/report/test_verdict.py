@@ -68,3 +68,12 @@ def test_three_motors_say_what_they_leave_unexplained_and_claim_no_balance(repor
     assert f"{three.three.share.max():.2%} of the generalized force unexplained" in text
     assert "balances" not in text
     assert "balances" in " ".join(report.verdict())
+
+
+def test_the_branch_is_said_and_whether_it_is_the_default(report):
+    assert f"on branch {report.branch} (the default): every pose" in report.verdict()[0]
+    assert report.document()["parameters"]["branch_choice"] == "the default"
+    other = next(one for one in pollard_pin.USEFUL_BRANCHES if one != report.branch)
+    asked = dataclasses.replace(report, branch=other)
+    assert f"on branch {other}: every pose" in asked.verdict()[0]
+    assert asked.document()["parameters"]["branch_choice"] == "asked for"

@@ -55,3 +55,10 @@ def test_mass_tells_as_size_does():
 def test_a_rating_above_stall_is_odd():
     (said,) = Actuator("a", 1.0, 5.0, rated_torque=1.2).odd()
     assert "rated torque of 1.2 N·m is above its stall torque of 1 N·m" in said
+
+
+@pytest.mark.parametrize(("speed", "odd"), [(0.23, 1), (0.29, 1), (0.31, 0), (4.5, 0)])
+def test_a_servo_so_slow_that_its_speed_must_be_in_another_unit_is_warned_of(speed, odd):
+    said = list(Actuator("A", 0.4, speed).odd())
+    assert len(said) == odd
+    assert all("rpm or seconds in 60°" in one for one in said)

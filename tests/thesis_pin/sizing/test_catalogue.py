@@ -1,5 +1,7 @@
 """Lists of servos as people have them."""
 
+import math
+
 import pytest
 
 from thesis_pin.errors import BadInput, SpecificationError
@@ -133,7 +135,12 @@ def test_several_files_make_one_list(tmp_path):
         ("name,torque_Nm,speed_rpm\nA,inf,5\n", "'inf' isn't a number"),
         ("name,torque_Nm,speed_rpm,gear\nA,1,5,0\n", "gear: it is 0"),
         ("name,torque_Nm,speed_rpm,size_mm\nA,1,5,40x20\n", "'40x20' isn't a size"),
-        ("name,torque_Nm,torque_kgcm,speed_rpm\nA,1,10,5\n", "both say the stall torque"),
+        ("name,torque_Nm,max_torque_Nm,speed_rpm\nA,1,1,5\n", "both say the stall torque"),
+        (
+            "name,torque_Nm,torque_ozin,speed_rpm\nA,1,1416,5\n",
+            r"list\.csv:2: torque_ozin: it says a stall torque of 9\.999 N·m, and another.* 1 N·m",
+        ),
+        ("name,torque_Nm,speed_rpm,rated_Nm\nTotal,,,\n", r"list\.csv:2: Total: it has no stall"),
         ("name,torque_Nm,speed_rpm\nA,1,5\nA,2,5\n", "'A' is listed 2 times"),
         ("name,torque_Nm,speed_rpm,mass_6V_g\nA,1,5,3\n", "can't depend on the voltage"),
         ("name,torque_Nm,speed_rpm\n,1,5\n", "it has no name"),
@@ -159,3 +166,68 @@ def test_more_servos_than_anybody_sells_are_refused(listed):
     rows = "".join(f"A{k},1,50\n" for k in range(LIMITS.entries + 1))
     with pytest.raises(BadInput, match="servos; allowed: at most"):
         listed("name,torque_Nm,speed_rpm\n" + rows)
+
+
+def test_a_shop_s_list_is_read_with_its_prices_brands_gears_and_gaps(listed):
+    found = listed(
+        "Brand,Model,Type,Gear,Torque (kg-cm),Torque (oz-in),Speed (sec/60º),Weight (g),Voltage,"
+        "Rated torque (kg-cm),Dimensions (LxWxH mm),Price\n"
+        'H,HS-1,digital,Metal,4.4,61,0.23,44,4.8-6V,n/a,40.7x20.5x39.5,"1,299.00"\n'
+        'H,HS-2,analog,Nylon,8.8,122.2,0.2,50,6,2,"40,7 x 20,5 x 39,5","$19.90"\n'
+        "H,HS-3,analog,Nylon,,,0.2,50,6,,,\n"
+    )
+    one, two = found.actuators
+    assert (one.name, two.name) == ("HS-1", "HS-2")
+    assert one.stall_torque == pytest.approx(4.4 * 0.0980665)
+    assert one.no_load_speed == pytest.approx(math.pi / 3 / 0.23)
+    assert (one.voltage, one.rated_torque, two.voltage) == (None, None, 6.0)
+    assert one.size == two.size == pytest.approx((0.0407, 0.0205, 0.0395))
+    assert one.extra == {
+        "Brand": "H",
+        "Type": "digital",
+        "Gear": "Metal",
+        "Voltage": "4.8-6V",
+        "Price": "1,299.00",
+    }
+    assert one.notes == ("nothing says at which voltage of 4.8-6V its torque and speed hold",)
+    said = " ".join(found.notes)
+    assert "says the stall torque twice: Torque (kg-cm) is used, Torque (oz-in) agrees" in said
+    assert "list.csv:4: HS-3: it has no stall torque, and is left out" in said
+
+
+@pytest.mark.parametrize(
+    ("cell", "edges"),
+    [
+        ("40 x 20 x 38", (0.04, 0.02, 0.038)),
+        ("40×20×38 mm", (0.04, 0.02, 0.038)),
+        ("40mm x 20mm x 38mm", (0.04, 0.02, 0.038)),
+        ("4 x 2 x 3,8 cm", (0.04, 0.02, 0.038)),
+        ('1.6" x 0.8" x 1.4"', (1.6 * 0.0254, 0.8 * 0.0254, 1.4 * 0.0254)),
+        ("0.04 x 0.02 x 0.038", (0.04, 0.02, 0.038)),
+    ],
+)
+def test_sizes_are_read_as_sheets_write_them(listed, cell, edges):
+    quoted = '"' + cell.replace('"', '""') + '"'
+    (one,) = listed(f"name,torque_Nm,speed_rpm,size\nA,1,50,{quoted}\n").actuators
+    assert one.size == pytest.approx(edges)
+
+
+@pytest.mark.parametrize("cell", ["40 mm x 20 cm x 38", "40x20x38 in", "40x20x0"])
+def test_a_size_that_contradicts_itself_or_its_heading_is_refused(listed, cell):
+    with pytest.raises(BadInput, match="isn't a size"):
+        listed(f"name,torque_Nm,speed_rpm,size_mm\nA,1,50,{cell}\n")
+
+
+def test_edges_and_inertias_without_a_unit_are_said(listed):
+    found = listed(
+        "name,torque_Nm,speed_rpm,length,width,height,rotor inertia\nA,1,50,40,20,38,1e-8\n"
+    )
+    assert found.actuators[0].size == pytest.approx((0.04, 0.02, 0.038))
+    said = " ".join(found.notes)
+    assert "no unit of rotor inertia (kg·m²)" in said
+    assert "no unit of length, width, height: taken as mm" in said
+
+
+def test_a_refused_voltage_is_answered_with_those_there_are(listed):
+    with pytest.raises(BadInput, match=r"no servo for 5 V; allowed: one of 6 V, 7\.4 V"):
+        listed("name,torque_Nm,speed_rpm,voltage\nA,1,50,7.4\nB,1,50,6\n", voltage=5.0)

@@ -19,7 +19,7 @@ from thesis_pin.smoothing.curve import SEED, SmoothCurve, fitted, generator
 from thesis_pin.smoothing.noise import ROUNDING
 from thesis_pin.smoothing.orientation import component_steps, shared_runs
 from thesis_pin.smoothing.resolution import Resolution
-from thesis_pin.tables.samples import Samples
+from thesis_pin.tables.samples import Samples, scatter
 
 Array = NDArray[np.float64]
 
@@ -54,6 +54,18 @@ def within_resolution(
     )
     own = variants.moved(itself(motion), work.time, np.zeros((len(work.curves), 1), dtype=np.intp))
     base = (None, None, None) if own.base is None else tuple(one[0] for one in own.base)
+    values = {
+        name: (own.rate if order else own.position)[0, :, j]
+        for j, joint in enumerate(motion.joints)
+        for order, name in enumerate((joint, f"{joint}_rate"))
+        if name in samples.columns
+    }
+    if base[0] is not None:
+        values |= {name: base[0][:, k] for k, name in enumerate(BASE_PLACE)}
+    nodes, told = scatter(samples, resolved, values)
+    motion = replace(motion, notes=(*motion.notes, *told))
+    if nodes:
+        return motion
     return replace(
         motion,
         position=own.position[0],

@@ -73,6 +73,8 @@ def content(
     form: str,
     units: WrittenUnits | None = None,
     servos: ServosFile = USUAL,
+    *,
+    tabs: bool = False,
 ) -> bytes:
     """A motion as a file's content.
 
@@ -81,7 +83,10 @@ def content(
         form: One of :data:`FORMS`.
         units: Units of tables and of our own format; None is SI.
         servos: How the servos count, for ticks.
+        tabs: Whether tabs stand between the cells of a table rather than commas.
     """
+    if tabs and form in ("poses", "joints", "ticks"):  # no cell of which holds a comma
+        return content(movement, form, units, servos).replace(b",", b"\t")
     units = WrittenUnits() if units is None else units
     if form == "toml":
         return movement.toml(units).encode()

@@ -233,3 +233,16 @@ def test_a_stance_of_a_few_noisy_rows_leaves_nothing_wild(tmp_path, seed):
     for body in BODIES:
         for own, curve in zip(gait.curves[body], gait.variants.curves[body], strict=True):
             assert np.abs(curve(t) - own(t)[:, None]).max() < 0.01
+
+
+@pytest.mark.parametrize("pattern", [(0.21, 0.19), (0.21, 0.21, 0.19, 0.19), (*[0.21] * 11, 0.19)])
+@pytest.mark.parametrize("step", [1.0, 0.2])
+def test_a_squat_in_nodes_far_apart_is_motion_not_noise(tmp_path, pattern, step):
+    heights = np.resize(pattern, 24)
+    file = tmp_path / "squat.csv"
+    rows = [f"{step * k:.1f},double,{z:.3f},-0.034,0.034" for k, z in enumerate(heights)]
+    header = "t,support,torso_z,left_foot_x,right_foot_x"
+    file.write_text("\n".join([header, *rows]) + "\n")
+    gait = load_gait(file)
+    np.testing.assert_allclose(gait.curves["torso"][2](step * np.arange(24)), heights, atol=1e-12)
+    assert "is taken for motion: curves pass through every row" in gait.notes[-1]

@@ -137,6 +137,23 @@ def test_a_free_root_is_smoothed_too(tmp_path, form):
     assert np.abs(whole.joints.a[inner, 2:5]).max() < 1e-9
 
 
+def test_nodes_far_apart_that_go_to_and_fro_are_motion(arm, tmp_path):
+    time = np.arange(40.0)
+    turn = np.where(np.arange(40) % 4 < 2, 0.1, -0.1)
+    motion = read_motion(arm, written(tmp_path, time, {"turn": (turn, ".2f")}))
+    np.testing.assert_array_equal(motion.position[:, 0], turn)
+    assert motion.variants is None
+
+
+def test_noise_is_said_to_be_taken_for_it(arm, tmp_path):
+    time = np.linspace(0.0, 2.0, 401)
+    turn = swing(time) + 2e-3 * np.random.default_rng(3).standard_normal(401)
+    motion = read_motion(arm, written(tmp_path, time, {"turn": (turn, ".5f")}))
+    assert "turn: rows scatter about a smooth curve by up to 0." in motion.notes[-1]
+    assert "taken for noise" in motion.notes[-1]
+    np.testing.assert_allclose(motion.position[:, 0], swing(time), atol=2e-3)
+
+
 def test_a_motion_beside_itself_is_itself(tmp_path):
     from pathlib import Path
 
