@@ -144,7 +144,7 @@ class Tolerances:
     stance_tilt: float = 1e-3
     exact_move: float = 5e-4
     exact_turn: float = 1e-2
-    exact_rate: float = 1e-6
+    exact_rate: float = 1e-7
     outlier_move: float = 0.05
     outlier_turn: float = 0.5
     node_step: float = 0.1

@@ -16,7 +16,7 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import check_stance
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.resolution.corners import starts_with_a_jump
-from scout_pin.motion.resolution.feet import Foot, Moving, Stance, foot, stances
+from scout_pin.motion.resolution.feet import Foot, Moving, Stance, foot, foot_noise, stances
 from scout_pin.motion.resolution.thinning import thinned
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
 from scout_pin.motion.variants import Change, RateJump, Resolution, Variants
@@ -31,7 +31,7 @@ from thesis_pin.smoothing.curve import (
     rest,
     smooth_curve,
 )
-from thesis_pin.smoothing.noise import acceleration_noise, sample_noise, still, white_noise
+from thesis_pin.smoothing.noise import acceleration_noise, sample_noise, still
 from thesis_pin.smoothing.outliers import outliers
 from thesis_pin.smoothing.stated import Stated
 from thesis_pin.tables.samples import Samples, scatter
@@ -198,7 +198,9 @@ def _smoothed(samples: GaitSamples, quanta: dict[str, float], notes: tuple[str, 
     for side, body in enumerate(BODIES[1:]):
         stood = _stances(samples, quanta, standing[:, side], side)
         steps = np.array([quanta.get(f"{body}_{c}", 0.0) for c in POSE_NAMES])
-        feet.append(foot(t, _poses(samples, body), stood, steps, side))
+        poses = _poses(samples, body)
+        noise = foot_noise(poses, standing[:, side])
+        feet.append(foot(t, poses, stood, steps, noise, side))
         rested |= _at_rest(samples, body, stood)
     phases, more, labels = phases_of(replace(samples, poses=rested))
     torso = tuple(_torso(samples, quanta, k) for k in range(len(POSE_NAMES)))
@@ -247,7 +249,7 @@ def _stances(
     body = BODIES[1 + side]
     poses = _poses(samples, body)
     steps = np.array([quanta.get(f"{body}_{c}", 0.0) for c in POSE_NAMES])
-    noise = np.array([white_noise(poses[:, k]) for k in range(len(POSE_NAMES))])
+    noise = foot_noise(poses, standing)
     found = []
     for one in stances(poses, standing, steps, noise, side):
         if isinstance(one, Moving):

@@ -218,6 +218,23 @@ def test_angles_in_coarse_steps_are_thinned_to_one_row_a_step(scout, tmp_path):
     assert report.can_walk
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_a_stance_of_a_few_noisy_rows_leaves_nothing_wild(tmp_path, seed):
+    path = log(tmp_path / "log.csv", 25.0, 9)
+    lines, random = path.read_text().splitlines(), np.random.default_rng(seed)
+    made = [lines[0]]
+    for line in lines[16:70]:  # the first stance of the right foot has five rows left
+        t, support, *cells = line.split(",")
+        noisy = np.array(cells, float) + 1e-4 * random.standard_normal(18)
+        made.append(",".join([t, support, *(f"{value:.9f}" for value in noisy)]))
+    path.write_text("\n".join(made) + "\n")
+    gait = load_gait(path)
+    t = np.linspace(gait.start, gait.end, 200)
+    for body in BODIES:
+        for own, curve in zip(gait.curves[body], gait.variants.curves[body], strict=True):
+            assert np.abs(curve(t) - own(t)[:, None]).max() < 0.01
+
+
 @pytest.mark.parametrize("pattern", [(0.21, 0.19), (0.21, 0.21, 0.19, 0.19), (*[0.21] * 11, 0.19)])
 @pytest.mark.parametrize("step", [1.0, 0.2])
 def test_a_squat_in_nodes_far_apart_is_motion_not_noise(tmp_path, pattern, step):
