@@ -194,7 +194,7 @@ def write(
 
 def seeds(name: str, rate: float, place: int) -> list[int]:
     """Of a cell's random numbers: gait, rate, number of its resolution."""
-    return [20260101, int(rate), place, *map(ord, name)]
+    return [20260102, int(rate), place, *map(ord, name)]
 
 
 def cells(truth: Truth) -> Iterator[Cell]:

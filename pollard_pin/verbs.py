@@ -81,6 +81,8 @@ def motion(arguments: argparse.Namespace, robot: Pollard) -> Movement:
     """The path that the arguments ask for, to be written down."""
     from pollard_pin.report.movement import path_movement
 
+    if arguments.actuators != "six":
+        raise BadInput("a motion is written for six motors", remedy="Leave --actuators out")
     path = _path(arguments, robot.specification)
     return path_movement(robot, path, samples=arguments.samples, branch=_branch(arguments))
 

@@ -38,8 +38,8 @@ class Tolerances:
         outlier_move: Acceleration that a single sample beside its neighbours would take, from
             which it counts as wrong [m/s²]: slower corners may be meant.
         outlier_turn: The same of angular accelerations [rad/s²].
-        node_step: Time between rows [s] from which what scatters about a smooth curve is taken for
-            motion rather than noise: those who write nodes by hand write no more of them.
+        node_step: Time between rows [s] from which they are nodes, each of them meant, and what
+            scatters about a smooth curve is motion rather than noise: nobody writes more by hand.
         stance_near: How far from its place a foot may be that a log's first or last row of
             a stance has standing: a switch under the sole closes that early [m].
         stance_near_tilt: The same of its angles [rad].
@@ -144,7 +144,7 @@ class Tolerances:
     stance_tilt: float = 1e-3
     exact_move: float = 5e-4
     exact_turn: float = 1e-2
-    exact_rate: float = 1e-6
+    exact_rate: float = 1e-7
     outlier_move: float = 0.05
     outlier_turn: float = 0.5
     node_step: float = 0.1

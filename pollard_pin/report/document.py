@@ -70,9 +70,9 @@ class TrajectoryReport(TrajectoryNumbers):
     def _doubts(self) -> list[str]:
         seconds, speed, push = float(self.joints.time[-1] - self.joints.time[0]), 0.0, 0.0
         for samples in blocks(len(self.joints.time)):
-            part = self.motion.part(samples)
-            speed = max(speed, largest(part.rate[:, :3], ARM * part.rate[:, 3:]))
-            push = max(push, largest(part.acceleration[:, :3], ARM * part.acceleration[:, 3:]))
+            tool = self.motion.part(samples).tool
+            speed = max(speed, largest(tool.velocity, ARM * tool.omega))
+            push = max(push, largest(tool.acceleration, ARM * tool.alpha))
         return pace.doubts(seconds, speed * seconds, push)
 
     def assumptions(self) -> list[dict[str, object]]:

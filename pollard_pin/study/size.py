@@ -10,7 +10,7 @@ from thesis_pin.numeric.long import gathered
 from thesis_pin.sizing.catalogue import Catalogue
 from thesis_pin.sizing.document import Sizing
 from thesis_pin.sizing.document import size as size_loads
-from thesis_pin.sizing.loads import Loads
+from thesis_pin.sizing.loads import Loads, resolution_notes
 
 
 def size(report: TrajectoryReport, catalogue: Catalogue, factor: float = 1.0) -> Sizing:
@@ -31,6 +31,7 @@ def size(report: TrajectoryReport, catalogue: Catalogue, factor: float = 1.0) ->
             allowed="six",
         )
     joints, count = report.joints, len(report.joints.time)
+    held = report.headlines
     loads = Loads.of(
         report.robot.specification.name,
         report.path.name,
@@ -40,5 +41,6 @@ def size(report: TrajectoryReport, catalogue: Catalogue, factor: float = 1.0) ->
         gathered(count, joints.part, lambda part: part.v[:, ACTUATORS]),
         gathered(count, joints.part, lambda part: part.a[:, ACTUATORS]),
         report.robot.specification.motors.armature(),
+        [] if held is None else resolution_notes(ACTUATOR_NAMES, held.peak_torque),
     )
     return size_loads(loads, catalogue, factor)

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 Floats = NDArray[np.floating[Any]]
 
 _MARGIN = 5e-5  # what the grid of samples may miss of a margin [m]
-_PEAK = 2e-4  # and of a peak, relative
+_PEAK = 1e-3  # and of a peak, relative
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from thesis_pin.numeric.long import gathered
 from thesis_pin.sizing.catalogue import Catalogue
 from thesis_pin.sizing.document import Sizing
 from thesis_pin.sizing.document import size as size_loads
-from thesis_pin.sizing.loads import Loads
+from thesis_pin.sizing.loads import Loads, resolution_notes
 
 SHARING = (
     "In double support the feet share the load as they do with the specification's own servos."
@@ -26,6 +26,7 @@ def size(report: GaitReport, catalogue: Catalogue, factor: float = 1.0) -> Sizin
     """
     instance("report", report, GaitReport, "scout_pin.gait_report()")
     joints, count = report.joints, len(report.joints.time)
+    held = report.headlines
     loads = Loads.of(
         report.robot.specification.name,
         f"gait {report.gait.name!r}",
@@ -35,6 +36,6 @@ def size(report: GaitReport, catalogue: Catalogue, factor: float = 1.0) -> Sizin
         gathered(count, joints.part, lambda part: part.v),
         gathered(count, joints.part, lambda part: part.a),
         report.robot.specification.armature(),
-        [SHARING],
+        [SHARING, *([] if held is None else resolution_notes(JOINT_NAMES, held.peak_torque))],
     )
     return size_loads(loads, catalogue, factor)

@@ -9,6 +9,7 @@ import pinocchio as pin
 
 from thesis_pin.command.results import Answer, deliver, give, put_folder
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.loops.checking import soundness
 from thesis_pin.loops.checking.assembly import assembly
@@ -43,11 +44,12 @@ def torque(arguments: argparse.Namespace) -> ExitCode:
 
     def make(_: object) -> TorqueReport:
         robot = _loaded(arguments)
-        motion = read_motion(robot, arguments.motion, smooth=arguments.smooth)
-        x = arguments.precision
-        pose = assembly(robot, arguments.pose, precision=x).q
-        external = _external(arguments)
-        return torque_report(robot, motion, pose=pose, precision=x, external=external)
+        with warned():
+            motion = read_motion(robot, arguments.motion, smooth=arguments.smooth)
+            x = arguments.precision
+            pose = assembly(robot, arguments.pose, precision=x).q
+            external = _external(arguments)
+            return torque_report(robot, motion, pose=pose, precision=x, external=external)
 
     return deliver(
         arguments,

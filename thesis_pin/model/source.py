@@ -111,7 +111,7 @@ def _decoded(content: bytes) -> tuple[str, str] | None:
             text = content.decode(codec)
         except UnicodeDecodeError:
             continue
-        if name and _CONTROL.search(text):
+        if _CONTROL.search(text) if name else "\0" in text:
             return None
         return text, name
     return None

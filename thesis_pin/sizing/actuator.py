@@ -95,6 +95,12 @@ class Actuator:
                 f"{2 * pi / self.no_load_speed:.3g} s, and no robot's servo is so slow. Is its "
                 "speed in another unit, as rpm or seconds in 60°?"
             )
+        if self.rotor_inertia > 0 and abs(self.gear_ratio) < 1:
+            yield (
+                f"{self.name}: with a gear ratio of {self.gear_ratio:g} its rotor turns slower "
+                "than its output. If that is the other way round, write "
+                f"{1 / abs(self.gear_ratio):g}."
+            )
         if self.rated_torque is not None and self.rated_torque > self.stall_torque:
             yield (
                 f"{self.name}: its rated torque of {self.rated_torque:g} N·m is above its stall "

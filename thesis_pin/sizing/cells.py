@@ -56,7 +56,11 @@ def number_in(cell: Cell, heading: Heading, where: str) -> float:
             value, heading = finite(number), replace(heading, factor=units[unit])
     least = 0.0 if heading.quantity in _MAY_BE_ZERO else LIMITS.smallest
     if isinstance(value, tuple) or value is None or not abs(value) <= LIMITS.magnitude:
-        raise BadInput(f"{shown(cell)} isn't a number", where=where, allowed="a finite number")
+        raise BadInput(
+            f"{shown(cell)} isn't a number",
+            where=where,
+            allowed=f"a finite number of magnitude at most {LIMITS.magnitude:g}",
+        )
     if (abs(value) if heading.quantity in _ANY_SIGN else value) < least:
         raise BadInput(f"it is {value:g}", where=where, allowed=f"at least {least:g}")
     return heading.si(float(value))

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.smoothing.intervals import Interval
+
 Array = NDArray[np.float64]
 
 
@@ -71,3 +73,20 @@ class Loads:
         """Root mean square over time of values ``(n, k)``: ``(k,)``."""
         duration = self.time[-1] - self.time[0]
         return np.asarray(np.sqrt(np.trapezoid(values**2, self.time, axis=0) / duration))
+
+
+def resolution_notes(joints: Sequence[str], peaks: Sequence[Interval]) -> list[str]:
+    """What the resolution of a motion's samples leaves open of peak torques, a sentence or none.
+
+    Args:
+        joints: Names, ``k`` of them.
+        peaks: The peak torque of each, and between what it lies.
+    """
+    more = {name: one.high - one.value for name, one in zip(joints, peaks, strict=True)}
+    name = max(more, key=lambda joint: more[joint])
+    if not more[name] > 0:
+        return []
+    return [
+        "The motion's samples have a finite resolution: peak torques may be larger than said by up "
+        f"to {more[name]:.2g} N·m (at {name}); safety factors don't count that."
+    ]

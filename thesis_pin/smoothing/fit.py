@@ -26,6 +26,7 @@ LEAST, MOST = -16.0, 18.0
 CONDITION = 23.0
 """Largest log λ·max(w): beyond, the equations' condition leaves no digits."""
 _GRID = np.linspace(LEAST, MOST, 18)
+_SHORTEST = -1.2  # logarithm of the least reach, in spans
 _STEP = 2.0  # of log λ; between, the likelihood is a parabola
 
 
@@ -69,6 +70,9 @@ class Fit:
         loose = max(0, order - (samples.rows.basis.count - free))
         self.degrees, self._rank = max(count - loose, 1), free - loose
         self.most = min(MOST, CONDITION - float(np.log(self.weight.max())))
+        # Weaker than this, nothing would hold the curve between its samples.
+        dense = float(samples.weight.sum()) / samples.rows.basis.spans
+        self.least = max(LEAST, 2 * order * _SHORTEST + float(np.log(dense)))
 
     def at(self, strength: float) -> Solution:
         """The solution of one log λ."""
@@ -113,13 +117,13 @@ class Fit:
             return self.criterion(strength, sigma, least)
 
         if near is None:
-            tried = _GRID[self.most >= _GRID]
+            tried = _GRID[(self.least <= _GRID) & (self.most >= _GRID)]
         else:
-            tried = np.clip(near + _STEP * np.array([-1.0, 0.0, 1.0]), LEAST, self.most)
+            tried = np.clip(near + _STEP * np.array([-1.0, 0.0, 1.0]), self.least, self.most)
         costs = [cost(float(strength)) for strength in tried]
         while (k := int(np.argmin(costs))) in (0, len(tried) - 1):
             beyond = float(tried[k] + (_STEP if k else -_STEP))
-            if not LEAST <= beyond <= self.most:
+            if not self.least <= beyond <= self.most:
                 return float(tried[k])
             tried, costs = np.insert(tried, k + (k > 0), beyond), [*costs]
             costs.insert(k + (k > 0), cost(beyond))
@@ -181,7 +185,7 @@ def strongest(fit: Fit, floor: float, noise: float, near: float | None = None) -
     if sigma < floor:
         sigma = floor
         log = fit.best(sigma, least, near)
-    if log < -8.0 and noise > 2.0 * sigma:
+    if log < max(-8.0, fit.least + _STEP) and noise > 2.0 * sigma:
         sigma = noise
         log = fit.best(sigma, least)
     return Strength(fit, log, max(sigma, least))

@@ -58,7 +58,7 @@ def least_value(
         longest: Of order 4's where it holds for all contacts that the samples allow.
         slack: What rounding of the rest may do.
     """
-    wide = _open(value, rival, draws) + max(0.0, value - float(np.mean(draws)))
+    wide = _open(value, rival, draws) + max(0.0, value - _middle(value, draws))
     lower = min(value if shortest is None else shortest, value - abs(rival - value))
     upper = max(value, value if longest is None else longest)
     return Interval(value, lower - wide - slack, upper + abs(rival - value) + wide + slack)
@@ -84,7 +84,7 @@ def largest_value(
             with friction that nobody knows.
         slack: What rounding of the rest may do, relative.
     """
-    wide = _open(value, rival, draws) + max(0.0, float(np.mean(draws)) - value)
+    wide = _open(value, rival, draws) + max(0.0, _middle(value, draws) - value)
     lower = min(value if least is None else least, value - abs(rival - value))
     upper = max(value, value if most is None else most)
     wide += slack * abs(value)
@@ -93,3 +93,8 @@ def largest_value(
 
 def _open(value: float, rival: float, draws: Array) -> float:
     return SPREAD * float(np.std(draws, ddof=1)) if len(draws) > 1 else abs(value - rival)
+
+
+def _middle(value: float, draws: Array) -> float:
+    """Mean of the draws; the value itself if none could be worked out."""
+    return float(np.mean(draws)) if len(draws) else value

@@ -36,11 +36,12 @@ def doubted(
             if one.unit.size == 1.0 and (size := np.abs(one.values).max(initial=0.0)) > most
         }
         if large:
+            named = [one.heading for one in large]
+            more = f" and {len(named) - 3} more" if named[3:] else ""
             said.append(
-                f"{file}: {', '.join(one.heading for one in large)} reach "
-                f"{max(large.values()):.6g} {unit}: if these are {likely}, call the "
-                f"column{'s' if len(large) > 1 else ''} "
-                f"{', '.join(one.name + ending for one in large)}"
+                f"{file}: {', '.join(named[:3])}{more} reach {max(large.values()):.6g} {unit}: if "
+                f"these are {likely}, call {'them' if named[1:] else 'it'} so, as in "
+                f"{next(iter(large)).name}{ending}"
             )
     for one in said:
         warnings.warn(one, ModelWarning, stacklevel=3)

@@ -17,6 +17,7 @@ from thesis_pin.tolerances import TOLERANCES
 Array = NDArray[np.float64]
 
 _CLOSE = 1e-3  # of the usual step: rows nearer than this are two of the same instant
+_ROUNDED = 0.6  # of a step of the text that rounding may leave about a curve
 _FAR = 6.0  # times the usual distance from a curve that none of many samples of noise reaches
 _MOST = 10  # pairs of rows that are named
 
@@ -112,9 +113,14 @@ def warning(
 
 
 def mended(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
-    """The samples without those that don't belong to their neighbours, and a note on each."""
+    """The samples without those that don't belong to their neighbours, and a note on each.
+
+    Rows that are ``node_step`` apart are nodes, and each is meant.
+    """
     columns, notes = dict(samples.columns), []
     step = float(np.median(np.diff(samples.time.values)))
+    if step >= TOLERANCES.node_step:
+        return samples, ()
     for name, column in samples.columns.items():
         turns = name in samples.turning
         # A slow motion may well be written with one row at its turning point.
@@ -161,29 +167,25 @@ def scatter(
         True if rows are so far apart that their scatter is taken for motion.
     """
     largest = {True: 0.0, False: 0.0}
-    names = []
+    names, step = [], float(np.median(np.diff(samples.time.values)))
     for name, values in curves.items():
-        off = np.abs(samples.columns[name].values - values)
-        usual, worst, turns = (
-            float(np.sqrt(np.mean(off**2))),
-            float(off.max()),
-            name in samples.turning,
-        )
+        off, turns = np.abs(samples.columns[name].values - values), name in samples.turning
+        usual, worst, quantum = float(np.sqrt(np.mean(off**2))), float(off.max()), resolved[name]
         # Rounding leaves a third of a step, half of one at most.
-        if usual > resolved[name] or worst > max(1.5 * resolved[name], _FAR * usual):
+        left = usual > _ROUNDED * quantum or worst > max(1.5 * quantum, _FAR * usual)
+        noise = rate_noise if name in samples.rates else acceleration_noise
+        limit = TOLERANCES.exact_turn if turns else TOLERANCES.exact_move
+        if left and noise(worst, step) > limit:
             names.append(name)
             largest[turns] = max(largest[turns], worst)
     if not names:
         return False, ()
     sizes = [f"{largest[False] * 1e3:.2g} mm"] * (largest[False] > 0)
     sizes += [f"{np.degrees(largest[True]):.2g}°"] * (largest[True] > 0)
-    found = (
-        f"{', '.join(names)}: rows scatter about a smooth curve by up to {' and '.join(sizes)}, "
-    )
-    step = float(np.median(np.diff(samples.time.values)))
+    found = f"{', '.join(names)}: rows scatter about a smooth curve by up to {' and '.join(sizes)}"
     if step >= TOLERANCES.node_step:
         return True, (
-            f"{found}which at {step:.3g} s from row to row is taken for motion: curves pass "
+            f"{found}, which at {step:.3g} s from row to row is taken for motion: curves pass "
             "through every row",
         )
-    return False, (f"{found}which is taken for noise; --smooth none takes it for motion",)
+    return False, (f"{found}, which is taken for noise; --smooth none takes it for motion",)

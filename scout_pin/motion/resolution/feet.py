@@ -21,7 +21,7 @@ from thesis_pin.smoothing.curve import (
     rest,
     smooth_curve,
 )
-from thesis_pin.smoothing.noise import ROUNDING, still
+from thesis_pin.smoothing.noise import ROUNDING, still, white_noise
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -35,6 +35,7 @@ _FAR = 4.5  # standard deviations of noise by which a standing foot may seem off
 LEAST_ROWS = 8
 """Rows of a swing that tell its rate at an end."""
 
+_NORMAL = 1.0484  # from the median of neighbours' differences to the deviation of each
 _MISSED = 4.0  # standard deviations of a sample by which a start from rest must miss them
 _STANCES = 1  # one of two kinds of streams of random numbers
 _SWINGS = 2
@@ -101,6 +102,8 @@ def stances(
         for at, to in ((first, last), (first + 1, last), (first, last - 1), (first + 1, last - 1)):
             if to < at or (tried and to - at < 2):
                 continue
+            if (at > first == 0) or (to < last == len(poses) - 1):
+                continue  # nothing comes before or after that it could be on its way from or to
             one = _stance(poses[at : to + 1], (at, to), quanta, noise, (side, number))
             whole = (at, to) == (first, last)
             if isinstance(one, Stance) and (whole or _near(poses[[first, last]], one, noise)):
@@ -116,6 +119,19 @@ def _near(ends: Array, stance: Stance, noise: Array) -> bool:
     """Whether a foot is on its place in the first and last row, or about to be."""
     place = np.array([one.value for one in stance.place])
     return bool((np.abs(ends - place) <= np.maximum(_NEAR, _FAR * noise)).all())
+
+
+def foot_noise(poses: Array, standing: NDArray[np.bool_]) -> Array:
+    """What a foot's samples show of their noise, above all while it stands, ``(6,)``.
+
+    Args:
+        poses: Samples of its coordinates, shape ``(n, 6)``.
+        standing: Rows in which it bears load, ``(n,)``.
+    """
+    steps = np.diff(poses, axis=0)[standing[1:] & standing[:-1]]
+    beside = np.median(np.abs(steps), axis=0) if len(steps) else np.zeros(poses.shape[1])
+    still_ones = _NORMAL * beside
+    return np.asarray(np.maximum(still_ones, [white_noise(column) for column in poses.T]))
 
 
 def _stance(
@@ -158,6 +174,7 @@ def foot(
     poses: Array,
     stood: Sequence[Stance],
     quanta: Array,
+    noise: Array,
     side: int,
     *,
     exact: bool = False,
@@ -169,6 +186,7 @@ def foot(
         poses: Samples, ``(n, 6)``.
         stood: Its stances, in order.
         quanta: Resolution of the columns, ``(6,)``.
+        noise: What is known of their noise beyond, ``(6,)``.
         side: 0 or 1, for the random numbers.
         exact: Whether swings pass through every sample.
     """
@@ -189,7 +207,13 @@ def foot(
             last = len(time) - 1 if after is None else after.first
             if last <= first:
                 continue
-            ends = tuple(None if one is None else one.place[k] for one in (before, after))
+            ends = [None if one is None else one.place[k] for one in (before, after)]
+            if None in ends and len(stood) and last - first < LEAST_ROWS:
+                # Too few rows to tell how a free end moves: it rests at its own sample.
+                row, spread = (first, 0) if ends[0] is None else (last, 1)
+                wrong = max(float(quanta[k]) * ROUNDING, float(noise[k]))
+                offsets = wrong * generator(_STANCES, side, k, number).standard_normal(DRAWS)
+                ends[spread] = End(float(poses[row, k]), offsets)
             swing = _Swing(time, poses[:, k], float(quanta[k]), (side, k, number), exact)
             made, found = swing.between(first, last, (ends[0], ends[1]))
             pieces += made

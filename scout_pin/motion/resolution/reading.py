@@ -6,7 +6,6 @@ Source: the method is :mod:`thesis_pin.smoothing`; docs/rounding.md shows what i
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +16,7 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import check_stance
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.resolution.corners import starts_with_a_jump
-from scout_pin.motion.resolution.feet import Moved, Moving, Stance, foot, stances
+from scout_pin.motion.resolution.feet import Moved, Moving, Stance, foot, foot_noise, stances
 from scout_pin.motion.resolution.thinning import thinned
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
 from scout_pin.motion.variants import Change, RateJump, Resolution, Variants
@@ -31,9 +30,10 @@ from thesis_pin.smoothing.curve import (
     generator,
     joined,
 )
-from thesis_pin.smoothing.noise import acceleration_noise, sample_noise, white_noise
+from thesis_pin.smoothing.noise import acceleration_noise, sample_noise
 from thesis_pin.smoothing.outliers import outliers
 from thesis_pin.smoothing.stated import Stated
+from thesis_pin.tables.samples import Samples, scatter
 from thesis_pin.tables.table import Column
 from thesis_pin.tolerances import TOLERANCES
 
@@ -60,19 +60,51 @@ def gait_from_samples(
     """
     quanta = _quanta(samples, how)
     if how.through or method is not None:
-        gait = through_samples(samples, method or "free")
-        return replace(gait, notes=(*gait.notes, *_warning(samples, quanta, time_unit)))
-    samples, notes = _mended(samples)
+        asked = through_samples(samples, method or "free")
+        return replace(asked, notes=(*asked.notes, *_warning(samples, quanta, time_unit)))
+    samples, notes = _mended(samples, time_unit)
     notes = (*notes, *_close_rows(samples))
-    if all(error <= limit for _, error, limit in errors(samples, quanta, time_unit)):
-        gait = through_samples(samples, "free")
-        # A spline through a jump of rate rings; pieces that end there don't.
-        with suppress(TrajectoryError):
-            check_stance(gait.name, gait.curves, gait.phases)
-            if not _cornered(samples, quanta):
-                return replace(gait, notes=(*gait.notes, *notes))
-        return _smoothed(samples, quanta, notes, exact=True)
-    return _smoothed(thinned(samples), quanta, notes)
+    exact = all(error <= limit for _, error, limit in errors(samples, quanta, time_unit))
+    if exact:
+        gait = _through(samples, notes)
+        if gait is None or _cornered(samples, quanta):
+            return _smoothed(samples, quanta, notes, exact=True)
+        return gait
+    few = thinned(samples)
+    smooth = _smoothed(few, quanta, notes)
+    nodes, told = _scatter(few, quanta, smooth, time_unit)
+    gait = _through(samples, (*notes, *told)) if nodes else None
+    return smooth if gait is None else gait
+
+
+def _through(samples: GaitSamples, notes: tuple[str, ...]) -> Gait | None:
+    """The gait through every sample; None if standing feet don't rest in it.
+
+    A spline through a jump of rate rings; pieces that end there don't.
+    """
+    gait = through_samples(samples, "free")
+    try:
+        check_stance(gait.name, gait.curves, gait.phases)
+    except TrajectoryError:
+        return None
+    return replace(gait, notes=(*gait.notes, *notes))
+
+
+def _scatter(
+    samples: GaitSamples, quanta: dict[str, float], gait: Gait, time_unit: float
+) -> tuple[bool, tuple[str, ...]]:
+    """Whether rows are so far apart that what smooth curves of the torso leave out is motion."""
+    t = samples.time.values
+    names = [f"torso_{coordinate}" for coordinate in POSE_NAMES]
+    columns = {name: samples.poses[name] for name in names if name in samples.poses}
+    curves = dict(zip(names, gait.curves["torso"], strict=True))
+    table = Samples(
+        samples.table,
+        replace(samples.time, values=t * time_unit),
+        columns,
+        frozenset(name for name in columns if _turns(name)),
+    )
+    return scatter(table, quanta, {name: curves[name](t) for name in columns})
 
 
 def _cornered(samples: GaitSamples, quanta: dict[str, float]) -> bool:
@@ -129,13 +161,15 @@ def _quanta(samples: GaitSamples, how: Stated) -> dict[str, float]:
     }
 
 
-def _mended(samples: GaitSamples) -> tuple[GaitSamples, tuple[str, ...]]:
+def _mended(samples: GaitSamples, time_unit: float) -> tuple[GaitSamples, tuple[str, ...]]:
     """The samples without those that don't belong to their neighbours, and a note on each."""
     poses, notes = dict(samples.poses), []
-    step = float(np.median(np.diff(samples.time.values)))
+    step = float(np.median(np.diff(samples.time.values))) * time_unit
+    if step >= TOLERANCES.node_step:  # rows so far apart are nodes, and each is meant
+        return samples, ()
     for name, column in samples.poses.items():
-        limit = TOLERANCES.exact_turn if _turns(name) else TOLERANCES.exact_move
-        # What is exact enough to be interpolated has none.
+        # A slow motion may well be written with one row at its turning point.
+        limit = TOLERANCES.outlier_turn if _turns(name) else TOLERANCES.outlier_move
         found = outliers(column.values, column.quantum, limit * step**2)
         if not found:
             continue
@@ -182,7 +216,9 @@ def _smoothed(
     for side, body in enumerate(BODIES[1:]):
         stood = _stances(samples, quanta, standing[:, side], side)
         steps = np.array([quanta.get(f"{body}_{c}", 0.0) for c in POSE_NAMES])
-        feet.append(foot(t, _poses(samples, body), stood, steps, side, exact=exact))
+        poses = _poses(samples, body)
+        noise = foot_noise(poses, standing[:, side])
+        feet.append(foot(t, poses, stood, steps, noise, side, exact=exact))
         rested |= _at_rest(samples, body, stood)
     phases, more, labels = phases_of(replace(samples, poses=rested))
     bodies = [_torso(samples, quanta, exact=exact), *feet]
@@ -232,7 +268,7 @@ def _stances(
     body = BODIES[1 + side]
     poses = _poses(samples, body)
     steps = np.array([quanta.get(f"{body}_{c}", 0.0) for c in POSE_NAMES])
-    noise = np.array([white_noise(poses[:, k]) for k in range(len(POSE_NAMES))])
+    noise = foot_noise(poses, standing)
     found = []
     for one in stances(poses, standing, steps, noise, side):
         if isinstance(one, Moving):

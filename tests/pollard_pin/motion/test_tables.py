@@ -271,4 +271,4 @@ def test_degrees_without_their_unit_are_asked_about(tmp_path):
     file.write_text("t,x,y,z,roll,pitch,yaw\n0,0.45,0,0.3,0,0,90\n1,0.46,0,0.3,0,0,92\n")
     with pytest.warns(ModelWarning, match="yaw reach 92 rad: if these are degrees"):
         poses = read_poses(file)
-    assert any("call the column yaw_deg" in note for note in poses.notes)
+    assert any("as in yaw_deg" in note for note in poses.notes)

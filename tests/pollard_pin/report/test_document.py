@@ -151,3 +151,19 @@ def test_work_goes_on_from_block_to_block_of_samples(pollard):
     many = pollard_pin.trajectory_report(pollard, pollard_pin.appendix_b(), samples=9001)
     work = cumulative_trapezoid(many.power, many.joints.time, axis=0, initial=0)
     np.testing.assert_allclose(many.work_done, work, rtol=1e-12, atol=1e-14)
+
+
+def test_a_tool_that_points_straight_down_has_a_report(pollard, tmp_path):
+    """There ψ = 90°, and the angles have no rates."""
+    file = tmp_path / "nod.toml"
+    nodes = [(0.0, 70.0), (1.0, 90.0), (2.0, 110.0)]
+    file.write_text(
+        "format = 1\n"
+        + "".join(
+            f"[[poses]]\ntime = {t}\nposition = [0.45, 0, 0.05]\norientation_deg = [{psi}, 0, 0]\n"
+            for t, psi in nodes
+        )
+    )
+    report = pollard_pin.trajectory_report(pollard, pollard_pin.load_path(file), samples=201)
+    assert report.doubts() == []
+    assert report.document()["summary"]["within_limits"]

@@ -121,6 +121,6 @@ def test_names_and_supports_in_another_case_are_the_same_gait(columns, tmp_path)
 def test_a_gait_in_degrees_whose_columns_say_radians_is_asked_about(columns, tmp_path):
     turned = columns | {"torso_roll": [str(10 * k) for k in range(len(columns["t"]))]}
     (tmp_path / "a.csv").write_text(written(turned, ",", ".", "", "", ""))
-    with pytest.warns(ModelWarning, match="torso_roll reach .* call the column torso_roll_deg"):
+    with pytest.warns(ModelWarning, match="torso_roll reach .* as in torso_roll_deg"):
         gait = scout_pin.load_gait(tmp_path / "a.csv")
     assert any("torso_roll_deg" in note for note in gait.notes)

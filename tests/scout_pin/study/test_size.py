@@ -5,7 +5,9 @@ import pytest
 
 import scout_pin
 from scout_pin.motion.files import load_gait
+from scout_pin.report.movement import gait_movement
 from scout_pin.specification import Specification
+from thesis_pin.report.exchange.movement import content
 from thesis_pin.sizing.actuator import Actuator
 from thesis_pin.sizing.catalogue import Catalogue, read_catalogue
 
@@ -52,3 +54,17 @@ def test_the_example_s_list_carries_the_example_s_walk(report):
     assert sizing.yes
     assert sizing.warnings() == []
     assert sizing.actuators[0].extra == {"bearing": "ball"}
+
+
+def test_samples_of_finite_resolution_are_said_and_exact_ones_are_not(report, tmp_path):
+    catalogue = read_catalogue(EXAMPLES / "servos.csv")
+    assert not any("resolution" in note for note in scout_pin.size(report, catalogue).notes())
+    movement = gait_movement(report.robot, load_gait(EXAMPLES / "walk.toml"), samples=301)
+    rows = content(movement, "poses").decode().splitlines()
+    rounded = [
+        ",".join(c if c.isalpha() else f"{float(c):.4f}" for c in r.split(",")) for r in rows[1:]
+    ]
+    file = tmp_path / "rounded.csv"
+    file.write_text("\n".join([rows[0], *dict.fromkeys(rounded)]) + "\n")
+    coarse = scout_pin.gait_report(report.robot, load_gait(file))
+    assert any("finite resolution" in note for note in scout_pin.size(coarse, catalogue).notes())

@@ -62,3 +62,12 @@ def test_a_servo_so_slow_that_its_speed_must_be_in_another_unit_is_warned_of(spe
     said = list(Actuator("A", 0.4, speed).odd())
     assert len(said) == odd
     assert all("rpm or seconds in 60°" in one for one in said)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "inertia", "odd"), [(0.005, 1e-8, 1), (0.005, 0.0, 0), (200, 1e-8, 0), (1, 1e-8, 0)]
+)
+def test_a_gear_that_speeds_a_rotor_up_is_asked_about(ratio, inertia, odd):
+    said = list(Actuator("A", 0.4, 4.5, gear_ratio=ratio, rotor_inertia=inertia).odd())
+    assert len(said) == odd
+    assert all("the other way round, write 200" in one for one in said)

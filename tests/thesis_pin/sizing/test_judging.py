@@ -16,8 +16,9 @@ from thesis_pin.sizing.actuator import Actuator
 from thesis_pin.sizing.catalogue import Catalogue
 from thesis_pin.sizing.document import size
 from thesis_pin.sizing.judging import by_size, fits
-from thesis_pin.sizing.loads import Loads
+from thesis_pin.sizing.loads import Loads, resolution_notes
 from thesis_pin.sizing.tables import MOST, summary
+from thesis_pin.smoothing.intervals import Interval
 
 TIME = np.linspace(0, 2, 2001)
 
@@ -184,3 +185,10 @@ def test_an_empty_catalogue_and_a_factor_of_nothing_are_refused(sizing):
         size(sizing.loads, Catalogue(()))
     with pytest.raises(BadInput, match="factor"):
         size(sizing.loads, sizing.catalogue, 0.0)
+
+
+def test_what_samples_leave_open_of_peak_torques_is_said_where_it_is_most():
+    peaks = [Interval(1.0, 0.9, 1.05), Interval(0.01, 0.0, 0.05), Interval(0.5, 0.4, 0.5)]
+    (said,) = resolution_notes(("hip", "knee", "toe"), peaks)
+    assert "larger than said by up to 0.05 N·m (at hip)" in said
+    assert resolution_notes(("toe",), peaks[2:]) == []

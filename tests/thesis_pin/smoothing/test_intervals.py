@@ -28,3 +28,9 @@ def test_which_side_of_a_limit() -> None:
     assert Interval(1.0, 0.5, 1.5).side(0.0) == 1
     assert Interval(-1.0, -1.5, -0.5).side(0.0) == -1
     assert Interval(0.1, -0.2, 0.4).side(0.0) == 0
+
+
+def test_without_draws_the_rivals_difference_is_all_there_is():
+    none = np.array([])
+    assert least_value(1.0, 0.9, none).low == pytest.approx(0.8)
+    assert largest_value(1.0, 1.1, none).high == pytest.approx(1.2)

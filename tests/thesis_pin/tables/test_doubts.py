@@ -21,7 +21,7 @@ def columns(tmp_path, heading, value, units):
 @pytest.mark.parametrize("heading", ["psi", "psi_rad"])
 def test_angles_in_radians_of_more_than_a_turn_are_asked_about(tmp_path, heading):
     found = columns(tmp_path, heading, -90, ANGLE)
-    says = rf"a\.csv: {heading} reach 90 rad: if these are degrees, call the column psi_deg"
+    says = rf"a\.csv: {heading} reach 90 rad: if these are degrees, call it so, as in psi_deg"
     with pytest.warns(ModelWarning, match=says):
         assert len(doubted("a.csv", angles=found)) == 1
 

@@ -215,6 +215,7 @@ def test_what_spreadsheets_write_instead_of_utf_8_is_read_and_said(
     ("content", "says"),
     [
         (b"PK\x03\x04\x14\x00\x06\x00\x08\x00\x00\x00!\x00\xfe\x81", "Save the sheet as CSV"),
+        (b"PK\x03\x04\x14\x00 plain", "Save the sheet as CSV"),
         (b"t,x\n0,\x81\n", "isn't text in UTF-8, UTF-16 or Windows-1252"),
         (b"t,x\n0,\xb0\x00\n", "isn't text"),
         (b"\xff\xfet", "isn't text"),

@@ -32,6 +32,7 @@ from thesis_pin.loops.motion.sampled import unlike, unwound, with_derivatives
 from thesis_pin.loops.motion.smoothing import within_resolution
 from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.smoothing.stated import stated
+from thesis_pin.tables.doubts import doubted
 from thesis_pin.tables.meaning import Chosen, Meaning, chosen, time_column, time_names
 from thesis_pin.tables.reading import read_table
 from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, warning
@@ -76,6 +77,11 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
     joints = tuple(dict.fromkeys(of for of, _ in values if of in kinds))
     if not joints:
         raise BadInput("no column is a joint's", where=table.file, allowed=", ".join(kinds))
+    asked = doubted(
+        table.file,
+        [values[joint, 0] for joint in joints if not kinds[joint].turns],
+        [values[joint, 0] for joint in joints if kinds[joint].turns and kinds[joint].high < np.inf],
+    )
     warnings = []
     for joint in joints:
         if kinds[joint].turns:
@@ -85,7 +91,7 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
         warnings += unlike(joint, time.values, values[joint, 0].values, _given(values, joint))
     read = _differentiated(robot, table, time, values)
     friction = bool(robot.model.upperDryFrictionLimit.any())
-    resolved, notes = quanta(read, how), list(table.dialect.notes)
+    resolved, notes = quanta(read, how), [*table.dialect.notes, *asked]
     through = how.through or len(table) < LEAST
     if through:
         warnings += warning(read, resolved, friction)

@@ -216,3 +216,33 @@ def test_angles_in_coarse_steps_are_thinned_to_one_row_a_step(scout, tmp_path):
     assert held.low <= 8.807e-3 <= held.high
     assert held.half_width < 1.5e-3
     assert report.can_walk
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_stance_of_a_few_noisy_rows_leaves_nothing_wild(tmp_path, seed):
+    path = log(tmp_path / "log.csv", 25.0, 9)
+    lines, random = path.read_text().splitlines(), np.random.default_rng(seed)
+    made = [lines[0]]
+    for line in lines[16:70]:  # the first stance of the right foot has five rows left
+        t, support, *cells = line.split(",")
+        noisy = np.array(cells, float) + 1e-4 * random.standard_normal(18)
+        made.append(",".join([t, support, *(f"{value:.9f}" for value in noisy)]))
+    path.write_text("\n".join(made) + "\n")
+    gait = load_gait(path)
+    t = np.linspace(gait.start, gait.end, 200)
+    for body in BODIES:
+        for own, curve in zip(gait.curves[body], gait.variants.curves[body], strict=True):
+            assert np.abs(curve(t) - own(t)[:, None]).max() < 0.01
+
+
+@pytest.mark.parametrize("pattern", [(0.21, 0.19), (0.21, 0.21, 0.19, 0.19), (*[0.21] * 11, 0.19)])
+@pytest.mark.parametrize("step", [1.0, 0.2])
+def test_a_squat_in_nodes_far_apart_is_motion_not_noise(tmp_path, pattern, step):
+    heights = np.resize(pattern, 24)
+    file = tmp_path / "squat.csv"
+    rows = [f"{step * k:.1f},double,{z:.3f},-0.034,0.034" for k, z in enumerate(heights)]
+    header = "t,support,torso_z,left_foot_x,right_foot_x"
+    file.write_text("\n".join([header, *rows]) + "\n")
+    gait = load_gait(file)
+    np.testing.assert_allclose(gait.curves["torso"][2](step * np.arange(24)), heights, atol=1e-12)
+    assert "is taken for motion: curves pass through every row" in gait.notes[-1]

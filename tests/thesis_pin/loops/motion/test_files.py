@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
+from thesis_pin.errors import BadInput, ModelWarning, TrajectoryError, UnknownName
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import read_motion
@@ -210,3 +210,14 @@ def test_a_motor_s_name_stands_for_its_joint(tmp_path):
     described = replace(robot.description, supplement=replace(robot.supplement, motors=motors))
     found = read_motion(ClosedRobot(described), written(tmp_path, {"t": TIME, "M1": TIME}))
     assert found.joints == ("motor_left",)
+
+
+def test_degrees_and_millimetres_that_columns_do_not_say_are_asked_about(arm, tmp_path):
+    columns = {"t": TIME, "slide": 450 + TIME, "turn": np.degrees(np.sin(TIME))}
+    with pytest.warns(ModelWarning) as warned:
+        motion = read_motion(arm, written(tmp_path, columns))
+    said = sorted(str(one.message) for one in warned if one.category is ModelWarning)
+    assert "slide reach 45" in said[0]
+    assert "as in slide_mm" in said[0]
+    assert "as in turn_deg" in said[1]
+    assert {*said} <= {*motion.notes}
