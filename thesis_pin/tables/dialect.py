@@ -35,12 +35,14 @@ class Dialect:
         decimal: Decimal mark, ``"."`` or ``","``.
         header: Line of the header where that is a comment (``# t, x``); 0 where it is not.
         encoding: Of its text, where that isn't UTF-8.
+        units: Line below the header that holds the columns' units; 0 if none does.
     """
 
     separator: str = ","
     decimal: str = "."
     header: int = 0
     encoding: str = ""
+    units: int = 0
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -52,6 +54,8 @@ class Dialect:
             said.append("with decimal commas")
         if self.header:
             said.append(f"with the comment in line {self.header} as its header")
+        if self.units:
+            said.append(f"with the units in line {self.units}")
         return (f"the table is read {', '.join(said)}",) if said else ()
 
 

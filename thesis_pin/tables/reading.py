@@ -1,6 +1,7 @@
 """Tables of samples from text files, within the limits of what is read.
 
-Lines that are empty or start with ``#`` are skipped, and so is Excel's first line ``sep=;``.
+Lines that are empty or start with ``#`` or ``%`` are skipped, and so is Excel's first line
+``sep=;``; a line of units below the header is added to it.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ TABLES = (".csv", ".tsv", ".txt", ".dat")
 """Endings of files that are read as tables."""
 
 _ANNOUNCED = re.compile(r'"?sep=(.)"?[;,\t]*', re.IGNORECASE)
+_COMMENT = ("#", "%")
+_UNITS = re.compile(r"(|-|°|[mµμu]?s|[mc]?m|rad|deg)(/(s²?|s\^?2|min))?")
 _LOOKED = 50
 """Lines from which the separator is recognised."""
 
@@ -63,9 +66,18 @@ def read_table(
         decimal = decimal_of(name, _used(rows, header, means))
     if not commented and not _numeric(rows[0][1]):
         rows = rows[1:]
+    units = rows[0][0] if len(rows) > 1 and _units(rows[0][1]) else 0
+    if units:
+        said = itertools.chain((one.strip("-[]()") for one in rows[0][1]), itertools.repeat(""))
+        header = tuple(
+            f"{one} [{unit}]" if unit else one for one, unit in zip(header, said, strict=False)
+        )
+        rows = rows[1:]
     cells = list(_of_one_width(name, rows, header, commas=separator == ","))
     lines = np.array([line for line, _ in rows], dtype=np.intp)
-    return Table(name, header, lines, cells, Dialect(separator, decimal, commented, encoding))
+    return Table(
+        name, header, lines, cells, Dialect(separator, decimal, commented, encoding, units)
+    )
 
 
 def _separated(text: str) -> tuple[str, str]:
@@ -80,7 +92,7 @@ def _separated(text: str) -> tuple[str, str]:
 
 def _content(line: str) -> bool:
     line = line.strip().lstrip('"')
-    return bool(line.strip(';,|" \t')) and not line.startswith("#")
+    return bool(line.strip(';,|" \t')) and not line.startswith(_COMMENT)
 
 
 def _rows(kind: str, name: str, text: str, separator: str) -> Iterator[_Row]:
@@ -88,7 +100,7 @@ def _rows(kind: str, name: str, text: str, separator: str) -> Iterator[_Row]:
     if separator == " ":
         for number, line in enumerate(io.StringIO(text), start=1):
             cells = tuple(line.split())
-            if cells and not cells[0].startswith("#"):
+            if cells and not cells[0].startswith(_COMMENT):
                 yield number, cells
         return
     reader = csv.reader(io.StringIO(text), delimiter=separator)
@@ -96,7 +108,7 @@ def _rows(kind: str, name: str, text: str, separator: str) -> Iterator[_Row]:
         for written in reader:
             stripped = tuple([cell.strip() for cell in written])  # faster than a generator
             if len(stripped) > LIMITS.columns or (
-                any(stripped) and not stripped[0].startswith("#")
+                any(stripped) and not stripped[0].startswith(_COMMENT)
             ):
                 yield reader.line_num, stripped
     except csv.Error as error:
@@ -131,6 +143,13 @@ def _numeric(cells: Sequence[str]) -> bool:
     return all(NUMBER.fullmatch(cell) or not cell for cell in cells) and any(cells)
 
 
+def _units(cells: Sequence[str]) -> bool:
+    """Whether a line below the header holds the columns' units."""
+    return any(one.strip("-[]()") for one in cells) and all(
+        _UNITS.fullmatch(one.strip("[]()")) for one in cells
+    )
+
+
 def _header(
     kind: str, name: str, text: str, rows: Sequence[_Row], bare: Sequence[str], separator: str
 ) -> tuple[tuple[str, ...], int]:
@@ -140,8 +159,8 @@ def _header(
         return _without_last(cells), 0
     comment, line = "", 0
     for number, one in enumerate(itertools.islice(io.StringIO(text), first - 1), start=1):
-        if one.lstrip().startswith("#"):
-            comment, line = one.strip().lstrip("# "), number
+        if one.lstrip().startswith(_COMMENT):
+            comment, line = one.strip().lstrip("#% "), number
     cells = _without_last(cells)
     said = tuple(split(comment, separator)) if comment else ()
     if len(said) == len(cells) and all(re.fullmatch(r"[^\W\d]\w*", one) for one in said):

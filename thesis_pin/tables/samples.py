@@ -101,13 +101,13 @@ def exact(samples: Samples, resolved: Mapping[str, float], friction: bool = Fals
 def warning(
     samples: Samples, resolved: Mapping[str, float], friction: bool = False
 ) -> Iterator[str]:
-    """What interpolation as asked for makes of samples that aren't exact."""
+    """What interpolation makes of samples that aren't exact."""
     every = errors(samples, resolved, friction)
     worst = max(every, key=lambda one: one[1] / one[2], default=None)
     if worst is not None and worst[1] > worst[2]:
         unit = "rad/s²" if worst[0] in samples.turning else "m/s²"
         yield (
-            f"curves pass through every sample as asked, though {worst[0]} doesn't resolve "
+            f"curves pass through every sample, though {worst[0]} doesn't resolve "
             f"accelerations below {worst[1]:.2g} {unit}; numbers may be those of rounding"
         )
 

@@ -240,3 +240,21 @@ def test_prices_do_not_decide_which_mark_decimals_have(tmp_path):
 
 def columns_named(found):
     return [found.column(found.header.index(n), SI, n).values.tolist() for n in ("t", "x")]
+
+
+def test_a_line_of_units_below_the_header_is_the_columns_units(tmp_path):
+    found = table(tmp_path, "t,x,psi,q\nms,[mm],°,-\n0,1,2,3\n1,2,3,4\n")
+    assert found.header == ("t [ms]", "x [mm]", "psi [°]", "q")
+    assert found.rows[0] == ("0", "1", "2", "3")
+    assert found.dialect.notes == ("the table is read with the units in line 2",)
+
+
+@pytest.mark.parametrize("line", ["a,b", "s,5", "s,inch", "-,-"])
+def test_a_line_that_isn_t_units_is_a_row(tmp_path, line):
+    found = table(tmp_path, f"t,x\n{line}\n1,2\n")
+    assert found.rows[0] == tuple(line.split(","))
+
+
+def test_comments_and_headers_as_matlab_writes_them_are_read(tmp_path):
+    found = table(tmp_path, "% made in a lab\n% t x\n0 1\n1 2\n")
+    assert (found.header, len(found)) == (("t", "x"), 2)
