@@ -94,6 +94,9 @@ class Tolerances:
         sole_gap: Distance at which two soles touch [m], as :attr:`clearance`.
         nearer: Difference [m] by which one pair of soles must be nearer to be told from another:
             where feet stand, all samples are alike but for rounding.
+        parallel: Squared sine of the angle below which two edges are parallel.
+        spelled: Rounding of a cosine or an angle of round numbers, relative to one or a turn;
+            what is written drops it [-].
         instant: What counts as just before or after a change of a gait, relative to the
             time the gait or phase takes [-].
         path_end: How far beyond a path's ends a time still means them, relative to the
@@ -181,6 +184,8 @@ class Tolerances:
     scrape_way: float = 1e-3
     sole_gap: float = 1e-4
     nearer: float = 1e-9
+    parallel: float = 1e-12
+    spelled: float = 1e-12
     instant: float = 1e-9
     path_end: float = 1e-9
     path_join: float = 1e-9

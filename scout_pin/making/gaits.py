@@ -124,7 +124,7 @@ def _curve(key: str, t: tuple[int, ...], values: tuple[float, ...]) -> str:
 
 def _foot(side: str, place: np.ndarray) -> str:
     yaw = np.degrees(np.arctan2(place[1, 0], place[0, 0]))
-    turned = f"yaw_deg = {yaw:z.3f}\n" if abs(yaw) > 1e-3 else ""
+    turned = f"yaw_deg = {yaw:z.3f}\n" if round(yaw, 3) else ""
     return (
         f"[{side}_foot]\nx_mm = {1e3 * place[0, 3]:z.3f}\ny_mm = {1e3 * place[1, 3]:z.3f}\n{turned}"
     )

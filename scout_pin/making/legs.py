@@ -98,7 +98,7 @@ def _plain(angle: float) -> float:
     """Degrees in [0, 360), without the rounding of a whole number of them."""
     degrees = float(np.degrees(angle)) % 360.0
     near = round(degrees, 9)
-    return near % 360.0 if abs(degrees - near) < 1e-12 * 360.0 else degrees
+    return near % 360.0 if abs(degrees - near) < TOLERANCES.spelled * 360.0 else degrees
 
 
 def neat(value: float) -> float:

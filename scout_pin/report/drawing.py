@@ -19,6 +19,7 @@ from scout_pin.kinematics.forward import leg_frames
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
 from thesis_pin.numeric.checks import choice
+from thesis_pin.tolerances import TOLERANCES
 
 _WIDTH, _HEIGHT, _TOP, _EDGE = 420, 600, 62, 60
 _INK, _MUTED, _BONE, _ANGLE, _SOLE = "#1a1a1a", "#6b7580", "#0072B2", "#b34700", "#00795c"
@@ -216,7 +217,7 @@ def _arc(panels: Sequence[_Panel], angle: _Angle) -> Iterator[str]:
     facing = [abs(float(np.cross(panel.right, panel.up) @ angle.axis)) for panel in panels]
     panel = panels[int(np.argmax(np.round(facing, 6)))]
     turn = np.radians((angle.degrees + 180.0) % 360.0 - 180.0)
-    if abs(turn) < 1e-9:
+    if abs(turn) < TOLERANCES.spelled:
         turn = 0.0
     size = 24.0 / panel.scale
     part = np.linspace(0.0, turn, 25)[:, None]

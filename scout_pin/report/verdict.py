@@ -176,7 +176,7 @@ def _percent(use: float) -> str:
 
 def _millimetres(length: float) -> str:
     """A length that isn't zero, and doesn't look like it."""
-    return f"{length * 1e3:.1f} mm" if length >= 5e-5 else f"{length * 1e3:.1g} mm"
+    return f"{length * 1e3:.1f} mm" if round(length * 1e3, 1) else f"{length * 1e3:.1g} mm"
 
 
 def _links(touch: Touch) -> str:

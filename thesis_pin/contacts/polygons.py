@@ -95,7 +95,7 @@ def _segment_distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     across = dd * ee - de**2
     with np.errstate(divide="ignore", invalid="ignore"):
         # Parallel edges: any point of the first will do, the second's is found for it.
-        s = np.where(across > 1e-12 * dd * ee, (de * er - dr * ee) / across, 0.0)
+        s = np.where(across > TOLERANCES.parallel * dd * ee, (de * er - dr * ee) / across, 0.0)
     s = np.clip(s, 0.0, 1.0)
     t = np.clip((de * s + er) / ee, 0.0, 1.0)
     s = np.clip((de * t - dr) / dd, 0.0, 1.0)

@@ -112,7 +112,9 @@ def still(values: Array, quantum: float, noise: float = 0.0) -> Still | None:
     Source: J. von Neumann, "Distribution of the ratio of the mean square successive
     difference to the variance", Ann. Math. Stat. 12 (1941): 1 for noise, less for motion.
     """
-    count, middle = len(values), float(values.mean())
+    count = len(values)
+    # A mean of equal values may differ from them.
+    middle = float(values.mean() if np.ptp(values) > 0 else values[0])
     rounding, spread = quantum * ROUNDING, float(values.std(ddof=1)) if count > 1 else 0.0
     if float(np.ptp(values)) <= 1.01 * quantum:
         # Rounding of a constant is a bias that no number of samples averages out.

@@ -1,4 +1,4 @@
-"""Corners that exact samples of a foot show: rates that jump where it lifts off or lands.
+"""Corners that exact samples of a foot show: rates that jump.
 
 A spline through all samples rings there, and its accelerations are those of no motion.
 """
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from scout_pin.motion.resolution.feet import LEAST_ROWS, runs
 from thesis_pin.numeric.interpolation import free, free_quintic
+from thesis_pin.smoothing.corners import corners
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -18,7 +19,7 @@ _MORE = 1.25  # of a rate's square: the largest acceleration may be a little lar
 
 
 def starts_with_a_jump(time: Array, poses: Array, standing: NDArray[np.bool_]) -> bool:
-    """Whether any rate of a foot jumps where a swing begins or ends.
+    """Whether any rate of a foot jumps where a swing begins or ends, or inside.
 
     A foot that starts from rest has at most the rate that its largest acceleration gives it
     on the way that it has made.
@@ -37,7 +38,9 @@ def starts_with_a_jump(time: Array, poses: Array, standing: NDArray[np.bool_]) -
         for k in range(poses.shape[1]):
             if last - first >= LEAST_ROWS and np.ptp(poses[first : last + 1, k]) > 0:
                 rows = (before, first), (after, last)
-                if _jumps(time[first : last + 1], poses[:, k], rows):
+                swing = time[first : last + 1]
+                inside = corners(swing, poses[first : last + 1, k], 0.0)
+                if inside or _jumps(swing, poses[:, k], rows):
                     return True
     return False
 

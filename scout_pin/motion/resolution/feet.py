@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
+from thesis_pin.smoothing.corners import corners, in_pieces, straight, through
 from thesis_pin.smoothing.curve import (
     DRAWS,
     End,
@@ -143,7 +143,7 @@ def _stance(
         found = still(values, float(quanta[k]), float(noise[k]))
         if found is None and np.ptp(values) > _STANDS[k]:
             return Moving(*rows, k, float(np.ptp(values)), False)
-        middle = float(values.mean())
+        middle = float(values.mean() if np.ptp(values) > 0 else values[0])
         if k not in FLOOR and found is not None:
             place.append(rest(found, generator(_STANCES, *stream, k)))
             continue
@@ -155,8 +155,8 @@ def _stance(
 
 
 @dataclass(frozen=True)
-class Foot:
-    """A foot's curves.
+class Moved:
+    """A body's curves.
 
     Attributes:
         curves: One a coordinate.
@@ -176,7 +176,9 @@ def foot(
     quanta: Array,
     noise: Array,
     side: int,
-) -> Foot:
+    *,
+    exact: bool = False,
+) -> Moved:
     """Curves of a foot that rests in its stances and swings between them.
 
     Args:
@@ -186,6 +188,7 @@ def foot(
         quanta: Resolution of the columns, ``(6,)``.
         noise: What is known of their noise beyond, ``(6,)``.
         side: 0 or 1, for the random numbers.
+        exact: Whether swings pass through every sample.
     """
     curves: list[SmoothCurve] = []
     hidden: set[tuple[int, int]] = set()
@@ -211,13 +214,13 @@ def foot(
                 wrong = max(float(quanta[k]) * ROUNDING, float(noise[k]))
                 offsets = wrong * generator(_STANCES, side, k, number).standard_normal(DRAWS)
                 ends[spread] = End(float(poses[row, k]), offsets)
-            swing = _Swing(time, poses[:, k], float(quanta[k]), (side, k, number))
+            swing = _Swing(time, poses[:, k], float(quanta[k]), (side, k, number), exact)
             made, found = swing.between(first, last, (ends[0], ends[1]))
             pieces += made
             hidden.update((row, row + 1) for row, _ in found)
             jumps += [(row, k, size) for row, size in found]
         curves.append(joined(pieces))
-    return Foot(tuple(curves), tuple(sorted(hidden)), tuple(jumps))
+    return Moved(tuple(curves), tuple(sorted(hidden)), tuple(jumps))
 
 
 def _constant(
@@ -241,6 +244,7 @@ class _Swing:
     values: Array
     quantum: float
     stream: tuple[int, int, int]
+    exact: bool
 
     def between(
         self, first: int, last: int, ends: tuple[End | None, End | None]
@@ -253,18 +257,24 @@ class _Swing:
             jumps = self._jumps(*inner, ends)
         start, stop = first + (jumps[0] > 0), last - (jumps[1] > 0)
         kept = tuple(None if jump else end for jump, end in zip(jumps, ends, strict=True))
-        curve = self._fit(start, stop, (kept[0], kept[1]))
-        pieces, found = [curve], []
+        rows, random = slice(start, stop + 1), generator(_SWINGS, *self.stream)
+        part = self.time[rows], self.values[rows], self.quantum, random
+        pieces, inside = in_pieces(*part, (kept[0], kept[1]), exact=self.exact)
+        found = [(start + row, size) for row, size in inside]
         if jumps[0] and ends[0] is not None:
-            pieces.insert(0, self._line(first, ends[0], curve, lifts=True))
+            span = self.time[first : first + 2]
+            pieces.insert(0, straight(span, _variants(ends[0]), pieces[0].variants(span[1])))
             found.append((first, jumps[0]))
         if jumps[1] and ends[1] is not None:
-            pieces.append(self._line(last - 1, ends[1], curve, lifts=False))
+            span = self.time[last - 1 : last + 1]
+            pieces.append(straight(span, pieces[-1].variants(span[0]), _variants(ends[1])))
             found.append((last - 1, jumps[1]))
         return pieces, found
 
     def _fit(self, first: int, last: int, ends: tuple[End | None, End | None]) -> SmoothCurve:
         rows = slice(first, last + 1)
+        if self.exact:
+            return through(self.time[rows], self.values[rows], ends)
         random = generator(_SWINGS, *self.stream)
         return smooth_curve(self.time[rows], self.values[rows], self.quantum, random, ends=ends)
 
@@ -275,10 +285,17 @@ class _Swing:
         acceleration gives it in that time. And a start from rest that was a little earlier
         must miss the samples by more than their noise.
         """
-        curve = self._fit(first, last, (None, None))
-        fastest = float(np.abs(curve.value(self.time[first : last + 1], 2)).max())
+        rows = slice(first, last + 1)
+        inside = corners(self.time[rows], self.values[rows], self.quantum)
+        bounds = [first, *(first + k for row in inside for k in (row, row + 1)), last]
+        early = self._fit(bounds[0], bounds[1], (None, None))
+        late = early if not inside else self._fit(bounds[-2], bounds[-1], (None, None))
         found = []
-        for end, row, neighbour in ((ends[0], first, first - 1), (ends[1], last, last + 1)):
+        for end, row, neighbour, curve, part in (
+            (ends[0], first, first - 1, early, bounds[:2]),
+            (ends[1], last, last + 1, late, bounds[-2:]),
+        ):
+            fastest = float(np.abs(curve.value(self.time[part[0] : part[1] + 1], 2)).max())
             at = self.time[row]
             rate = min(abs(float(curve.value(at, 1))), abs(float(curve.rival(at, 1))))
             spread = float(curve.draws(at, 1).std(ddof=1))
@@ -292,11 +309,7 @@ class _Swing:
             found.append(rate if jumps else 0.0)
         return found
 
-    def _line(self, row: int, at: End, curve: SmoothCurve, *, lifts: bool) -> SmoothCurve:
-        """The straight way between two rows of which nothing is known, in every variant."""
-        time = self.time[row : row + 2]
-        other = curve.variants(time[1] if lifts else time[0])
-        place = np.concatenate([[at.value, at.value], at.value + at.offsets])
-        low, high = (place, other) if lifts else (other, place)
-        c = np.stack([(high - low) / (time[1] - time[0]), low])[:, None]
-        return SmoothCurve(PPoly(c, time), curve.sigma)
+
+def _variants(at: End) -> Array:
+    """The value of every variant at rest, shape ``(2 + draws,)``."""
+    return np.concatenate([[at.value, at.value], at.value + at.offsets])

@@ -16,22 +16,21 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import check_stance
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.resolution.corners import starts_with_a_jump
-from scout_pin.motion.resolution.feet import Foot, Moving, Stance, foot, foot_noise, stances
+from scout_pin.motion.resolution.feet import Moved, Moving, Stance, foot, foot_noise, stances
 from scout_pin.motion.resolution.thinning import thinned
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
 from scout_pin.motion.variants import Change, RateJump, Resolution, Variants
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.files import name_as_text
+from thesis_pin.smoothing.corners import corners, in_pieces
 from thesis_pin.smoothing.curve import (
     SEED,
     SmoothCurve,
-    constant_curve,
     generator,
-    rest,
-    smooth_curve,
+    joined,
 )
-from thesis_pin.smoothing.noise import acceleration_noise, sample_noise, still
+from thesis_pin.smoothing.noise import acceleration_noise, sample_noise
 from thesis_pin.smoothing.outliers import outliers
 from thesis_pin.smoothing.stated import Stated
 from thesis_pin.tables.samples import Samples, scatter
@@ -66,12 +65,14 @@ def gait_from_samples(
     samples, notes = _mended(samples, time_unit)
     notes = (*notes, *_close_rows(samples))
     exact = all(error <= limit for _, error, limit in errors(samples, quanta, time_unit))
-    gait = _through(samples, notes) if exact else None
-    if gait is not None and not _cornered(samples):
+    if exact:
+        gait = _through(samples, notes)
+        if gait is None or _cornered(samples, quanta):
+            return _smoothed(samples, quanta, notes, exact=True)
         return gait
     few = thinned(samples)
     smooth = _smoothed(few, quanta, notes)
-    nodes, told = (False, ()) if exact else _scatter(few, quanta, smooth, time_unit)
+    nodes, told = _scatter(few, quanta, smooth, time_unit)
     gait = _through(samples, (*notes, *told)) if nodes else None
     return smooth if gait is None else gait
 
@@ -106,11 +107,13 @@ def _scatter(
     return scatter(table, quanta, {name: curves[name](t) for name in columns})
 
 
-def _cornered(samples: GaitSamples) -> bool:
-    """Whether exact samples show a rate of a foot that jumps."""
+def _cornered(samples: GaitSamples, quanta: dict[str, float]) -> bool:
+    """Whether exact samples show a rate that jumps."""
     _, _, standing = phases_of(samples)
-    return any(
-        starts_with_a_jump(samples.time.values, _poses(samples, body), standing[:, side])
+    time = samples.time.values
+    torso = [name for name in samples.poses if name.startswith("torso")]
+    return any(corners(time, samples.values(name), quanta[name]) for name in torso) or any(
+        starts_with_a_jump(time, _poses(samples, body), standing[:, side])
         for side, body in enumerate(BODIES[1:])
     )
 
@@ -191,7 +194,22 @@ def _close_rows(samples: GaitSamples) -> Iterator[str]:
         )
 
 
-def _smoothed(samples: GaitSamples, quanta: dict[str, float], notes: tuple[str, ...]) -> Gait:
+def _smoothed(
+    samples: GaitSamples,
+    quanta: dict[str, float],
+    notes: tuple[str, ...],
+    *,
+    exact: bool = False,
+) -> Gait:
+    """The gait in pieces that end where contact or a rate changes.
+
+    Args:
+        samples: The samples.
+        quanta: Resolution of each column.
+        notes: What was mended.
+        exact: Whether curves pass through every sample; else they are smooth within
+            their resolution.
+    """
     t = samples.time.values
     standing = np.array([(name != "right", name != "left") for name in samples.support])
     feet, rested = [], dict(samples.poses)
@@ -200,16 +218,17 @@ def _smoothed(samples: GaitSamples, quanta: dict[str, float], notes: tuple[str, 
         steps = np.array([quanta.get(f"{body}_{c}", 0.0) for c in POSE_NAMES])
         poses = _poses(samples, body)
         noise = foot_noise(poses, standing[:, side])
-        feet.append(foot(t, poses, stood, steps, noise, side))
+        feet.append(foot(t, poses, stood, steps, noise, side, exact=exact))
         rested |= _at_rest(samples, body, stood)
     phases, more, labels = phases_of(replace(samples, poses=rested))
-    torso = tuple(_torso(samples, quanta, k) for k in range(len(POSE_NAMES)))
-    every = dict(zip(BODIES, (torso, *(one.curves for one in feet)), strict=True))
-    hidden = sorted({pair for one in feet for pair in one.hidden})
+    bodies = [_torso(samples, quanta, exact=exact), *feet]
+    every = {body: one.curves for body, one in zip(BODIES, bodies, strict=True)}
+    hidden = sorted({pair for one in bodies for pair in one.hidden})
     jumps = [
         RateJump(float(t[row : row + 2].mean()), body, POSE_NAMES[k], size)
-        for body, one in zip(BODIES[1:], feet, strict=True)
+        for body, one in zip(BODIES, bodies, strict=True)
         for row, k, size in one.jumps
+        if size > TOLERANCES.rate_jump
     ]
     variants = Variants(
         curves={body: tuple(curve.variants for curve in own) for body, own in every.items()},
@@ -227,7 +246,7 @@ def _smoothed(samples: GaitSamples, quanta: dict[str, float], notes: tuple[str, 
         1.0,
         {body: tuple(curve.value for curve in own) for body, own in every.items()},
         phases,
-        (*samples.notes, *more, *notes, *_jump_notes(samples, feet)),
+        (*samples.notes, *more, *notes, *_jump_notes(samples, bodies)),
         reference=samples.reference,
         variants=variants,
         rows=samples.rows,
@@ -284,14 +303,17 @@ def _at_rest(samples: GaitSamples, body: str, stood: list[Stance]) -> dict[str, 
     return result
 
 
-def _torso(samples: GaitSamples, quanta: dict[str, float], k: int) -> SmoothCurve:
-    name = f"torso_{POSE_NAMES[k]}"
-    values, t = samples.values(name), samples.time.values
-    step, random = quanta.get(name, 0.0), generator(_TORSO, k)
-    at_rest = still(values, step)
-    if at_rest is not None:
-        return constant_curve(float(t[0]), float(t[-1]), rest(at_rest, random))
-    return smooth_curve(t, values, step, random)
+def _torso(samples: GaitSamples, quanta: dict[str, float], *, exact: bool) -> Moved:
+    """The torso's curves, in pieces where a rate jumps."""
+    curves, jumps, t = [], [], samples.time.values
+    for k, coordinate in enumerate(POSE_NAMES):
+        name = f"torso_{coordinate}"
+        values, random = samples.values(name), generator(_TORSO, k)
+        pieces, found = in_pieces(t, values, quanta.get(name, 0.0), random, exact=exact)
+        curves.append(joined(pieces) if found else pieces[0])
+        jumps += [(row, k, size) for row, size in found]
+    hidden = sorted({(row, row + 1) for row, _, _ in jumps})
+    return Moved(tuple(curves), tuple(hidden), tuple(jumps))
 
 
 def _resolutions(
@@ -311,11 +333,11 @@ def _changes(t: Array, labels: NDArray[np.bool_]) -> Iterator[Change]:
         yield Change(float(t[k - 1]), float(t[k]), before, after)
 
 
-def _jump_notes(samples: GaitSamples, feet: list[Foot]) -> Iterator[str]:
-    for side, one in zip(SIDES, feet, strict=True):
+def _jump_notes(samples: GaitSamples, bodies: list[Moved]) -> Iterator[str]:
+    for body, one in zip(("torso", *(f"{side} foot" for side in SIDES)), bodies, strict=True):
         for a, b in one.hidden:
             yield (
-                f"{samples.table.between((a, b))}: a rate of the {side} foot jumps between these "
+                f"{samples.table.between((a, b))}: a rate of the {body} jumps between these "
                 "rows; nothing is judged in between"
             )
 

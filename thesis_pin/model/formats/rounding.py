@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.model.formats.writer import roll_pitch_yaw, write_urdf
 from thesis_pin.model.mechanism.description import Description, Joint
+from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
 
@@ -99,7 +100,7 @@ def _round_axis(axis: Array) -> tuple[Array, float]:
         found = np.array(
             [np.cos(height) * np.cos(azimuth), np.cos(height) * np.sin(azimuth), np.sin(height)]
         )
-        found[np.abs(found) < 1e-15] = 0.0
+        found[np.abs(found) < TOLERANCES.spelled] = 0.0
     off = float(np.linalg.norm(np.cross(unit, found)))
     return (found, off) if unit @ found > 0 and LEAST < off < NEAR else (axis, 0.0)
 

@@ -15,7 +15,7 @@ CUBIC = (EXAMPLES / "walk.toml").read_text().replace("[0, 10, 0]", "[0, 12, 0]")
 CUBIC = CUBIC.replace('interpolation = "quintic"', 'interpolation = "cubic"')
 
 
-@pytest.mark.parametrize("rate", [30, 50, 100])
+@pytest.mark.parametrize("rate", [30, 50, 100, 300, 1000])
 def test_exact_samples_of_rates_that_jump_need_no_more_torque_than_their_motion(tmp_path, rate):
     robot = scout_pin.load()
     truth = gait_report(robot, load_gait("thesis"))
@@ -25,7 +25,7 @@ def test_exact_samples_of_rates_that_jump_need_no_more_torque_than_their_motion(
     assert found.servo_use.max() == pytest.approx(truth.servo_use.max(), rel=2e-3)
     assert found.servos_carry
     assert found.margin.min() == pytest.approx(truth.margin.min(), abs=1e-4)
-    assert {jump.body for jump in found.rate_jumps} == {"left_foot", "right_foot"}
+    assert {jump.body for jump in found.rate_jumps} >= {"left_foot", "right_foot"}
 
 
 @pytest.mark.parametrize("rate", [12, 25, 60, 100, 400, 1000])
