@@ -18,6 +18,7 @@ from pollard_pin.motion.path import ToolPath
 from pollard_pin.motion.samples import along_curves, continued, through_orientations
 from pollard_pin.motion.tables import PoseTable
 from pollard_pin.motion.variants import PLACE, Variants
+from thesis_pin.smoothing.corners import corners
 from thesis_pin.smoothing.curve import SEED, SmoothCurve, fitted, generator
 from thesis_pin.smoothing.noise import ROUNDING, acceleration_noise
 from thesis_pin.smoothing.orientation import component_steps, shared_runs
@@ -33,6 +34,7 @@ LEAST = 12
 """Rows below which nothing is known of their noise: curves pass through them."""
 
 _TURN = tuple(f"the orientation's {name}" for name in ("x", "y", "z", "w"))
+_TOLD = 5  # places that are named
 _TWICE = 2.0  # a turn by ε moves a component of the quaternion by at most ε / 2
 
 
@@ -82,7 +84,22 @@ def timed(poses: PoseTable, time: Column, method: str | None, how: Stated, name:
             where=where,
             name=name,
         )
-    return replace(path, notes=(*path.notes, *notes))
+    return replace(path, notes=(*path.notes, *notes, *_cornered(samples, resolved)))
+
+
+def _cornered(samples: Samples, resolved: dict[str, float]) -> Iterator[str]:
+    """Rates that jump between two rows: what the joints need there hangs on the rows' spacing."""
+    time, rows = samples.time.values, dict[int, str]()
+    for name, column in samples.columns.items():
+        for row in corners(time, column.values, resolved.get(name, 0.0)):
+            rows.setdefault(row, name)
+    for row in sorted(rows)[:_TOLD]:
+        yield (
+            f"{samples.table.between((row, row + 1))}: the rate of {rows[row]} jumps between these "
+            "rows; torques there are those of the rows' spacing, and no motor can follow"
+        )
+    if len(rows) > _TOLD:
+        yield f"rates jump at {len(rows) - _TOLD} more places"
 
 
 def coarse(poses: PoseTable, speed: float | Array) -> Iterator[str]:

@@ -210,3 +210,18 @@ def test_a_speed_at_which_rounded_positions_jerk_is_doubted(tmp_path, feed, said
     file.write_text("\n".join(lines) + "\n")
     notes = load_path(file, feed=feed).notes
     assert any("written to 0.1 mm, doesn't resolve" in note for note in notes) == said
+
+
+@pytest.mark.parametrize("rate", [50, 200, 1000])
+def test_corners_of_an_exact_path_are_named_and_smooth_paths_have_none(tmp_path, rate):
+    time = np.arange(0.0, 8.0, 1.0 / rate) + 0.003
+    poses = nodding(time)
+    assert not load_path(posed(tmp_path, time, poses, ".17f", ".17f")).notes
+    poses[:, 1] += 0.05 * np.abs(time - 4.0004)
+    (note,) = (
+        one
+        for one in load_path(posed(tmp_path, time, poses, ".17f", ".17f")).notes
+        if "jumps" in one
+    )
+    row = int(np.searchsorted(time, 4.0004)) - 1
+    assert f"path.csv:{row + 2}, {row + 3}: the rate of y jumps" in note
