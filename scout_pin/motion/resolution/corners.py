@@ -8,14 +8,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from scout_pin.motion.resolution.feet import LEAST_ROWS, runs
+from scout_pin.motion.resolution.feet import LEAST_ROWS, MORE, runs
 from thesis_pin.numeric.interpolation import free, free_quintic
 from thesis_pin.smoothing.corners import corners
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
-
-_MORE = 1.25  # of a rate's square: the largest acceleration may be a little larger next to the end
 
 
 def starts_with_a_jump(time: Array, poses: Array, standing: NDArray[np.bool_]) -> bool:
@@ -64,6 +62,6 @@ def _jumps(time: Array, values: Array, rows: tuple[tuple[int, int], tuple[int, i
         if 0 <= place < len(values):
             rate = min(abs(float(one(at, 1))) for one in (curve, rival))
             way = abs(float(values[row] - values[place]))
-            if rate > TOLERANCES.rate_jump and rate**2 > _MORE * 2.0 * fastest * way:
+            if rate > TOLERANCES.rate_jump and rate**2 > MORE * 2.0 * fastest * way:
                 return True
     return False

@@ -36,6 +36,9 @@ LEAST_ROWS = 8
 """Rows of a swing that tell its rate at an end."""
 
 _NORMAL = 1.0484  # from the median of neighbours' differences to the deviation of each
+MORE = 1.25
+"""Of the way to a rate: the largest acceleration may be a little larger next to an end."""
+
 _MISSED = 4.0  # standard deviations of a sample by which a start from rest must miss them
 _STANCES = 1  # one of two kinds of streams of random numbers
 _SWINGS = 2
@@ -160,8 +163,9 @@ class Moved:
 
     Attributes:
         curves: One a coordinate.
-        hidden: Pairs of neighbouring rows between which a rate jumps.
-        jumps: Row before it, coordinate and size per unit of time of each jump.
+        hidden: Pairs of neighbouring rows of whose motion in between nothing is known: a rate
+            jumps there, or the foot leaves its place before it is said to swing.
+        jumps: Row before it, coordinate and size per unit of time of each jump of a rate.
     """
 
     curves: tuple[SmoothCurve, ...]
@@ -251,21 +255,21 @@ class _Swing:
     ) -> tuple[list[SmoothCurve], list[tuple[int, float]]]:
         """Curves from one row to another, and jumps of rate: row before each, and size."""
         start, stop = first, last
-        jumps = [0.0, 0.0]
+        jumps: list[float | None] = [None, None]
         inner = (first + (ends[0] is not None), last - (ends[1] is not None))
         if inner[1] - inner[0] >= LEAST_ROWS and any(end is not None for end in ends):
             jumps = self._jumps(*inner, ends)
-        start, stop = first + (jumps[0] > 0), last - (jumps[1] > 0)
-        kept = tuple(None if jump else end for jump, end in zip(jumps, ends, strict=True))
+        start, stop = first + (jumps[0] is not None), last - (jumps[1] is not None)
+        kept = tuple(end if jump is None else None for jump, end in zip(jumps, ends, strict=True))
         rows, random = slice(start, stop + 1), generator(_SWINGS, *self.stream)
         part = self.time[rows], self.values[rows], self.quantum, random
         pieces, inside = in_pieces(*part, (kept[0], kept[1]), exact=self.exact)
         found = [(start + row, size) for row, size in inside]
-        if jumps[0] and ends[0] is not None:
+        if jumps[0] is not None and ends[0] is not None:
             span = self.time[first : first + 2]
             pieces.insert(0, straight(span, _variants(ends[0]), pieces[0].variants(span[1])))
             found.append((first, jumps[0]))
-        if jumps[1] and ends[1] is not None:
+        if jumps[1] is not None and ends[1] is not None:
             span = self.time[last - 1 : last + 1]
             pieces.append(straight(span, pieces[-1].variants(span[0]), _variants(ends[1])))
             found.append((last - 1, jumps[1]))
@@ -278,12 +282,15 @@ class _Swing:
         random = generator(_SWINGS, *self.stream)
         return smooth_curve(self.time[rows], self.values[rows], self.quantum, random, ends=ends)
 
-    def _jumps(self, first: int, last: int, ends: tuple[End | None, End | None]) -> list[float]:
-        """Sizes of the rate's jumps where the swing begins and ends; 0 where it rests there.
+    def _jumps(
+        self, first: int, last: int, ends: tuple[End | None, End | None]
+    ) -> list[float | None]:
+        """Sizes of the rate's jumps where the swing begins and ends; None where it rests there.
 
         A foot that starts from rest has, one row on, at most the rate that its largest
-        acceleration gives it in that time. And a start from rest that was a little earlier
-        must miss the samples by more than their noise.
+        acceleration gives it in that time. If it has the rate that this gives it on the way that
+        it has made, it was said to stand a little too long, and the jump is 0. And a start from
+        rest that was a little earlier must miss the samples by more than their noise.
         """
         rows = slice(first, last + 1)
         inside = corners(self.time[rows], self.values[rows], self.quantum)
@@ -301,12 +308,11 @@ class _Swing:
             spread = float(curve.draws(at, 1).std(ddof=1))
             step = abs(self.time[row] - self.time[min(max(neighbour, 0), len(self.time) - 1)])
             missed = rate**2 / (2.0 * fastest) if fastest else np.inf
-            jumps = (
-                end is not None
-                and rate > max(2.0 * fastest * step, 5.0 * spread)
-                and missed > _MISSED * curve.sigma
-            )
-            found.append(rate if jumps else 0.0)
+            way = 0.0 if end is None else abs(float(curve.value(at)) - end.value)
+            noise = _MISSED * curve.sigma
+            begun = rate > max(2.0 * fastest * step, 5.0 * spread) and missed > noise
+            jumps = missed > MORE * way + noise
+            found.append((rate if jumps else 0.0) if end is not None and begun else None)
         return found
 
 

@@ -335,11 +335,14 @@ def _changes(t: Array, labels: NDArray[np.bool_]) -> Iterator[Change]:
 
 def _jump_notes(samples: GaitSamples, bodies: list[Moved]) -> Iterator[str]:
     for body, one in zip(("torso", *(f"{side} foot" for side in SIDES)), bodies, strict=True):
+        jumping = {row for row, _, size in one.jumps if size > TOLERANCES.rate_jump}
         for a, b in one.hidden:
-            yield (
-                f"{samples.table.between((a, b))}: a rate of the {body} jumps between these "
-                "rows; nothing is judged in between"
+            what = (
+                f"a rate of the {body} jumps between these rows"
+                if a in jumping
+                else f"the {body} moves here already, or still, and is said to stand"
             )
+            yield f"{samples.table.between((a, b))}: {what}; nothing is judged in between"
 
 
 def _turns(name: str) -> bool:

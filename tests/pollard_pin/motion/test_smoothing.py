@@ -154,7 +154,7 @@ def test_none_passes_through_every_sample_and_says_so(tmp_path):
     path = load_path(posed(tmp_path, time, poses), smooth="none")
     assert path.variants is None
     np.testing.assert_allclose(path.at(time).pose[:, 2], np.round(poses[:, 2], 4), atol=1e-12)
-    assert "pass through every sample as asked" in path.notes[-1]
+    assert "pass through every sample, though" in path.notes[-1]
 
 
 def test_a_stated_length_is_the_least_that_counts(pollard, tmp_path):

@@ -48,3 +48,25 @@ def test_a_constant_rate_jumps_wherever_it_begins_between_two_rows(way):
     standing = np.ones(60, dtype=np.bool_)
     standing[20:40] = False
     assert starts_with_a_jump(t, poses, standing)
+
+
+@pytest.mark.parametrize("rate", [50, 200])
+def test_a_foot_said_to_stand_a_little_too_long_has_no_rate_that_jumps(tmp_path, rate):
+    robot, source = scout_pin.load(), tmp_path / "cubic.toml"
+    source.write_text(CUBIC)
+    gait = load_gait(source)
+    t = np.arange(gait.start + 0.015, gait.end, 1.0 / rate / gait.time_unit)
+    angles = np.degrees(scout_pin.joint_trajectory(robot, gait.sample(t)).q)
+    lines = [",".join(["t", *(f"{name}_deg" for name in scout_pin.JOINT_NAMES)])]
+    for at, row in zip(t * gait.time_unit, angles, strict=True):
+        lines.append(",".join([f"{at:.4f}", *(f"{angle:.2f}" for angle in row)]))
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(lines) + "\n")
+    found = load_gait(path, robot=robot)  # soles tell who stands, to some 0.06 mm
+    assert not found.rate_jumps()
+    truth, report = (gait_report(robot, one, samples=301) for one in (gait, found))
+    assert truth.can_walk
+    assert report.can_walk
+    held = report.headlines.peak_torque[truth.actuators.peak_torque.argmax()]
+    assert held.low <= truth.actuators.peak_torque.max() <= held.high
+    assert any("is said to stand" in note for note in found.notes)
