@@ -6,7 +6,7 @@ Run: python docs/leg_drawing.py
 from pathlib import Path
 
 import scout_pin
-from scout_pin.report.drawing import leg_drawing
+from scout_pin.report.drawn.drawing import leg_drawing
 
 path = Path(__file__).parent / "images" / "scout_left_leg.svg"
 path.write_text(leg_drawing(scout_pin.load(), "left"), encoding="utf-8")

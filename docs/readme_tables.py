@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[1]
 def gaits() -> Iterator[str]:
     """What the report says of the gaits that come with the package."""
     import scout_pin
-    from scout_pin.report.limits import headline
+    from scout_pin.report.judged.limits import headline
 
     yield (
         "| gait | on | can it walk? | ZMP margin, worst | peak torque | servo line "

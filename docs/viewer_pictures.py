@@ -19,9 +19,9 @@ def main() -> None:
 
     import pollard_pin
     import scout_pin
-    from pollard_pin.report.view import path_scene
-    from scout_pin.report.figures import stick_figures
-    from scout_pin.report.view import gait_scene
+    from pollard_pin.report.drawn.view import path_scene
+    from scout_pin.report.drawn.figures import stick_figures
+    from scout_pin.report.drawn.view import gait_scene
     from thesis_pin.pages import player as viewer
     from thesis_pin.report.figures import figure_files
 

@@ -126,8 +126,8 @@ ROBOT = Robot(
     another="another three-chain robot",
     motion=_which_path,
     report="report.document:trajectory_report",
-    page="report.page:trajectory_page",
-    scene="report.view:path_scene",
+    page="report.drawn.page:trajectory_page",
+    scene="report.drawn.view:path_scene",
     movement="report.movement:path_movement",
     inverse_kinematics="model:Pollard.inverse_kinematics",
 )

@@ -55,7 +55,7 @@ def report(
 
 def still(arguments: argparse.Namespace, robot: Scout) -> Scene | None:
     """The neutral pose, where a robot is named and no gait."""
-    from scout_pin.report.neutral import neutral_scene
+    from scout_pin.report.drawn.neutral import neutral_scene
 
     if arguments.gait is not None or arguments.specification is None:
         return None

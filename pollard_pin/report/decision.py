@@ -12,7 +12,7 @@ from thesis_pin.report import uncertainty
 
 
 def within_limits(numbers: TrajectoryNumbers) -> bool | None:
-    """As :func:`pollard_pin.report.verdict.within_limits`; None where the samples can't say."""
+    """As the verdict's :func:`within_limits`; None where the samples can't say."""
     held = numbers.headlines
     if held is None:
         return verdict.within_limits(numbers)

@@ -19,7 +19,7 @@ from pollard_pin.kinematics.singularity import (
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
-from pollard_pin.report.limits import MotorUse, distance_class
+from pollard_pin.report.judged.limits import MotorUse, distance_class
 from pollard_pin.report.uncertainty.headlines import Headlines, headlines
 from pollard_pin.specification import (
     ACTUATOR_NAMES,

@@ -7,7 +7,7 @@ import numpy as np
 from scout_pin.implausible import implausible
 from scout_pin.kinematics.neutral import Tilt, tilts
 from scout_pin.model import Scout
-from scout_pin.report.drawing import leg_drawing
+from scout_pin.report.drawn.drawing import leg_drawing
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES, Leg
 from scout_pin.urdf import JOINT_AXES
 from thesis_pin.errors import Problem, SpecificationError

@@ -16,7 +16,7 @@ from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.motion.writing import gait_toml, rows_of, supports
 from scout_pin.report.document import GaitReport
-from scout_pin.report.stance import branch_asked
+from scout_pin.report.judged.stance import branch_asked
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.numeric.trajectory import JointTrajectory

@@ -15,9 +15,9 @@ from scout_pin.motion.collisions import Collisions, collisions
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.swings import Swing, lowest_corner, sole_gap, swings
 from scout_pin.motion.variants import RateJump
-from scout_pin.report.ends import Ends, ends
-from scout_pin.report.limits import FastestTimeUnit, TimeUnits, fastest_time_unit, time_units
-from scout_pin.report.speeds import Speeds
+from scout_pin.report.judged.ends import Ends, ends
+from scout_pin.report.judged.limits import FastestTimeUnit, TimeUnits, fastest_time_unit, time_units
+from scout_pin.report.judged.speeds import Speeds
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks, intervals

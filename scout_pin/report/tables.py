@@ -11,7 +11,7 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.implausible import implausible
 from scout_pin.kinematics.branches import BRANCHES, knee
 from scout_pin.kinematics.inverse import LegSolutions
-from scout_pin.report.servos import servo_limits
+from scout_pin.report.judged.servos import servo_limits
 from scout_pin.specification import JOINT_SYMBOLS
 from thesis_pin.report import branches
 from thesis_pin.report.tables import Part, Table

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.motion.collisions import Touch
-from scout_pin.report import ends
-from scout_pin.report.limits import SPEEDS, headline
+from scout_pin.report.judged import ends
+from scout_pin.report.judged.limits import SPEEDS, headline
 from scout_pin.report.numbers import GaitNumbers
 from thesis_pin.tolerances import TOLERANCES
 

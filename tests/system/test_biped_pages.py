@@ -5,8 +5,8 @@ import pytest
 from chromium import share_drawn
 
 import scout_pin
+from scout_pin.report.drawn.neutral import neutral_scene
 from scout_pin.report.info import page
-from scout_pin.report.neutral import neutral_scene
 from scout_pin.specification import NEW_PATH, SIDES
 from thesis_pin.pages import player
 

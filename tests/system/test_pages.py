@@ -14,8 +14,8 @@ from chromium import differing, share_drawn
 from example_robots import NAMES, example_robot
 
 import scout_pin
-from scout_pin.report.page import gait_page
-from scout_pin.report.view import gait_scene
+from scout_pin.report.drawn.page import gait_page
+from scout_pin.report.drawn.view import gait_scene
 from scout_pin.specification import SIDES
 from thesis_pin.pages import drawing, page, scene
 from thesis_pin.pages import player as viewer

@@ -9,10 +9,10 @@ from chromium import differing, share_drawn
 
 import pollard_pin
 from pollard_pin.motion.curves import appendix_b, line
-from pollard_pin.report import curves
-from pollard_pin.report.limits import MARGIN_BOUNDS
-from pollard_pin.report.page import trajectory_page
-from pollard_pin.report.view import path_scene
+from pollard_pin.report.drawn import curves
+from pollard_pin.report.drawn.page import trajectory_page
+from pollard_pin.report.drawn.view import path_scene
+from pollard_pin.report.judged.limits import MARGIN_BOUNDS
 from pollard_pin.specification import ACTUATOR_NAMES
 from thesis_pin.pages import player as viewer
 

@@ -12,8 +12,8 @@ import pytest
 import pollard_pin
 import scout_pin
 import thesis_pin
+from scout_pin.report.drawn.view import gait_scene
 from scout_pin.report.verdict import sentences
-from scout_pin.report.view import gait_scene
 from thesis_pin import errors
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.loading import load

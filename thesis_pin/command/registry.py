@@ -196,7 +196,7 @@ class Robot:
     makes_report: str = "verbs:report"
     moves: str = "verbs:motion"
     solves: str = "verbs:ik"
-    figures: str = "report.figures:figures"
+    figures: str = "report.drawn.figures:figures"
     table: str = "report.tables:summary"
     load: str = "model:load"
     specification: str = "specification:Specification.read"

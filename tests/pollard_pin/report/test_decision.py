@@ -8,7 +8,7 @@ import pytest
 
 import pollard_pin
 from pollard_pin.motion.files import load_path
-from pollard_pin.report.page import trajectory_page
+from pollard_pin.report.drawn.page import trajectory_page
 from pollard_pin.specification import POLLARD_PATH
 from thesis_pin.report.writers import json_bytes
 

@@ -9,7 +9,7 @@ import pytest
 
 import pollard_pin
 from pollard_pin.motion.curves import appendix_b
-from pollard_pin.report.page import trajectory_page
+from pollard_pin.report.drawn.page import trajectory_page
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pinocchio as pin
 import pytest
 
 import scout_pin
-from scout_pin.report.page import _tables, _tiles
+from scout_pin.report.drawn.page import _tables, _tiles
 from scout_pin.report.tables import ik_document, solutions_table, summary
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.report.tables import Table

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import scout_pin
-from scout_pin.report.page import gait_page
+from scout_pin.report.drawn.page import gait_page
 
 from ..conftest import EXAMPLES
 

@@ -9,9 +9,9 @@ import pytest
 import scout_pin
 from scout_pin.cli import main
 from scout_pin.motion.files import load_gait
-from scout_pin.report.curves import stability_margin, torques
 from scout_pin.report.document import gait_report
-from scout_pin.report.page import gait_page
+from scout_pin.report.drawn.curves import stability_margin, torques
+from scout_pin.report.drawn.page import gait_page
 from thesis_pin.report.writers import json_bytes
 
 from ...conftest import EXAMPLES

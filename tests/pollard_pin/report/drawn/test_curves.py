@@ -6,8 +6,8 @@ import pytest
 
 import pollard_pin
 from pollard_pin.motion.curves import appendix_b
-from pollard_pin.report import curves
-from pollard_pin.report.figures import figures
+from pollard_pin.report.drawn import curves
+from pollard_pin.report.drawn.figures import figures
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_SYMBOLS
 from thesis_pin.pages.plots import figure
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import scout_pin
-from scout_pin.report.figures import skeleton, stick_figures
-from scout_pin.report.page import gait_page
+from scout_pin.report.drawn.figures import skeleton, stick_figures
+from scout_pin.report.drawn.page import gait_page
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +39,7 @@ def test_a_page_is_the_same_bytes_for_the_same_report(report):
 
 
 def test_tables_say_neither_minus_nothing_nor_none(report):
-    walk = Path(__file__).parents[3] / "examples" / "walk.toml"
+    walk = Path(__file__).parents[4] / "examples" / "walk.toml"
     soft = scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait(walk), samples=41)
     assert soft.impacts  # so soft that their speeds and impulses round to nothing
     for one in (report, soft):

@@ -13,7 +13,7 @@ from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import Phase
 from thesis_pin.numeric.interpolation import polynomial
 
-from ..conftest import EXAMPLES
+from ...conftest import EXAMPLES
 
 
 @pytest.fixture(scope="module")

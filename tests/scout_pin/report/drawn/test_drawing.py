@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import scout_pin
-from scout_pin.report.drawing import leg_drawing
+from scout_pin.report.drawn.drawing import leg_drawing
 from scout_pin.specification import NEW_PATH, SIDES, Specification
 from thesis_pin.errors import UnknownName
 
-from ..conftest import random_specification
+from ...conftest import random_specification
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 NAMES = ("x_0", "z_1", "x_2", "x_3", "x_4", "x_5", "y_6", *(f"β_{k}" for k in range(1, 9)))
 SVG = "{http://www.w3.org/2000/svg}"
 

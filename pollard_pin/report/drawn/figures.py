@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from pollard_pin.report import curves
 from pollard_pin.report.document import TrajectoryReport
+from pollard_pin.report.drawn import curves
 from pollard_pin.report.movement import report_states
 from thesis_pin.report.curves import evenly
 from thesis_pin.report.exchange.movement import exchange_files

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import scout_pin
-from scout_pin.report.view import MARGIN_BOUNDS, MOST_SAMPLES, gait_scene
+from scout_pin.report.drawn.view import MARGIN_BOUNDS, MOST_SAMPLES, gait_scene
 from thesis_pin.pages.scene import levels, thinned
 
-WALK = Path(__file__).parents[3] / "examples" / "walk.toml"
+WALK = Path(__file__).parents[4] / "examples" / "walk.toml"
 
 
 @pytest.fixture(scope="module")

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.implausible import implausible
-from scout_pin.report.curves import plots
 from scout_pin.report.document import GaitReport
-from scout_pin.report.limits import headline
+from scout_pin.report.drawn.curves import plots
+from scout_pin.report.drawn.view import gait_scene
+from scout_pin.report.judged.limits import headline
 from scout_pin.report.tables import joints_table
 from scout_pin.report.uncertainty.document import columns_table, open_table
-from scout_pin.report.view import gait_scene
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from pollard_pin.report.curves import plots
 from pollard_pin.report.document import TrajectoryReport
+from pollard_pin.report.drawn.curves import plots
+from pollard_pin.report.drawn.view import path_scene
 from pollard_pin.report.tables import motors_table
 from pollard_pin.report.uncertainty.document import open_table
-from pollard_pin.report.view import path_scene
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned

@@ -8,11 +8,11 @@ import pytest
 import shapely
 
 import scout_pin
-from scout_pin.report import curves
-from scout_pin.report.figures import figures
+from scout_pin.report.drawn import curves
+from scout_pin.report.drawn.figures import figures
 from thesis_pin.pages.plots import figure
 
-WALK = Path(__file__).parents[3] / "examples" / "walk.toml"
+WALK = Path(__file__).parents[4] / "examples" / "walk.toml"
 
 
 @pytest.fixture(scope="module")

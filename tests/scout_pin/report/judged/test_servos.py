@@ -6,12 +6,12 @@ import scout_pin
 from scout_pin.implausible import implausible
 from scout_pin.motion.files import load_gait
 from scout_pin.report.document import gait_report
-from scout_pin.report.page import gait_page
-from scout_pin.report.servos import servo_limits
+from scout_pin.report.drawn.page import gait_page
+from scout_pin.report.judged.servos import servo_limits
 from scout_pin.report.tables import summary
 from scout_pin.specification import Specification
 
-from ..conftest import EXAMPLES
+from ...conftest import EXAMPLES
 
 
 def specification(**servo):

@@ -6,7 +6,7 @@ import pytest
 import pollard_pin
 from pollard_pin.motion.curves import appendix_b
 from pollard_pin.report.document import trajectory_report
-from pollard_pin.report.limits import MotorUse
+from pollard_pin.report.judged.limits import MotorUse
 
 
 def robot_with(**limits):

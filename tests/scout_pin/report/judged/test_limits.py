@@ -10,13 +10,13 @@ from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import Phase
 from scout_pin.motion.trajectory import joint_trajectory
-from scout_pin.report.limits import SPEEDS, fastest_time_unit, headline
-from scout_pin.report.speeds import Speeds
+from scout_pin.report.judged.limits import SPEEDS, fastest_time_unit, headline
+from scout_pin.report.judged.speeds import Speeds
 from scout_pin.specification import Specification
 from thesis_pin.errors import NoSupportForce
 from thesis_pin.numeric.interpolation import polynomial
 
-from ..conftest import EXAMPLES
+from ...conftest import EXAMPLES
 
 
 def robot_with_friction(viscous, coulomb):

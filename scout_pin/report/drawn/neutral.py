@@ -6,7 +6,7 @@ import numpy as np
 import pinocchio as pin
 
 from scout_pin.model import Scout
-from scout_pin.report.view import BLACK, robot_colours
+from scout_pin.report.drawn.view import BLACK, robot_colours
 from scout_pin.specification import SIDES
 from thesis_pin.numeric.checks import instance
 from thesis_pin.pages.scene import Arrow, Ball, Group, Scene

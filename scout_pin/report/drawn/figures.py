@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scout_pin.coordinates import free_flyer_state
-from scout_pin.report import curves
-from scout_pin.report.curves import SIDE_COLOURS, Samples
 from scout_pin.report.document import GaitReport
+from scout_pin.report.drawn import curves
+from scout_pin.report.drawn.curves import SIDE_COLOURS, Samples
 from scout_pin.report.movement import report_states
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.model.loading import joint_id

@@ -1,0 +1,1 @@
+"""The report's curves, figures, pages and scenes."""
