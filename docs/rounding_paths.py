@@ -91,7 +91,7 @@ def section() -> Iterator[str]:
 
 def seeds(name: str, rate: int, place: int) -> list[int]:
     """Of a cell's random numbers: path, rate, number of its resolution."""
-    return [20260101, rate, place, *map(ord, name)]
+    return [20261127, rate, place, *map(ord, name)]
 
 
 def told(one: Cell) -> str:

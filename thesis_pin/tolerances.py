@@ -80,6 +80,9 @@ class Tolerances:
         step: Least distance of two nodes or samples: below it, rates are made of
             rounding [s], [-].
         static: Joint speed below which Coulomb friction is taken as zero [rad/s].
+        creeping: The same of motions smoothed within their samples' resolution [rad/s], [m/s],
+            where friction counts as possible: curves ring that fast where a joint comes to rest,
+            and a hobby servo takes two seconds for its smallest step.
         wrench: Distance outside a sole's wrench cone, forces scaled to moments, still
             taken as on its border, where a quadratic programme stops [N·m].
         impulse: Impulse of a landing still taken as none: what the robot's weight gives in
@@ -176,6 +179,7 @@ class Tolerances:
     rest_turning: float = 1e-2
     step: float = 1e-9
     static: float = 1e-9
+    creeping: float = 1e-3
     wrench: float = 1e-7
     impulse: float = 1e-4
     clearance: float = 1e-4

@@ -131,8 +131,8 @@ def drawn(
         return joint_trajectory(robot, motions, branch=branch, reference=joints.q[0])
 
     alive, followed = _survivors(range(variants.count - 1), follow)
-    rates = followed.v.reshape(len(alive), count, -1)[alive[0] == 0 :]
-    resting, creeping = _rates(motion.t, own.t, np.abs(joints.v), rates)
+    rates = followed.v.reshape(len(alive), count, -1)
+    resting, creeping = _rates(motion.t, own.t, joints.v, keep, rates, alive[0] == 0)
 
     def judge(some: Sequence[int]) -> Judged:
         rows = _rows([alive.index(number) for number in some], count)
@@ -248,12 +248,25 @@ def _survivors(
 
 
 def _rates(
-    t: Array, kept_t: Array, speed: Array, rates: Array
+    t: Array, kept_t: Array, v: Array, keep: NDArray[np.intp], rates: Array, rival: bool
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Joints whose rate isn't known to differ from zero, and those not known to be zero either."""
-    spread = rates.std(axis=0, ddof=1) if len(rates) > 1 else np.zeros(rates.shape[1:])
-    wide = KNOWN * np.stack([np.interp(t, kept_t, column) for column in spread.T], axis=1)
-    resting = speed <= np.maximum(wide, TOLERANCES.static)
+    """Joints whose rate isn't known to differ from zero, and those not known to be zero either.
+
+    Args:
+        t: Times of the motion, shape ``(n,)``.
+        kept_t: Those of the variants, ``(m,)``.
+        v: Joint rates of the motion, ``(n, 12)``.
+        keep: Its samples that are the variants'.
+        rates: Joint rates of the variants, ``(variants, m, 12)``.
+        rival: Whether the first of them is the rival's: by how much it differs is a bias.
+    """
+    draws = rates[1:] if rival else rates
+    spread = KNOWN * (draws.std(axis=0, ddof=1) if len(draws) > 1 else np.zeros(rates.shape[1:]))
+    if rival:
+        spread = spread + np.abs(rates[0] - v[keep])
+    wide = np.stack([np.interp(t, kept_t, column) for column in spread.T], axis=1)
+    speed = np.abs(v)
+    resting = speed <= np.maximum(wide, TOLERANCES.creeping)
     return resting, resting & (speed + wide > TOLERANCES.static)
 
 

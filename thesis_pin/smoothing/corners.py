@@ -27,6 +27,7 @@ from thesis_pin.tolerances import TOLERANCES
 _AROUND = 8  # samples on either side that say what acceleration is usual
 _TIMES = 5.0  # what a rate's change must exceed that by
 _QUANTA = 2.0  # by which neighbours of one motion may differ for their text's sake
+_TOLD = 6.0  # standard deviations by which the pieces on both sides of a corner must differ
 
 
 def corners(time: Array, values: Array, quantum: float) -> list[int]:
@@ -91,6 +92,33 @@ def in_pieces(
         its jump of rate.
     """
     rows = corners(time, values, quantum)
+    while True:
+        pieces = _pieces(time, values, rows, quantum, random, ends, exact)
+        sides = zip(rows, pieces[:-1], pieces[1:], strict=True)
+        # Of thousands of noisy samples some look like corners; their pieces don't tell one.
+        told = [r for r, before, after in sides if exact or _differ(time[r + 1], before, after)]
+        if told == rows:
+            break
+        rows = told
+    made, found = pieces[:1], []
+    for row, before, after in zip(rows, pieces[:-1], pieces[1:], strict=True):
+        span = time[row : row + 2]
+        made += [straight(span, before.variants(span[0]), after.variants(span[1])), after]
+        jump = float(after.value(span[1], 1) - before.value(span[0], 1))
+        found.append((row, abs(jump)))
+    return made, found
+
+
+def _pieces(
+    time: Array,
+    values: Array,
+    rows: list[int],
+    quantum: float,
+    random: np.random.Generator,
+    ends: tuple[End | None, End | None],
+    exact: bool,
+) -> list[SmoothCurve]:
+    """A curve up to each of the rows, and one from the last."""
     pieces: list[SmoothCurve] = []
     for first, last in zip([0, *(row + 1 for row in rows)], [*rows, len(time) - 1], strict=True):
         held = (ends[0] if first == 0 else None, ends[1] if last == len(time) - 1 else None)
@@ -101,13 +129,17 @@ def in_pieces(
             pieces.append(fitted(*part, quantum, random))
         else:
             pieces.append(smooth_curve(*part, quantum, random, ends=held))
-    made, found = pieces[:1], []
-    for row, before, after in zip(rows, pieces[:-1], pieces[1:], strict=True):
-        span = time[row : row + 2]
-        made += [straight(span, before.variants(span[0]), after.variants(span[1])), after]
-        jump = float(after.value(span[1], 1) - before.value(span[0], 1))
-        found.append((row, abs(jump)))
-    return made, found
+    return pieces
+
+
+def _differ(at: float, before: SmoothCurve, after: SmoothCurve) -> bool:
+    """Whether two pieces differ in value or rate by more than their samples leave open."""
+    for order in (0, 1):
+        gap = after.variants(at, order) - before.variants(at, order)
+        spread = float(gap[2:].std(ddof=1))
+        if min(abs(gap[:2])) > _TOLD * spread and gap[0] * gap[1] > 0:
+            return True
+    return False
 
 
 def through(

@@ -67,3 +67,28 @@ def test_accelerations_beside_a_corner_are_the_motion_s(exact):
     true = -0.02 * 9.0 * np.sin(3.0 * t) - 0.01 * 49.0 * np.sin(7.0 * t)
     for piece, rows in ((pieces[0], t <= t[row]), (pieces[-1], t > t[row])):
         np.testing.assert_allclose(piece.value(t[rows], 2), true[rows], atol=0.02)
+
+
+@pytest.mark.parametrize("noise", [1e-6, 1e-5, 1e-4])
+@pytest.mark.parametrize("seed", range(6))
+def test_what_only_looks_like_a_corner_is_none(noise, seed, monkeypatch):
+    """Of thousands of noisy samples some do; the curves on both sides don't tell any jump."""
+    random = np.random.default_rng(seed)
+    t = np.arange(0.0, 4.0, 1.0 / 300)
+    values = np.round(swing(t) + noise * random.standard_normal(len(t)), 7)
+    looks = sorted(random.choice(np.arange(40, len(t) - 40), 3, replace=False).tolist())
+    monkeypatch.setattr("thesis_pin.smoothing.corners.corners", lambda *_: looks)
+    pieces, jumps = in_pieces(t, values, 1e-7, generator(9, seed))
+    assert (len(pieces), jumps) == (1, [])
+    assert np.sqrt(np.mean((pieces[0].value(t) - swing(t)) ** 2)) < noise / 2
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_jump_above_the_noise_is_told_with_its_size(seed):
+    t = np.arange(0.001, 3.0, 1.0 / 300)
+    values = swing(t) + 0.3 * np.maximum(t - 1.4, 0.0)
+    values += 1e-6 * np.random.default_rng(seed).standard_normal(len(t))
+    pieces, ((row, size),) = in_pieces(t, np.round(values, 7), 1e-7, generator(9, seed))
+    assert t[row] <= 1.4 <= t[row + 1]
+    assert size == pytest.approx(0.3, abs=0.02)
+    assert len(pieces) == 3

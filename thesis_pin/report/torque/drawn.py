@@ -128,7 +128,7 @@ def _sliding(way: Way, keep: NDArray[np.intp], rates: Array) -> tuple[Array, NDA
     v, time = way.whole.joints.v, way.motion.time
     spread = rates.std(axis=0, ddof=1) if len(rates) > 1 else np.zeros(rates.shape[1:])
     wide = KNOWN * np.stack([np.interp(time, time[keep], column) for column in spread.T], axis=1)
-    resting = np.abs(v) <= np.maximum(wide, TOLERANCES.static)
+    resting = np.abs(v) <= np.maximum(wide, TOLERANCES.creeping)
     creeping = resting & (np.abs(v) + wide > TOLERANCES.static)
     return np.where(resting, 0.0, np.sign(v)), creeping
 

@@ -110,6 +110,20 @@ def test_coulomb_friction_counts_only_where_a_rate_is_known(lopsided, tmp_path):
     assert held.high >= true + 0.9 * coulomb
 
 
+def test_ringing_where_a_joint_comes_to_rest_counts_no_friction_but_leaves_it_open(
+    lopsided, tmp_path
+):
+    """Coarse rows, fine digits: the curves' own error is far above what the digits tell."""
+    source = EXAMPLES / "lopsided_walk.toml"
+    true = gait_report(lopsided, load_gait(source)).actuators.peak_torque.max()
+    file = log(tmp_path / "log.csv", 25.0, 7, source=source, shift=0.0182 * 25)
+    report = gait_report(lopsided, load_gait(file))
+    peaks = report.actuators.peak_torque
+    held = report.headlines.peak_torque[int(peaks.argmax())]
+    assert peaks.max() == pytest.approx(true, abs=1e-3)
+    assert held.low <= true <= held.high
+
+
 def test_intervals_in_json_say_what_they_were_made_from(scout, tmp_path):
     report = gait_report(scout, load_gait(log(tmp_path / "log.csv", 60.0, 4)))
     found = json.loads(json_bytes(report.document()))["uncertainty"]
