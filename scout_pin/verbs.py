@@ -91,7 +91,7 @@ def _gait(arguments: argparse.Namespace, robot: Scout) -> Gait:
             "robot; scout-pin new FILE --motion sway makes one for this robot"
         )
     gait = load_gait(
-        arguments.gait or "thesis",
+        "thesis" if arguments.gait is None else arguments.gait,
         arguments.interpolation,
         robot=robot,
         smooth=arguments.smooth,
@@ -124,7 +124,7 @@ def new(arguments: argparse.Namespace) -> ExitCode:
     kind, name = arguments.motion or "specification", None
     if arguments.motion and arguments.example:
         raise BadInput("--motion and --example are two files", remedy="Write one at a time")
-    if arguments.specification and not arguments.motion:
+    if arguments.specification is not None and not arguments.motion:
         raise BadInput("--specification means nothing without --motion", remedy="Add --motion sway")
     with Bar("making it"):
         from thesis_pin.report.writers import json_bytes

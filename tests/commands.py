@@ -20,6 +20,8 @@ VERBS = {
     for command in COMMANDS.values()
     for verb in command.verbs
 }
+WRITTEN = {"scout-pin new": "my_biped.toml"}
+"""Words of examples that name a file which the verb writes."""
 OUTPUTS = ("--to", "--out", "--write", "--html", "--json", "--markdown")
 
 
@@ -39,11 +41,11 @@ def has(name, flag):
     return any(flag in action.option_strings for action in flags(name))
 
 
-def example(name):
-    """A verb's example without its outputs."""
+def example(name, folder=None):
+    """A verb's example without its outputs; those it can't do without, in a folder."""
     words = shlex.split(VERBS[name][1].example)
     return [
-        word
+        str(folder / word) if folder is not None and word == WRITTEN.get(name) else word
         for word, before in zip(words, ["", *words], strict=False)
         if word not in OUTPUTS and before not in OUTPUTS
     ]

@@ -90,6 +90,7 @@ NUMBERS = {
     "--sole": {"2.5"},
     "--servo": {"2.5"},
     "--friction": {"2.5"},
+    "--external": set(),
 }
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")

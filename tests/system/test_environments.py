@@ -12,6 +12,9 @@ ROOT = Path(__file__).parents[2]
 VERBS = {
     "scout": (
         ["gait"],
+        ["size", "examples/servos.csv"],
+        ["new", "my_biped.toml"],
+        ["from-urdf", "urdf/scout/scout.urdf"],
         ["view", "--html", "-"],
         ["convert", "--as", "joints"],
         ["ik", "left", "--position", "0", "0", "-0.2"],
@@ -21,6 +24,7 @@ VERBS = {
     ),
     "pollard": (
         ["trajectory"],
+        ["size", "examples/servos.csv"],
         ["view", "--html", "-"],
         ["convert", "--as", "joints"],
         ["ik", "0.45", "0", "0.1", "0", "0", "0"],

@@ -32,7 +32,7 @@ COMMANDS = {
 KEYS = ["schema", "version", "robot", "joints", "coordinates", "pose", "branches", "explanation"]
 BRANCH_KEYS = ["branch", "reachable", "valid", "angles", "position_residual", "rotation_residual"]
 OWN_KEYS = {
-    "scout": ["reach_excess", "explanation"],
+    "scout": ["reach_excess", "explanation", "knee"],
     "pollard": ["margin", "loop_residual", "rod_angles", "explanation"],
 }
 

@@ -53,7 +53,8 @@ def path():
         ["trajectory", "--path"],
         {
             "t": made.time,
-            **dict(zip(names, made.pose.T.round(6) + 0.0, strict=True)),
+            # So fine that the samples count as exact, of which there is nothing to say.
+            **dict(zip(names, made.pose.T.round(9) + 0.0, strict=True)),
         },
     )
 

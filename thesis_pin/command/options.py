@@ -168,7 +168,6 @@ def add_convert(words: Words) -> None:
     )
     words.add_argument(
         "--units",
-        default="",
         metavar="UNITS",
         help="of tables, as mm,deg,ms (default: SI; of m mm cm, rad deg, s ms us)",
     )

@@ -117,10 +117,10 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         from thesis_pin.tables.writing import WrittenUnits
 
         form = form_of(arguments.to, arguments.form)
-        units = WrittenUnits.parse(arguments.units)
+        units = WrittenUnits() if arguments.units is None else WrittenUnits.parse(arguments.units)
         if arguments.servos is not None and form != "ticks":
             raise BadInput("--servos belongs to ticks", remedy="Add --as ticks")
-        if arguments.units and form == "joint-trajectory":
+        if arguments.units is not None and form == "joint-trajectory":
             raise BadInput("a joint trajectory is in SI", remedy="Leave --units out")
         loaded = _load(robot, arguments)
         with warned():

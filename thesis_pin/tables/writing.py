@@ -43,7 +43,7 @@ class WrittenUnits:
             BadInput: Two are of one kind.
         """
         found: dict[str, Unit] = {}
-        for word in filter(None, (one.strip() for one in text.split(","))):
+        for word in map(str.strip, text.split(",")):
             if word not in _NAMES:
                 raise UnknownName("unit", word, tuple(_NAMES))
             kind, unit = _NAMES[word]

@@ -31,7 +31,8 @@ def path():
 def test_what_is_written_reads_back_at_every_row(robot, path, form, units, tmp_path):
     file = tmp_path / ("a.toml" if form == "toml" else "a.csv")
     movement = path_movement(robot, path, samples=41)
-    file.write_bytes(content(movement, form, WrittenUnits.parse(units)))
+    chosen = WrittenUnits.parse(units) if units else WrittenUnits()
+    file.write_bytes(content(movement, form, chosen))
     found = load_path(file).at(movement.time).pose
     np.testing.assert_allclose(found, path.sample(41).pose, atol=1e-14)
     if units == "mm,deg,ms":

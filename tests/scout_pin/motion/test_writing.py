@@ -40,7 +40,7 @@ def test_what_is_written_reads_back_at_every_row(given, form, units, tmp_path):
     if form == "toml" and "cm" in units:
         pytest.skip("our own format knows millimetres and degrees")
     file = tmp_path / ("a.toml" if form == "toml" else "a.csv")
-    chosen = WrittenUnits.parse(units)
+    chosen = WrittenUnits.parse(units) if units else WrittenUnits()
     file.write_bytes(content(gait_movement(robot, gait, samples=101), form, chosen))
     again = scout_pin.load_gait(file)
     t = rows_of(gait, 101)

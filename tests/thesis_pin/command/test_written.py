@@ -13,7 +13,7 @@ PYTHON = re.compile(r"\b[a-z_]+ ?= ?(False|True|None|\d)|\b[a-z_]+=( |$)")
 @pytest.mark.parametrize("name", WRITERS)
 def test_a_verb_says_wrote_and_the_file_for_each_file(name, tmp_path, capfd, monkeypatch):
     monkeypatch.chdir(ROOT)
-    words = [*example(name), *into(name, tmp_path)]
+    words = [*example(name, tmp_path), *into(name, tmp_path)]
     if name.endswith("audit"):
         words += ["--markdown", str(tmp_path / "audit.md")]
     if has(name, "--samples"):
