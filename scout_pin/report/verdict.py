@@ -151,7 +151,8 @@ def _swing(numbers: GaitNumbers) -> list[str]:
     drawn = numbers.collisions.drawn
     if drawn:
         time = numbers.motion.t[drawn[0].sample]
-        more = f", and {len(drawn) - 1} other pairs" if len(drawn) > 1 else ""
+        more = ("", ", and another pair")[len(drawn) > 1]
+        more = f", and {len(drawn) - 1} other pairs" if len(drawn) > 2 else more
         said.append(
             f"As drawn, {_links(drawn[0])} touch (t = {time:g}){more}; "
             "what the specification gives no shape of (collision) isn't judged."
@@ -159,7 +160,8 @@ def _swing(numbers: GaitNumbers) -> list[str]:
     scraping = [swing for swing in numbers.swings if swing.scrapes]
     if scraping:
         worst = max(scraping, key=lambda swing: swing.scraped)
-        often = "" if len(scraping) == 1 else f", and {len(scraping) - 1} other swings do"
+        often = ("", ", and another swing does")[len(scraping) > 1]
+        often = f", and {len(scraping) - 1} other swings do" if len(scraping) > 2 else often
         said.append(
             f"The {worst.side} foot scrapes: of its way of {worst.way * 1e3:.1f} mm it makes "
             f"{worst.scraped * 1e3:.1f} mm less than {TOLERANCES.scrape_height * 1e3:g} mm above "
