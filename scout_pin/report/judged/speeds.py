@@ -118,26 +118,30 @@ class Speeds:
         Args:
             com: Centre of mass at each sample [m], shape ``(n, 3)``.
         """
-        bounds: dict[Cause, list[tuple[np.ndarray, np.ndarray, np.ndarray]]]
-        bounds = {"zmp": [], "contact": []}
+        # Of each block only the samples that bind: there may be a million in all.
+        slowest: dict[Cause, list[tuple[float, int]]] = {"zmp": [], "contact": []}
+        fastest: dict[Cause, list[tuple[float, int]]] = {"zmp": [], "contact": []}
+
+        def bind(cause: Cause, some: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
+            slow, fast = int(np.argmax(low)), int(np.argmin(high))
+            slowest[cause].append((float(low[slow]), int(some[slow])))
+            fastest[cause].append((float(high[fast]), int(some[fast])))
+
         for samples, corners in polygons(self.robot, self.motion):
             for part in blocks(len(samples)):
-                some = samples[part]
-                edges = _edges(corners, *self._floor(com, some))
-                bounds["zmp"].append((some, *where_lines_hold(*edges)))
+                edges = _edges(corners, *self._floor(com, samples[part]))
+                bind("zmp", samples[part], *where_lines_hold(*edges))
         for part in blocks(len(self._single), _CONES):
-            some = self._single[part]
-            bounds["contact"].append((some, *self._cone(com, some)))
+            bind("contact", self._single[part], *self._cone(com, self._single[part]))
         found = []
-        for cause, parts in bounds.items():
-            if not parts:
+        for cause in slowest:
+            if not slowest[cause]:
                 continue
-            some, low, high = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-            slow, fast = int(np.argmax(low)), int(np.argmin(high))
-            start = np.array([self.low, _root(high[fast])])
-            end = np.array([_root(low[slow]), self.high])
-            source = [[CAUSES.index(cause), some[k], -1] for k in (slow, fast)]
-            taken = Intervals(start, end, np.array(source))
+            low, slow = max(slowest[cause], key=lambda one: one[0])
+            high, fast = min(fastest[cause], key=lambda one: one[0])
+            start, end = np.array([self.low, _root(high)]), np.array([_root(low), self.high])
+            source = np.array([[CAUSES.index(cause), sample, -1] for sample in (slow, fast)])
+            taken = Intervals(start, end, source)
             found.append(taken.within(np.full(2, self.low), np.full(2, self.high)))
         return Intervals.joined(found, 3)
 
