@@ -177,7 +177,7 @@ class TrajectoryReport(TrajectoryNumbers):
                 "time": float(time[self.tool_speed.argmax()]),
             },
             "energy": {
-                "net_work": float(self.work_done[-1].sum()),
+                "net_work": float(self.actuators.net_work.sum()),
                 "change": self.energy_change,
                 "exchanged": self.work_exchanged,
                 "error": self.energy_error,

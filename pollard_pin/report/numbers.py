@@ -154,7 +154,7 @@ class TrajectoryNumbers:
     @property
     def energy_error(self) -> float:
         """Net work of all motors minus the change of energy [J]; rounding with six motors."""
-        return float(self.work_done[-1].sum()) - self.energy_change
+        return float(self.actuators.net_work.sum()) - self.energy_change
 
     @property
     def relative_energy_error(self) -> float:

@@ -53,7 +53,7 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
     joint = int(np.argmax(joint_force))
     if report.three is None:
         yield (
-            f"Energy: the motors' net work is {report.work_done[-1].sum() * 1e3:z.4f} mJ, the "
+            f"Energy: the motors' net work is {report.actuators.net_work.sum() * 1e3:z.4f} mJ, the "
             f"robot's energy changes by {report.energy_change * 1e3:z.4f} mJ."
         )
     yield from (
