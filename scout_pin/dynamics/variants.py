@@ -26,6 +26,7 @@ from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.errors import ThesisPinError
 from thesis_pin.numeric.rotations import euler_placement
 from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
+from thesis_pin.smoothing.rates import resting
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -33,9 +34,6 @@ Result = TypeVar("Result")
 
 SAMPLES = 201
 """Evenly spaced samples at which variants are judged, beside extremes and those at changes."""
-
-KNOWN = 4.0
-"""Standard deviations by which a joint's rate must differ from zero for its friction to count."""
 
 
 @dataclass(frozen=True)
@@ -132,12 +130,13 @@ def drawn(
 
     alive, followed = _survivors(range(variants.count - 1), follow)
     rates = followed.v.reshape(len(alive), count, -1)
-    resting, creeping = _rates(motion.t, own.t, joints.v, keep, rates, alive[0] == 0)
+    first = int(alive[0] == 0)
+    rival = rates[0] if first else None
+    still, creeping = resting(motion.t, keep, joints.v, rates[first:], rival)
 
     def judge(some: Sequence[int]) -> Judged:
         rows = _rows([alive.index(number) for number in some], count)
-        still = np.tile(resting[keep], (len(some), 1))
-        moved = replace(followed.part(rows), resting=still)
+        moved = replace(followed.part(rows), resting=np.tile(still[keep], (len(some), 1)))
         return judged(robot, stack.part(_rows(some, count)), moved, len(some))
 
     alive, found = _survivors(alive, judge)
@@ -147,7 +146,7 @@ def drawn(
         found.part(slice(0, 1)) if first else None,
         found.part(slice(first, None)),
         variants.count - 2 - (len(alive) - first),
-        resting,
+        still,
         creeping,
     )
 
@@ -245,29 +244,6 @@ def _survivors(
         if not alive:
             raise error
         return alive, work(alive)
-
-
-def _rates(
-    t: Array, kept_t: Array, v: Array, keep: NDArray[np.intp], rates: Array, rival: bool
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Joints whose rate isn't known to differ from zero, and those not known to be zero either.
-
-    Args:
-        t: Times of the motion, shape ``(n,)``.
-        kept_t: Those of the variants, ``(m,)``.
-        v: Joint rates of the motion, ``(n, 12)``.
-        keep: Its samples that are the variants'.
-        rates: Joint rates of the variants, ``(variants, m, 12)``.
-        rival: Whether the first of them is the rival's: by how much it differs is a bias.
-    """
-    draws = rates[1:] if rival else rates
-    spread = KNOWN * (draws.std(axis=0, ddof=1) if len(draws) > 1 else np.zeros(rates.shape[1:]))
-    if rival:
-        spread = spread + np.abs(rates[0] - v[keep])
-    wide = np.stack([np.interp(t, kept_t, column) for column in spread.T], axis=1)
-    speed = np.abs(v)
-    resting = speed <= np.maximum(wide, TOLERANCES.creeping)
-    return resting, resting & (speed + wide > TOLERANCES.static)
 
 
 def extremes_of(

@@ -20,12 +20,9 @@ from thesis_pin.loops.motion.near import near_motions
 from thesis_pin.loops.motion.smoothing import itself
 from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.loops.motion.whole import WholeMotion
-from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.smoothing.rates import resting
 
 Array = NDArray[np.float64]
-
-KNOWN = 4.0
-"""Standard deviations by which a joint's rate must differ from zero for its friction to count."""
 
 SAMPLES = 101
 """Evenly spaced samples at which variants are judged, beside extremes: that bounds the cost."""
@@ -105,7 +102,10 @@ def drawn(way: Way, extremes: Sequence[int]) -> Drawn | None:
     *whole, good = near_motions(way.robot, way.whole, keep, moved, way.precision)
     sliding, unknown = None, np.zeros((len(keep), len(way.robot.actuators)))
     if way.robot.model.upperDryFrictionLimit.any():
-        sliding, creeping = _sliding(way, keep, whole[1][1:][good[1:]])
+        v, rates = way.whole.joints.v, whole[1]
+        rival = rates[0] if good[0] else None
+        still, creeping = resting(way.motion.time, keep, v, rates[1:][good[1:]], rival)
+        sliding = np.where(still, 0.0, np.sign(v))
         unknown = _unknown(way, keep, sliding[keep], creeping[keep])
     found = _judged(way, whole, good, None if sliding is None else sliding[keep])
     draws = [one for one in found[1:] if one is not None]
@@ -115,22 +115,6 @@ def drawn(way: Way, extremes: Sequence[int]) -> Drawn | None:
 
 def _since_start(way: Way) -> Array:
     return np.asarray(way.motion.time - way.motion.time[0])
-
-
-def _sliding(way: Way, keep: NDArray[np.intp], rates: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Which way each joint is known to move, and which joints may move either way.
-
-    Args:
-        way: How the motion is carried.
-        keep: The samples that were judged, shape ``(k,)``.
-        rates: Rates of the draws there, shape ``(draws, k, nv)``.
-    """
-    v, time = way.whole.joints.v, way.motion.time
-    spread = rates.std(axis=0, ddof=1) if len(rates) > 1 else np.zeros(rates.shape[1:])
-    wide = KNOWN * np.stack([np.interp(time, time[keep], column) for column in spread.T], axis=1)
-    resting = np.abs(v) <= np.maximum(wide, TOLERANCES.creeping)
-    creeping = resting & (np.abs(v) + wide > TOLERANCES.static)
-    return np.where(resting, 0.0, np.sign(v)), creeping
 
 
 def _unknown(
