@@ -189,7 +189,11 @@ def _smoothed(
             parts.append(whole)
     rate = 1.0 / float(np.median(np.diff(time)))
     variants = Variants(
-        tuple(curve.variants for curve in curves), tuple(parts), tuple(columns), rate, SEED
+        curves=tuple(curve.variants for curve in curves),
+        parts=tuple(parts),
+        columns=tuple(columns),
+        rate=rate,
+        seed=SEED,
     )
     own = [curve.value for curve in curves]
     start = np.zeros(3) if poses.written is None else poses.written[0]

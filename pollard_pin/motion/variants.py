@@ -9,7 +9,7 @@ import numpy as np
 
 from thesis_pin.numeric import quaternions
 from thesis_pin.numeric.trajectory import BodyMotion
-from thesis_pin.smoothing.resolution import Resolution
+from thesis_pin.smoothing.resolution import Sampled
 
 if TYPE_CHECKING:  # exact paths need no smoothing
     from scipy.interpolate import PPoly
@@ -19,7 +19,7 @@ PLACE = 3
 
 
 @dataclass(frozen=True)
-class Variants:
+class Variants(Sampled):
     """What a smoothed path carries beside its curves.
 
     Attributes:
@@ -27,16 +27,10 @@ class Variants:
             values ``(2 + draws,)``: the path's own, the rival's (see
             :mod:`thesis_pin.smoothing.curve`), draws.
         parts: For each column of the samples, which curves it makes.
-        columns: What each column resolves.
-        rate: Samples a second.
-        seed: Of the draws.
     """
 
     curves: tuple[PPoly, ...]
     parts: tuple[tuple[int, ...], ...]
-    columns: tuple[Resolution, ...]
-    rate: float
-    seed: int
 
     @property
     def count(self) -> int:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pollard_pin.report import verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
-from thesis_pin.report import uncertainty
+from thesis_pin.report.uncertainty import numbers as uncertainty
 
 
 def within_limits(numbers: TrajectoryNumbers) -> bool | None:
@@ -16,10 +16,7 @@ def within_limits(numbers: TrajectoryNumbers) -> bool | None:
     held = numbers.headlines
     if held is None:
         return verdict.within_limits(numbers)
-    sides = [use.side(1.0) for use in (*held.torque_use, *held.speed_use)]
-    if 1 in sides:
-        return False
-    return True if all(side < 0 for side in sides) and not few_draws(numbers) else None
+    return uncertainty.within((*held.torque_use, *held.speed_use), few_draws(numbers))
 
 
 def few_draws(numbers: TrajectoryNumbers) -> bool:

@@ -12,10 +12,8 @@ from pollard_pin.report.uncertainty.headlines import Headlines
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from thesis_pin.errors import ThesisPinError
 from thesis_pin.report.resolution import newton_metres, percent
-from thesis_pin.report.uncertainty import culprit, why
+from thesis_pin.report.uncertainty.reason import DRAWS, FEW, culprit, undecided, with_left_open
 from thesis_pin.smoothing.resolution import Resolution
-
-_DRAWS = 8
 
 
 def sentences(numbers: TrajectoryNumbers) -> list[str]:
@@ -25,9 +23,7 @@ def sentences(numbers: TrajectoryNumbers) -> list[str]:
         return verdict.sentences(numbers)
     why_not = reason(numbers)
     said = verdict.sentences(numbers, motors=why_not is None)
-    if why_not is None:
-        return [said[0], _left_open(held), *said[1:]]
-    return [why_not, _left_open(held), *said]
+    return with_left_open(said, why_not, [_left_open(held)])
 
 
 def reason(numbers: TrajectoryNumbers) -> str | None:
@@ -36,21 +32,12 @@ def reason(numbers: TrajectoryNumbers) -> str | None:
     if held is None or variants is None or within_limits(numbers) is not None:
         return None
     if few_draws(numbers):
-        return (
-            "The samples can't carry a verdict: most motions that they leave open can't be "
-            "worked out. Finer samples are needed."
-        )
-    named = [
-        (one, k, name)
-        for name, uses in (("torque", held.torque_use), ("speed", held.speed_use))
-        for k, one in enumerate(uses)
-        if one.side(1.0) == 0
-    ]
-    one, k, name = max(named, key=lambda found: found[0].high)
-    most = why(_culprit(numbers, name, k), variants.rate, one, 1.0)
-    return (
-        f"The samples can't carry a verdict: {ACTUATOR_SYMBOLS[k]} uses "
-        f"{percent(one)} of its {name}; {most}."
+        return FEW
+    return undecided(
+        {"torque": held.torque_use, "speed": held.speed_use},
+        ACTUATOR_SYMBOLS,
+        variants.rate,
+        lambda name, motor: _culprit(numbers, name, motor),
     )
 
 
@@ -60,9 +47,9 @@ def _culprit(numbers: TrajectoryNumbers, name: str, motor: int) -> tuple[Resolut
     values = numbers.torque if name == "torque" else numbers.speed
     sample = int(np.abs(values[:, motor]).argmax())
     here = numbers.motion.part(np.array([sample]))
-    tool = variants.one_at_a_time(float(here.time[0]), _DRAWS)
+    tool = variants.one_at_a_time(float(here.time[0]), DRAWS)
     count = len(variants.columns)
-    near = np.repeat(here.pose[:, 3:], count * _DRAWS, axis=0)
+    near = np.repeat(here.pose[:, 3:], count * DRAWS, axis=0)
     way = Way(numbers.robot, numbers.branch, numbers.three is not None)
     try:
         found: Judged = judged(way, tool, near, count)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +15,10 @@ from scout_pin.motion.variants import Variants
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.errors import ThesisPinError
 from thesis_pin.numeric.trajectory import JointTrajectory
-from thesis_pin.smoothing.intervals import SPREAD, Interval, largest_value, least_value
+from thesis_pin.report.uncertainty.numbers import band
+from thesis_pin.smoothing.intervals import Interval, largest_value, least_value
 
 Array = NDArray[np.float64]
-Floats = NDArray[np.floating[Any]]
 
 _MARGIN = 5e-5  # what the grid of samples may miss of a margin [m]
 _PEAK = 1e-3  # and of a peak, relative
@@ -87,7 +86,8 @@ def headlines(numbers: Worked, drawn: Drawn, variants: Variants) -> Headlines:
     other, agreed = _other_support(numbers, drawn, variants, own)
     robot = numbers.robot
     creeping = drawn.creeping[drawn.keep]
-    slack = robot.specification.assumptions.joint_friction.coulomb * creeping
+    coulomb = robot.specification.assumptions.joint_friction.coulomb
+    slack = np.where(creeping, coulomb, 0.0)
     stall, free = robot.stall_torque, robot.no_load_speed
 
     def size(one: Judged) -> Array:
@@ -96,7 +96,7 @@ def headlines(numbers: Worked, drawn: Drawn, variants: Variants) -> Headlines:
     def use(one: Judged) -> Array:
         return np.asarray(np.abs(one.torque) / stall + np.abs(one.speed) / free)
 
-    def peaks(of: Callable[[Judged], Array], more: Floats) -> tuple[Interval, ...]:
+    def peaks(of: Callable[[Judged], Array], more: Array) -> tuple[Interval, ...]:
         value, beside = of(own)[0].max(axis=0), of(rival)[0].max(axis=0)
         most = np.maximum((of(own)[0] + more).max(axis=0), (of(other)[0] + more).max(axis=0))
         least = of(own)[0][agreed].max(axis=0)
@@ -131,8 +131,8 @@ def headlines(numbers: Worked, drawn: Drawn, variants: Variants) -> Headlines:
         friction_used=highest(lambda one: one.friction_used),
         lowest=lowest(lambda one: one.lowest, 0.0) if swings else None,
         time=numbers.joints.time[drawn.keep],
-        margin_band=_band(own.margin, rival.margin, drawn.draws.margin, 0.0),
-        torque_band=_band(own.torque, rival.torque, drawn.draws.torque, slack),
+        margin_band=band(own.margin[0], rival.margin[0], drawn.draws.margin),
+        torque_band=band(own.torque[0], rival.torque[0], drawn.draws.torque, slack),
     )
 
 
@@ -178,10 +178,3 @@ def _other_support(
         merged[name] = values.copy()
         merged[name][:, doubtful] = getattr(found, name)
     return Judged(**merged), agreed
-
-
-def _band(own: Array, rival: Array, draws: Array, more: Floats | float) -> Array:
-    """From and to at each sample: ``(variants, k, …)`` → ``(2, k, …)``."""
-    spread = SPREAD * draws.std(axis=0, ddof=1) if len(draws) > 1 else np.zeros(own.shape[1:])
-    half = spread + np.abs(rival[0] - own[0]) + more
-    return np.stack([own[0] - half, own[0] + half])

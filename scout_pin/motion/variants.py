@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PPoly
 
+from thesis_pin.smoothing.resolution import Sampled
+
 
 @dataclass(frozen=True)
 class Rows:
@@ -46,35 +48,6 @@ class RateJump:
 
 
 @dataclass(frozen=True)
-class Resolution:
-    """What a column of samples resolves.
-
-    Attributes:
-        body, coordinate: Which column.
-        quantum: Smallest step of its text, or what the user stated [m] or [rad].
-        noise: Standard deviation of a sample, by its fit; that of where it rests if it
-            shows no motion.
-        moves: Whether it shows any.
-    """
-
-    body: str
-    coordinate: str
-    quantum: float
-    noise: float
-    moves: bool
-
-    @property
-    def name(self) -> str:
-        """The column's name in a table."""
-        return f"{self.body}_{self.coordinate}"
-
-    @property
-    def turns(self) -> bool:
-        """Whether it is an angle."""
-        return self.coordinate not in ("x", "y", "z")
-
-
-@dataclass(frozen=True)
 class Change:
     """Two rows between which contact changes; at which instant, they don't say.
 
@@ -90,28 +63,22 @@ class Change:
 
 
 @dataclass(frozen=True)
-class Variants:
+class Variants(Sampled):
     """What a smoothed gait carries beside its curves.
 
     Attributes:
         curves: For each body six curves with values ``(2 + draws,)``: the gait's own, the
             rival's (see :mod:`thesis_pin.smoothing.curve`), draws.
-        columns: What each column resolves.
-        rate: Samples a unit of t.
         changes: Where contact changes.
         hidden: Intervals of t between two rows in which a foot's rate jumps; nothing is
             known of the motion inside.
         jumps: These jumps, their rates per unit of t.
-        seed: Of the draws.
     """
 
     curves: dict[str, tuple[PPoly, ...]]
-    columns: tuple[Resolution, ...]
-    rate: float
     changes: tuple[Change, ...]
     hidden: tuple[tuple[float, float], ...]
     jumps: tuple[RateJump, ...]
-    seed: int
 
     @property
     def count(self) -> int:

@@ -11,7 +11,7 @@ from thesis_pin.report.torque.document import TorqueReport
 from thesis_pin.report.torque.tables import loops_table, motors_table
 from thesis_pin.report.torque.uncertainty import open_table
 from thesis_pin.report.torque.verdict import carried
-from thesis_pin.report.uncertainty import columns_table
+from thesis_pin.report.uncertainty.document import columns_table
 
 MOST_SAMPLES = 1201
 """Of a plot."""

@@ -25,7 +25,13 @@ def percent(held: Interval) -> str:
 
 def newton_metres(held: Interval) -> str:
     """``0.341 N·m, between 0.338 and 0.357``."""
-    return f"{held.value:z.3f} N·m, between {held.low:z.3f} and {held.high:z.3f}"
+    return measured(held, "N·m", "z.3f")
+
+
+def measured(held: Interval, unit: str, digits: str) -> str:
+    """A number with its unit and interval, written as a format says: ``0.341 N·m, between …``."""
+    value, low, high = (format(x, digits) for x in (held.value, held.low, held.high))
+    return f"{value} {unit}, between {low} and {high}"
 
 
 def size(value: float, turns: bool) -> str:

@@ -43,3 +43,18 @@ class Resolution:
         now = max(self.quantum, self.noise / ROUNDING)
         wanted = now * min(ratio, 1.0) ** (2 * ORDER / (2 * ORDER - 5)) / 10.0
         return max(10.0 ** math.floor(math.log10(max(wanted, 1e-300)) + 1e-9), _FINEST)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sampled:
+    """What curves from samples of finite resolution say of them.
+
+    Attributes:
+        columns: What each column resolves.
+        rate: Samples a unit of time.
+        seed: Of the draws.
+    """
+
+    columns: tuple[Resolution, ...]
+    rate: float
+    seed: int

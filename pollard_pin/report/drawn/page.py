@@ -11,7 +11,7 @@ from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
-from thesis_pin.report.uncertainty import columns_table
+from thesis_pin.report.uncertainty.document import columns_table
 
 MOST_SAMPLES = 1201
 """Of a plot."""

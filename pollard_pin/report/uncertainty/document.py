@@ -7,7 +7,7 @@ from pollard_pin.motion.variants import Variants
 from pollard_pin.report.uncertainty.headlines import Headlines
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from thesis_pin.report.tables import Table
-from thesis_pin.report.uncertainty import columns_document, ends
+from thesis_pin.report.uncertainty import document
 
 
 def uncertainty(
@@ -22,33 +22,25 @@ def uncertainty(
     """
     if held is None or drawn is None or variants is None:
         return None
-    return {
-        "peak_torque": [ends(one) for one in held.peak_torque],
-        "torque_use": [ends(one) for one in held.torque_use],
-        "speed_use": [ends(one) for one in held.speed_use],
-        "peak_loop_force": [ends(one) for one in held.peak_loop_force],
-        "margin": ends(held.reach),
-        "columns": columns_document(variants.columns),
-        "rate": variants.rate,
-        "draws": len(drawn.draws.torque),
-        "lost_draws": drawn.lost,
-        "seed": variants.seed,
-        "time": held.time,
-        "torque_low": held.torque_band[0],
-        "torque_high": held.torque_band[1],
-    }
+    return document.open_document(
+        {
+            "peak_torque": held.peak_torque,
+            "torque_use": held.torque_use,
+            "speed_use": held.speed_use,
+            "peak_loop_force": held.peak_loop_force,
+            "margin": held.reach,
+        },
+        variants,
+        (len(drawn.draws.torque), drawn.lost),
+        held.time,
+        {"torque": held.torque_band},
+    )
 
 
 def open_table(held: Headlines) -> Table:
     """Between which values each motor's peak torque and its share of the limit lie."""
-    peaks, uses = held.peak_torque, held.torque_use
-    columns = {
-        "motor": list(ACTUATOR_SYMBOLS),
-        "peak N·m": [f"{one.value:.4f}" for one in peaks],
-        "from": [f"{one.low:.4f}" for one in peaks],
-        "to": [f"{one.high:.4f}" for one in peaks],
-        "of limit": [f"{one.value:.0%}" for one in uses],
-        "from ": [f"{one.low:.0%}" for one in uses],
-        "to ": [f"{one.high:.0%}" for one in uses],
-    }
-    return Table.of("What the samples' resolution leaves open", columns)
+    return document.open_table(
+        ("motor", ACTUATOR_SYMBOLS),
+        ("peak N·m", held.peak_torque, ".4f"),
+        ("of limit", held.torque_use),
+    )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pollard_pin.dynamics.variants import Drawn, Judged
-from thesis_pin.report.uncertainty import band, peaks
+from thesis_pin.report.uncertainty.numbers import band, peaks
 from thesis_pin.smoothing.intervals import Interval, least_value
 
 Array = NDArray[np.float64]

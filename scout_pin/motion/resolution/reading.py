@@ -19,7 +19,7 @@ from scout_pin.motion.resolution.corners import starts_with_a_jump
 from scout_pin.motion.resolution.feet import Moved, Moving, Stance, foot, foot_noise, stances
 from scout_pin.motion.resolution.thinning import thinned
 from scout_pin.motion.tables import GaitSamples, phases_of, through_samples
-from scout_pin.motion.variants import Change, RateJump, Resolution, Variants
+from scout_pin.motion.variants import Change, RateJump, Variants
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.files import name_as_text
@@ -32,6 +32,7 @@ from thesis_pin.smoothing.curve import (
 )
 from thesis_pin.smoothing.noise import acceleration_noise, sample_noise
 from thesis_pin.smoothing.outliers import outliers
+from thesis_pin.smoothing.resolution import Resolution
 from thesis_pin.smoothing.stated import Stated
 from thesis_pin.tables.samples import Samples, scatter
 from thesis_pin.tables.table import Column
@@ -324,7 +325,7 @@ def _resolutions(
             name = f"{body}_{coordinate}"
             if name in samples.poses:
                 moves = len(curve.variants.c) > 1
-                yield Resolution(body, coordinate, quanta[name], curve.sigma, moves)
+                yield Resolution(name, quanta[name], curve.sigma, moves, _turns(name))
 
 
 def _changes(t: Array, labels: NDArray[np.bool_]) -> Iterator[Change]:

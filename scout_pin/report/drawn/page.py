@@ -10,10 +10,11 @@ from scout_pin.report.drawn.curves import plots
 from scout_pin.report.drawn.view import gait_scene
 from scout_pin.report.judged.limits import headline
 from scout_pin.report.tables import joints_table
-from scout_pin.report.uncertainty.document import columns_table, open_table
+from scout_pin.report.uncertainty.document import open_table
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
+from thesis_pin.report.uncertainty.document import columns_table
 from thesis_pin.smoothing.intervals import Interval
 
 MOST_SAMPLES = 1201
@@ -120,7 +121,7 @@ def _open(report: GaitReport) -> list[Table]:
     held, variants = report.headlines, report.gait.variants
     if held is None or variants is None:
         return []
-    return [open_table(held), columns_table(variants, report.time_unit)]
+    return [open_table(held), columns_table(variants.columns, variants.rate / report.time_unit)]
 
 
 def _impacts(report: GaitReport) -> list[Table]:

@@ -9,10 +9,8 @@ from __future__ import annotations
 from scout_pin.dynamics.headlines import Headlines
 from scout_pin.report import verdict
 from scout_pin.report.numbers import GaitNumbers
+from thesis_pin.report.uncertainty import numbers as uncertainty
 from thesis_pin.tolerances import TOLERANCES
-
-LOST = 0.5
-"""Share of draws that may fail before nothing is decided."""
 
 
 def can_walk(numbers: GaitNumbers) -> bool | None:
@@ -30,10 +28,7 @@ def servos_carry(numbers: GaitNumbers) -> bool | None:
     held = numbers.headlines
     if held is None:
         return verdict.servos_carry(numbers)
-    sides = [use.side(1.0) for use in held.servo_use]
-    if 1 in sides:
-        return False
-    return True if all(side < 0 for side in sides) and not few_draws(numbers) else None
+    return uncertainty.within(held.servo_use, few_draws(numbers))
 
 
 def within_limits(numbers: GaitNumbers) -> bool | None:
@@ -65,6 +60,4 @@ def stands(held: Headlines) -> bool:
 def few_draws(numbers: GaitNumbers) -> bool:
     """Whether most motions that the samples leave open can't be worked out."""
     drawn = numbers.drawn
-    if drawn is None:
-        return False
-    return drawn.lost > LOST * (drawn.lost + len(drawn.draws.margin))
+    return drawn is not None and uncertainty.few_draws(drawn.lost, len(drawn.draws.margin))

@@ -5,10 +5,9 @@ from __future__ import annotations
 from scout_pin.dynamics.headlines import Headlines
 from scout_pin.dynamics.variants import Drawn
 from scout_pin.motion.variants import Variants
-from scout_pin.report.uncertainty.text import how_fine
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.report.tables import Table
-from thesis_pin.smoothing.intervals import Interval
+from thesis_pin.report.uncertainty import document
 
 
 def uncertainty(
@@ -23,60 +22,27 @@ def uncertainty(
     """
     if held is None or drawn is None or variants is None:
         return None
-    return {
-        "worst_margin": _ends(held.margin),
-        "peak_torque": [_ends(one) for one in held.peak_torque],
-        "servo_use": [_ends(one) for one in held.servo_use],
-        "contact_margin": None if held.contact is None else _ends(held.contact),
-        "least_violation": _ends(held.violation),
-        "peak_friction_used": _ends(held.friction_used),
-        "lowest_corner": None if held.lowest is None else _ends(held.lowest),
-        "columns": [
-            {
-                "name": one.name,
-                "resolution": one.quantum,
-                "noise": one.noise,
-                "moves": one.moves,
-            }
-            for one in variants.columns
-        ],
-        "rate": variants.rate,
-        "draws": len(drawn.draws.margin),
-        "lost_draws": drawn.lost,
-        "seed": variants.seed,
-        "time": held.time,
-        "margin_low": held.margin_band[0],
-        "margin_high": held.margin_band[1],
-        "torque_low": held.torque_band[0],
-        "torque_high": held.torque_band[1],
-    }
-
-
-def _ends(one: Interval) -> dict[str, float]:
-    return {"value": one.value, "low": one.low, "high": one.high}
+    return document.open_document(
+        {
+            "worst_margin": held.margin,
+            "peak_torque": held.peak_torque,
+            "servo_use": held.servo_use,
+            "contact_margin": held.contact,
+            "least_violation": held.violation,
+            "peak_friction_used": held.friction_used,
+            "lowest_corner": held.lowest,
+        },
+        variants,
+        (len(drawn.draws.margin), drawn.lost),
+        held.time,
+        {"margin": held.margin_band, "torque": held.torque_band},
+    )
 
 
 def open_table(held: Headlines) -> Table:
     """Between which values each joint's peak torque and use of its servo lie."""
-    peaks, uses = held.peak_torque, held.servo_use
-    columns = {
-        "joint": list(JOINT_NAMES),
-        "peak N·m": [f"{one.value:.3f}" for one in peaks],
-        "from": [f"{one.low:.3f}" for one in peaks],
-        "to": [f"{one.high:.3f}" for one in peaks],
-        "servo": [f"{one.value:.0%}" for one in uses],
-        "from ": [f"{one.low:.0%}" for one in uses],
-        "to ": [f"{one.high:.0%}" for one in uses],
-    }
-    return Table.of("What the samples' resolution leaves open", columns)
-
-
-def columns_table(variants: Variants, unit: float) -> Table:
-    """What each column of the samples resolves."""
-    moving = [one for one in variants.columns if one.moves]
-    columns = {
-        "column": [one.name for one in moving],
-        "samples": [how_fine(one, variants.rate / unit) for one in moving],
-    }
-    rows = list(zip(*columns.values(), strict=True))
-    return Table("What the samples resolve", list(columns), rows, prose=True)
+    return document.open_table(
+        ("joint", JOINT_NAMES),
+        ("peak N·m", held.peak_torque, ".3f"),
+        ("servo", held.servo_use),
+    )

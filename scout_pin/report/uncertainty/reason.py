@@ -10,14 +10,16 @@ from numpy.typing import NDArray
 
 from scout_pin.dynamics.headlines import Headlines
 from scout_pin.dynamics.variants import Judged
+from scout_pin.motion.variants import Variants
 from scout_pin.report import verdict
 from scout_pin.report.numbers import GaitNumbers
-from scout_pin.report.uncertainty.blame import Blame, blame
+from scout_pin.report.uncertainty.blame import blame
 from scout_pin.report.uncertainty.decision import can_walk, few_draws, servos_carry, within_limits
-from scout_pin.report.uncertainty.text import why
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.report.resolution import millimetres, newton_metres, percent
+from thesis_pin.report.uncertainty.reason import FEW, no_verdict, why, with_left_open
 from thesis_pin.smoothing.intervals import Interval
+from thesis_pin.smoothing.resolution import Resolution
 
 Array = NDArray[np.float64]
 
@@ -30,9 +32,7 @@ def sentences(numbers: GaitNumbers) -> list[str]:
     walks, carried = can_walk(numbers) is not None, servos_carry(numbers) is not None
     said = verdict.sentences(numbers, walking=walks, servos=carried)
     why_not = reason(numbers)
-    if why_not is None:
-        return [said[0], _left_open(numbers, held), *said[1:]]
-    return [why_not, _left_open(numbers, held), *said]
+    return with_left_open(said, why_not, [_left_open(numbers, held)])
 
 
 def reason(numbers: GaitNumbers) -> str | None:
@@ -41,15 +41,10 @@ def reason(numbers: GaitNumbers) -> str | None:
     if held is None or variants is None or within_limits(numbers) is not None:
         return None
     if few_draws(numbers):
-        return (
-            "The samples can't carry a verdict: most motions that they leave open can't be "
-            "worked out. Finer samples are needed."
-        )
-    found = _straddling(numbers, held)
-    return (
-        f"The samples can't carry a verdict: {found.text}; "
-        f"{why(_blame(numbers, found), variants, numbers.time_unit)}."
-    )
+        return FEW
+    found, rate = _straddling(numbers, held), variants.rate / numbers.time_unit
+    most = why(_culprit(numbers, variants, found), rate, found.held, found.limit)
+    return no_verdict(found.text, most)
 
 
 def _left_open(numbers: GaitNumbers, held: Headlines) -> str:
@@ -120,16 +115,9 @@ def _servo(numbers: GaitNumbers, held: Headlines) -> _Straddling:
     )
 
 
-def _blame(numbers: GaitNumbers, found: _Straddling) -> Blame | None:
-    variants, here = numbers.gait.variants, np.array([found.sample])
-    if variants is None:
-        return None
-    return blame(
-        numbers.robot,
-        variants,
-        numbers.motion.part(here),
-        numbers.joints.part(here),
-        numbers.time_unit,
-        found.of,
-        (found.held, found.limit),
-    )
+def _culprit(
+    numbers: GaitNumbers, variants: Variants, found: _Straddling
+) -> tuple[Resolution, float] | None:
+    here = np.array([found.sample])
+    motion, joints = numbers.motion.part(here), numbers.joints.part(here)
+    return blame(numbers.robot, variants, motion, joints, numbers.time_unit, found.of)

@@ -46,11 +46,11 @@ def within_resolution(
     if flight is not None:
         work.flight(flight, len(motion.joints))
     variants = Variants(
-        tuple(work.curves),
-        tuple(work.parts),
-        tuple(work.columns),
-        1.0 / float(np.median(np.diff(motion.time))),
-        SEED,
+        curves=tuple(work.curves),
+        parts=tuple(work.parts),
+        columns=tuple(work.columns),
+        rate=1.0 / float(np.median(np.diff(motion.time))),
+        seed=SEED,
     )
     own = variants.moved(itself(motion), work.time, np.zeros((len(work.curves), 1), dtype=np.intp))
     base = (None, None, None) if own.base is None else tuple(one[0] for one in own.base)

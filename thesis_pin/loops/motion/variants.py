@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
-from thesis_pin.smoothing.resolution import Resolution
+from thesis_pin.smoothing.resolution import Sampled
 
 Array = NDArray[np.float64]
 
@@ -46,22 +46,16 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Variants:
+class Variants(Sampled):
     """What a smoothed motion carries beside its own.
 
     Attributes:
         curves: Of each column that was differentiated.
         parts: For each column of the file, which curves it makes.
-        columns: What each column resolves.
-        rate: Samples a second.
-        seed: Of the draws.
     """
 
     curves: tuple[Curve, ...]
     parts: tuple[tuple[int, ...], ...]
-    columns: tuple[Resolution, ...]
-    rate: float
-    seed: int
 
     @property
     def count(self) -> int:

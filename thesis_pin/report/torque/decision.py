@@ -9,18 +9,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.report.resolution import percent
+from thesis_pin.report.resolution import measured, percent
 from thesis_pin.report.torque import verdict
 from thesis_pin.report.torque.drawn import Judged, judged
 from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.report.torque.uncertainty import Headlines, shares
-from thesis_pin.report.uncertainty import culprit, few_draws, measured, why
-from thesis_pin.smoothing.intervals import Interval
+from thesis_pin.report.uncertainty.numbers import few_draws, within
+from thesis_pin.report.uncertainty.reason import DRAWS, FEW, culprit, undecided, with_left_open
 from thesis_pin.smoothing.resolution import Resolution
 
 Array = NDArray[np.float64]
-
-_DRAWS = 8
 
 
 def within_limits(numbers: TorqueNumbers) -> bool | None:
@@ -28,10 +26,9 @@ def within_limits(numbers: TorqueNumbers) -> bool | None:
     held = numbers.headlines
     if held is None:
         return verdict.within_limits(numbers)
-    sides = [use.side(1.0) for use in (*held.effort_use, *held.speed_use)]
-    if 1 in sides or not verdict.carried(numbers) or numbers.outside:
+    if not verdict.carried(numbers) or numbers.outside:
         return False
-    return True if all(side < 0 for side in sides) and not _few(numbers) else None
+    return within((*held.effort_use, *held.speed_use), _few(numbers))
 
 
 def sentences(numbers: TorqueNumbers) -> list[str]:
@@ -41,9 +38,7 @@ def sentences(numbers: TorqueNumbers) -> list[str]:
         return verdict.sentences(numbers)
     why_not = reason(numbers)
     said = verdict.sentences(numbers, motors=why_not is None)
-    if why_not is None:
-        return [*said[:1], *_left_open(numbers, held), *said[1:]]
-    return [why_not, *_left_open(numbers, held), *said]
+    return with_left_open(said, why_not, _left_open(numbers, held))
 
 
 def reason(numbers: TorqueNumbers) -> str | None:
@@ -52,21 +47,12 @@ def reason(numbers: TorqueNumbers) -> str | None:
     if held is None or variants is None or within_limits(numbers) is not None:
         return None
     if _few(numbers):
-        return (
-            "The samples can't carry a verdict: most motions that they leave open can't be "
-            "worked out. Finer samples are needed."
-        )
-    named: list[tuple[Interval, int, str]] = [
-        (one, k, name)
-        for name, uses in (("torque", held.effort_use), ("speed", held.speed_use))
-        for k, one in enumerate(uses)
-        if one.side(1.0) == 0
-    ]
-    one, k, name = max(named, key=lambda found: found[0].high)
-    most = why(_culprit(numbers, name, k), variants.rate, one, 1.0)
-    return (
-        f"The samples can't carry a verdict: motor {numbers.names[k]} uses {percent(one)} of its "
-        f"{name}; {most}."
+        return FEW
+    return undecided(
+        {"torque": held.effort_use, "speed": held.speed_use},
+        [f"motor {name}" for name in numbers.names],
+        variants.rate,
+        lambda name, motor: _culprit(numbers, name, motor),
     )
 
 
@@ -88,11 +74,11 @@ def _culprit(numbers: TorqueNumbers, name: str, motor: int) -> tuple[Resolution,
 
     own = Judged(numbers.dynamics.torque, numbers.speed, numbers.loop_force_size)
     sample = np.array([int(use(own).argmax())])
-    found = judged(numbers.way, sample, variants.one_at_a_time(_DRAWS))
+    found = judged(numbers.way, sample, variants.one_at_a_time(DRAWS))
     alive = [use(one).ravel() for one in found if one is not None]
     if len(alive) < len(found):
         return None
-    return culprit(variants.columns, np.array(alive).reshape(len(variants.columns), _DRAWS))
+    return culprit(variants.columns, np.array(alive).reshape(len(variants.columns), DRAWS))
 
 
 def _left_open(numbers: TorqueNumbers, held: Headlines) -> list[str]:

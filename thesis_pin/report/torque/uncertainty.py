@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from thesis_pin.loops.motion.variants import Variants
 from thesis_pin.report.tables import Table
 from thesis_pin.report.torque.drawn import Drawn, Judged
-from thesis_pin.report.uncertainty import band, columns_document, ends, peaks
+from thesis_pin.report.uncertainty import document
+from thesis_pin.report.uncertainty.numbers import band, peaks
 from thesis_pin.smoothing.intervals import Interval
 
 Array = NDArray[np.float64]
@@ -92,31 +93,25 @@ def uncertainty(
     """
     if held is None or drawn is None or variants is None:
         return None
-    return {
-        "peak_torque": [ends(one) for one in held.peak_torque],
-        "effort_use": [ends(one) for one in held.effort_use],
-        "speed_use": [ends(one) for one in held.speed_use],
-        "peak_loop_force": [ends(one) for one in held.peak_loop_force],
-        "columns": columns_document(variants.columns),
-        "rate": variants.rate,
-        "draws": 0 if drawn.draws is None else len(drawn.draws.torque),
-        "lost_draws": drawn.lost,
-        "seed": variants.seed,
-        "time": held.time,
-        "torque_low": held.torque_band[0],
-        "torque_high": held.torque_band[1],
-    }
+    return document.open_document(
+        {
+            "peak_torque": held.peak_torque,
+            "effort_use": held.effort_use,
+            "speed_use": held.speed_use,
+            "peak_loop_force": held.peak_loop_force,
+        },
+        variants,
+        (0 if drawn.draws is None else len(drawn.draws.torque), drawn.lost),
+        held.time,
+        {"torque": held.torque_band},
+    )
 
 
 def open_table(held: Headlines, names: Sequence[str]) -> Table:
     """Between which values each motor's peak torque and its share of the limit lie."""
-    columns = {
-        "motor": list(names),
-        "peak": [f"{one.value:.4g}" for one in held.peak_torque],
-        "from": [f"{one.low:.4g}" for one in held.peak_torque],
-        "to": [f"{one.high:.4g}" for one in held.peak_torque],
-        "of limit": [f"{one.value:.0%}" if one.high else "–" for one in held.effort_use],
-        "from ": [f"{one.low:.0%}" if one.high else "–" for one in held.effort_use],
-        "to ": [f"{one.high:.0%}" if one.high else "–" for one in held.effort_use],
-    }
-    return Table.of("What the samples' resolution leaves open", columns)
+    return document.open_table(
+        ("motor", names),
+        ("peak", held.peak_torque, ".4g"),
+        ("of limit", held.effort_use),
+        unlimited=True,
+    )
