@@ -20,12 +20,12 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.resolution.located import located
 from scout_pin.motion.trajectory import joint_trajectory
+from scout_pin.report import decision
 from scout_pin.report.judged.limits import SPEEDS
 from scout_pin.report.judged.stance import Stance, branch_asked, stance
 from scout_pin.report.numbers import GaitNumbers
-from scout_pin.report.uncertainty import decision
+from scout_pin.report.reason import reason, sentences
 from scout_pin.report.uncertainty.document import uncertainty
-from scout_pin.report.uncertainty.reason import reason, sentences
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import function, instance

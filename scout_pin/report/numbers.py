@@ -7,7 +7,6 @@ from functools import cached_property
 
 import numpy as np
 
-from scout_pin.dynamics.headlines import Headlines, Worked, headlines
 from scout_pin.dynamics.impact import Impact
 from scout_pin.dynamics.variants import Drawn
 from scout_pin.model import Scout
@@ -18,6 +17,7 @@ from scout_pin.motion.variants import RateJump
 from scout_pin.report.judged.ends import Ends, ends
 from scout_pin.report.judged.limits import FastestTimeUnit, TimeUnits, fastest_time_unit, time_units
 from scout_pin.report.judged.speeds import Speeds
+from scout_pin.report.uncertainty.headlines import Headlines, Worked, headlines
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks, intervals

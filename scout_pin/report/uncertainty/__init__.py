@@ -1,1 +1,1 @@
-"""What samples of finite resolution leave open of a report's numbers and of its verdict."""
+"""What samples of finite resolution leave open of a gait's numbers."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from scout_pin.dynamics.headlines import Headlines
 from scout_pin.dynamics.variants import Drawn
 from scout_pin.motion.variants import Variants
+from scout_pin.report.uncertainty.headlines import Headlines
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.report.tables import Table
 from thesis_pin.report.uncertainty import document

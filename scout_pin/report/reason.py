@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scout_pin.dynamics.headlines import Headlines
 from scout_pin.dynamics.variants import Judged
 from scout_pin.motion.variants import Variants
 from scout_pin.report import verdict
+from scout_pin.report.decision import can_walk, few_draws, servos_carry, within_limits
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.report.uncertainty.blame import blame
-from scout_pin.report.uncertainty.decision import can_walk, few_draws, servos_carry, within_limits
+from scout_pin.report.uncertainty.headlines import Headlines
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.report.resolution import millimetres, newton_metres, percent
 from thesis_pin.report.uncertainty.reason import FEW, no_verdict, why, with_left_open

@@ -14,8 +14,8 @@ from scout_pin.report.drawn.curves import stability_margin, torques
 from scout_pin.report.drawn.page import gait_page
 from thesis_pin.report.writers import json_bytes
 
-from ...conftest import EXAMPLES
-from ...motion.resolution.test_reading import log
+from ..conftest import EXAMPLES
+from ..motion.resolution.test_reading import log
 
 
 @cache

@@ -6,9 +6,9 @@ its limit. Exact gaits are decided by their numbers alone.
 
 from __future__ import annotations
 
-from scout_pin.dynamics.headlines import Headlines
 from scout_pin.report import verdict
 from scout_pin.report.numbers import GaitNumbers
+from scout_pin.report.uncertainty.headlines import Headlines
 from thesis_pin.report.uncertainty import numbers as uncertainty
 from thesis_pin.tolerances import TOLERANCES
 
