@@ -20,7 +20,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.resolution.located import located
 from scout_pin.motion.trajectory import joint_trajectory
-from scout_pin.report import decision
+from scout_pin.report import decision, parts
 from scout_pin.report.judged.limits import SPEEDS
 from scout_pin.report.judged.stance import Stance, branch_asked, stance
 from scout_pin.report.numbers import GaitNumbers
@@ -207,55 +207,13 @@ class GaitReport(GaitNumbers):
             "peak_friction_used": self.peak_friction_used,
             "swing_clearance": self.clearance,
             "lowest_corner": self.lowest_corner,
-            "swings": [
-                {
-                    "foot": swing.side,
-                    "start": swing.start * self.time_unit,
-                    "end": swing.end * self.time_unit,
-                    "clearance": swing.clearance,
-                    "way": swing.way,
-                    "scraped": swing.scraped,
-                    "scrapes": swing.scrapes,
-                }
-                for swing in self.swings
-            ],
+            "swings": [parts.swing(one, self.time_unit) for one in self.swings],
             "sole_gap": self.sole_gap[0],
-            "collisions": {
-                "judged": list(self.collisions.judged),
-                **{
-                    name: [
-                        {"links": list(touch.links), "time": float(self.joints.time[touch.sample])}
-                        for touch in found
-                    ]
-                    for name, found in (
-                        ("touching", self.collisions.touching),
-                        ("drawn_touching", self.collisions.drawn),
-                    )
-                },
-                "left_out": {
-                    "neighbours": [list(pair) for pair in self.collisions.neighbours],
-                    "touching_in_neutral": [list(pair) for pair in self.collisions.neutral],
-                },
-            },
+            "collisions": parts.collisions(self.collisions, self.joints.time),
             "sole_gap_time": float(self.joints.time[self.sole_gap[1]]),
-            "rate_jumps": [
-                {"time": j.t * self.time_unit, "body": j.body, "what": j.coordinate, "size": j.size}
-                for j in self.rate_jumps
-            ],
+            "rate_jumps": [parts.rate_jump(one, self.time_unit) for one in self.rate_jumps],
             "ends": self.ends.document(),
-            "impacts": [
-                {
-                    "time": impact.t * self.time_unit,
-                    "foot": impact.side,
-                    "held": list(impact.held),
-                    "foot_velocity": impact.foot_velocity,
-                    "impulse": impact.impulse,
-                    "velocity_jump": impact.velocity_jump,
-                    "energy_lost": impact.energy_lost,
-                    "admissible": impact.admissible,
-                }
-                for impact in self.impacts
-            ],
+            "impacts": [parts.impact(one, self.time_unit) for one in self.impacts],
         }
 
 
