@@ -78,6 +78,10 @@ class GaitSamples:
         column = self.poses.get(name)
         return np.zeros(len(self.table)) if column is None else column.values
 
+    def body(self, name: str) -> np.ndarray:
+        """Samples of a body's coordinates in the order of ``POSE_NAMES``, shape ``(n, 6)``."""
+        return np.stack([self.values(f"{name}_{c}") for c in POSE_NAMES], axis=1)
+
 
 def read_gait_table(path: str | Path, robot: Scout | None = None) -> GaitSamples:
     """A gait's table: poses of torso and soles, or angles of the joints.
@@ -175,9 +179,7 @@ def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...],
     """
     table = samples.table
     standing = np.array([(name != "right", name != "left") for name in samples.support])
-    feet = [
-        np.stack([samples.values(f"{body}_{c}") for c in POSE_NAMES], axis=1) for body in BODIES[1:]
-    ]
+    feet = [samples.body(body) for body in BODIES[1:]]
     found, labels = changes(samples.time.values, standing, feet)
     phases = tuple(Phase(start=a, end=b, support=c) for a, b, c in found)  # type: ignore[arg-type]
     if len(phases) > LIMITS.phases:

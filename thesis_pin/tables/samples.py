@@ -99,16 +99,16 @@ def exact(samples: Samples, resolved: Mapping[str, float], friction: bool = Fals
 
 
 def warning(
-    samples: Samples, resolved: Mapping[str, float], friction: bool = False
+    samples: Samples, resolved: Mapping[str, float], friction: bool = False, asked: bool = False
 ) -> Iterator[str]:
-    """What interpolation makes of samples that aren't exact."""
+    """What interpolation, maybe because it was asked for, makes of samples that aren't exact."""
     every = errors(samples, resolved, friction)
     worst = max(every, key=lambda one: one[1] / one[2], default=None)
     if worst is not None and worst[1] > worst[2]:
         unit = "rad/s²" if worst[0] in samples.turning else "m/s²"
         yield (
-            f"curves pass through every sample, though {worst[0]} doesn't resolve "
-            f"accelerations below {worst[1]:.2g} {unit}; numbers may be those of rounding"
+            f"curves pass through every sample{' as asked' * asked}, though {worst[0]} doesn't "
+            f"resolve accelerations below {worst[1]:.2g} {unit}; numbers may be those of rounding"
         )
 
 
@@ -127,7 +127,7 @@ def mended(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
         least = (TOLERANCES.outlier_turn if turns else TOLERANCES.outlier_move) * step**2
         if name in samples.rates:
             least /= step
-        found = [one for one in outliers(column.values, column.quantum) if abs(one.error) > least]
+        found = outliers(column.values, column.quantum, least)
         if not found:
             continue
         values = column.values.copy()

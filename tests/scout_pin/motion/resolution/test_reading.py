@@ -70,6 +70,7 @@ def test_accelerations_are_those_of_the_motion_and_not_of_rounding(tmp_path, dig
     error = np.abs(found.curves["torso"][0](t, 2) - true).max()
     assert error < {3: 0.4, 5: 0.06}[digits]
     assert np.abs(through.curves["torso"][0](t, 2) - true).max() > 50 * error
+    assert "curves pass through every sample as asked, though " in through.notes[-1]
     assert "rounding" in through.notes[-1]
 
 
@@ -136,6 +137,8 @@ def test_rows_next_to_each_other_are_named_and_harmless(tmp_path):
     path.write_text("\n".join([*lines[:101], ",".join(twin), *lines[101:]]) + "\n")
     gait = load_gait(path)
     assert any(f"{path}:101, 102: these rows are only 2e-09 s apart" in n for n in gait.notes)
+    slow = load_gait(path, time_unit=2.0)
+    assert any("101, 102: these rows are only 4e-09 s apart" in note for note in slow.notes)
     truth = load_gait(EXAMPLES / "walk.toml")
     t = np.linspace(0.1, 5.9, 300)
     true = truth.curves["torso"][0](t / truth.time_unit, 2) / truth.time_unit**2
