@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.loops.motion.base import BASE_PLACE, BASE_QUATERNION, Flight
+from thesis_pin.loops.motion.base import PLACE, QUATERNION, Flight
 from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.loops.motion.variants import Curve, Moved, Variants
 from thesis_pin.numeric.quaternions import unbroken
@@ -61,7 +61,7 @@ def within_resolution(
         if name in samples.columns
     }
     if base[0] is not None:
-        values |= {name: base[0][:, k] for k, name in enumerate(BASE_PLACE)}
+        values |= {name: base[0][:, k] for k, name in _placed(flight)}
     nodes, told = scatter(samples, resolved, values)
     motion = replace(motion, notes=(*motion.notes, *told))
     if nodes:
@@ -91,6 +91,13 @@ def itself(motion: JointMotion, rows: NDArray[np.intp] | slice = slice(None)) ->
     return Moved(position, rate, acceleration, base)
 
 
+def _placed(flight: Flight | None) -> list[tuple[int, str]]:
+    """Which columns hold a place: number of the coordinate, name of the column."""
+    if flight is None:
+        return []
+    return [("xyz".index(name[-1]), name) for name in flight.place]
+
+
 class _Work:
     """Curves of one column after the other.
 
@@ -116,11 +123,13 @@ class _Work:
 
     def flight(self, flight: Flight, joints: int) -> None:
         """A free root; its orientation by its quaternion."""
-        for k, name in enumerate(BASE_PLACE):
+        for k, name in _placed(flight):
             self.column(name, flight.base[:, k], joints + k)
+        if not flight.turns:
+            return
         quaternion = unbroken(flight.base[:, 3:])
-        first = joints + len(BASE_PLACE)
-        if flight.turns == BASE_QUATERNION:
+        first = joints + len(PLACE)
+        if len(flight.turns) == len(QUATERNION):
             for k, name in enumerate(flight.turns):
                 self.column(name, quaternion[:, k], first + k)
             return
