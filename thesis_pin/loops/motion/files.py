@@ -5,8 +5,9 @@ A header with ``t`` [s] and, for each joint, ``NAME``; where they are known also
 ``NAME_deg``, ``NAME_mm``, ``NAME_rate_deg_s``, ``NAME_acceleration_mm_s2``. ``NAME`` is a joint's
 or a motor's; either way the coordinate is the joint's. Of a free root: ``base_x``, ``base_y``,
 ``base_z`` and ``base_roll``, ``base_pitch``, ``base_yaw`` (about the world's x, y, z, in
-that order), or the quaternion ``base_qx``, ``base_qy``, ``base_qz``, ``base_qw``. How the table
-may be written is said in :mod:`thesis_pin.tables`.
+that order), or the quaternion ``base_qx``, ``base_qy``, ``base_qz``, ``base_qw``, and where they
+are known the rates and accelerations of all of them, as ``base_x_rate``: derivatives of the
+columns. How the table may be written is said in :mod:`thesis_pin.tables`.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.base import (
     BASE_ANGLES,
+    BASE_PARTS,
     BASE_PLACE,
     BASE_QUATERNION,
     read_flight,
@@ -89,6 +91,10 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
             values[joint, 0] = replace(values[joint, 0], values=found)
             warnings += doubts
         warnings += unlike(joint, time.values, values[joint, 0].values, _given(values, joint))
+    for part in (part for part in BASE_PARTS if (part, 1) in values):
+        course = values[part, 0].values
+        course = np.unwrap(course) if part in BASE_ANGLES else course
+        warnings += unlike(part, time.values, course, _given(values, part))
     read = _differentiated(robot, table, time, values)
     friction = bool(robot.model.upperDryFrictionLimit.any())
     resolved, notes = quanta(read, how), [*table.dialect.notes, *asked]
@@ -132,7 +138,8 @@ def _splined(
         if given[1] is None:
             interpolated.append(joint)
     flight = read_flight(values, table)
-    if flight is not None:
+    change = None if flight is None else flight.derivatives(time)
+    if flight is not None and flight.change[1] is None:
         interpolated.append("base")
     return JointMotion(
         name_as_text(Path(table.file).name),
@@ -143,6 +150,7 @@ def _splined(
         acceleration,
         None if flight is None else flight.base,
         tuple(interpolated),
+        base_change=change,
     )
 
 
@@ -152,7 +160,7 @@ def _differentiated(
     """The columns of which rates or accelerations are made."""
     kinds, columns, turning = singles(robot.model), {}, set()
     for (of, order), column in values.items():
-        if of in kinds and (order == 2 or (of, order + 1) in values):
+        if order == 2 or (of, order + 1) in values:
             continue
         columns[column.name] = column
         if kinds[of].turns if of in kinds else of not in BASE_PLACE:
@@ -181,8 +189,10 @@ def _known(robot: ClosedRobot) -> dict[str, list[Meaning]]:
             (BASE_QUATERNION, PLAIN),
         ):
             for part in parts:
-                for heading, unit in headings(part, units).items():
-                    known.setdefault(heading, []).append(Meaning((part, 0), unit, part))
+                for order, (word, per) in enumerate(_ORDERS):
+                    for heading, unit in headings(part + word, units, per).items():
+                        meaning = Meaning((part, order), unit, part + word)
+                        known.setdefault(heading, []).append(meaning)
     return known
 
 
