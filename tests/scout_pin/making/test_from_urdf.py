@@ -140,9 +140,9 @@ class Another:
             self.parts.append((name, number, place, sign * turn.T @ own, sign))
         self.frames = frames
 
-    def text(self, sole="box", turn=np.eye(3)):
+    def text(self, sole="box", turn=None):
         """Its URDF; ``turn`` turns the frames of the links that are called soles."""
-        turned = pin.SE3(turn, np.zeros(3))
+        turned = pin.SE3.Identity() if turn is None else pin.SE3(turn, np.zeros(3))
         model, spec = self.robot.model, self.robot.specification
         yield '<robot name="another">'
         yield from self.body(1, "base")

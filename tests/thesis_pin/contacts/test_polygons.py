@@ -110,7 +110,8 @@ def test_of_many_tilted_pairs_the_nearest_is_found(seed):
     """Shadows bound distances from below: the pair whose shadows are nearest need not be it."""
     rng = np.random.default_rng(seed)
     one = np.stack([placed(SQUARE, rng, 0.3) for _ in range(60)])
-    other = np.stack([placed(NOTCHED / 3, rng, 0.3) for _ in range(60)]) + (0.0, 0.0, 2.0)
+    other = np.stack([placed(NOTCHED / 3, rng, 0.3) for _ in range(60)])
+    other += (0.0, 0.0, 2.0)
     distances = polygon_distance(one, other)
     least, sample = least_distance(one, other)
     assert least == pytest.approx(distances.min(), abs=TOLERANCES.nearer)
