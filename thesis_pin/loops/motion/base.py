@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput
-from thesis_pin.loops.motion.sampled import with_derivatives
+from thesis_pin.loops.motion.sampled import unlike, with_derivatives
 from thesis_pin.numeric.quaternions import unbroken
 from thesis_pin.tables.table import Column, Table
 
@@ -113,6 +113,28 @@ def read_flight(values: Mapping[tuple[str, int], Column], table: Table) -> Fligh
         for order in range(1, len(known)):
             change[order - 1] = np.column_stack([known[order][:, :3], sign * moving[order]])
     return Flight(turns, np.column_stack([base, turned]), (change[0], change[1]))
+
+
+def odd_rates(values: Mapping[tuple[str, int], Column], time: Array) -> list[str]:
+    """Warnings where rates of the root aren't the derivatives of the columns before them.
+
+    Args:
+        values: Columns by what they hold and which derivative it is.
+        time: Sample times [s], shape ``(n,)``.
+    """
+    sign = np.ones(len(time))
+    if all((part, 0) in values for part in BASE_QUATERNION):  # q and -q are one rotation
+        given = np.column_stack([values[part, 0].values for part in BASE_QUATERNION])
+        sign = np.where((unbroken(given) * given).sum(axis=1) < 0, -1.0, 1.0)
+    warnings = []
+    for part in BASE_PARTS:
+        columns = [values[part, order] for order in range(3) if (part, order) in values]
+        if part in BASE_QUATERNION:
+            columns = [replace(one, values=sign * one.values) for one in columns]
+        elif part in BASE_ANGLES and columns:
+            columns[0] = replace(columns[0], values=np.unwrap(columns[0].values))
+        warnings += unlike(part, time, columns)
+    return warnings
 
 
 def _turning(known: Sequence[Array]) -> list[Array]:

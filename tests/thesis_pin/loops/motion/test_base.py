@@ -5,13 +5,13 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, ModelWarning, TrajectoryError, UnknownName
 from thesis_pin.loops.motion.files import read_motion
 from thesis_pin.loops.motion.near import near_motions
 from thesis_pin.loops.motion.smoothing import itself
 from thesis_pin.loops.motion.whole import whole_motion
 
-from .test_files import flying, written
+from .test_files import chain, flying, written
 
 TIME = np.linspace(0.0, 1.0, 101)
 WAVES = {  # size, rate, phase of each column
@@ -107,6 +107,63 @@ def test_rounded_rates_of_the_base_are_smoothed_for_its_accelerations_only(tmp_p
     spread = 3 * a[1:, inner, :6].std(axis=0, ddof=1)
     spread += np.abs(a[0] - own.joints.a)[inner, :6]
     assert np.mean(error <= spread + 1e-4) > 0.95
+
+
+@pytest.mark.parametrize("orders", [0, 1, 2])
+def test_a_quaternion_that_goes_on_as_its_negative_is_the_same_motion(tmp_path, orders):
+    given = columns("quaternion", orders)
+    sign = np.where(TIME > 0.4, -1.0, 1.0)
+    turned = {name: sign * values if "base_q" in name else values for name, values in given.items()}
+    one, other = (
+        read_motion(flying(), written(tmp_path, some), smooth="none") for some in (given, turned)
+    )
+    assert other.warnings == one.warnings == ()
+    for a, b in zip(*(whole(motion) for motion in (one, other)), strict=True):
+        np.testing.assert_allclose(a, b, atol=1e-9)
+
+
+def whole(motion):
+    robot = flying()
+    found = whole_motion(robot, motion, pin.neutral(robot.model)).joints
+    return found.v, found.a
+
+
+def test_rates_beside_rounded_poses_are_not_doubted_unless_they_are_others(tmp_path):
+    given = columns("angles", 2)
+    rounded = {
+        name: values if name == "t" else np.round(values, 3) for name, values in given.items()
+    }
+    assert read_motion(flying(), written(tmp_path, rounded)).warnings == ()
+    twice = rounded | {"base_y_rate": 2.0 * rounded["base_y_rate"]}
+    (first, second) = read_motion(flying(), written(tmp_path, twice)).warnings
+    assert first.startswith("base_y_rate isn't the derivative")
+    assert second.startswith("base_y_acceleration isn't the derivative")
+
+
+def test_degrees_and_millimetres_of_the_base_are_asked_about(tmp_path):
+    given = columns("angles", 0)
+    large = {"base_x": 1e3 * given["base_x"], "base_yaw": np.degrees(given["base_yaw"])}
+    with pytest.warns(ModelWarning) as said:
+        read_motion(flying(), written(tmp_path, given | large))
+    place, turn = (str(one.message) for one in said)
+    assert "base_x reach" in place
+    assert "base_yaw reach" in turn
+
+
+def test_the_base_of_a_robot_that_stands_fixed_is_refused_with_what_frees_it(tmp_path):
+    tied = chain(("turn", "revolute"))
+    with pytest.raises(UnknownName, match=r"unknown column 'base_x'.*--free-flyer lets it fly"):
+        read_motion(tied, written(tmp_path, columns("angles", 1)))
+
+
+def test_three_samples_of_the_base_need_its_accelerations(tmp_path):
+    for orders, enough in ((1, False), (2, True)):
+        few = {name: values[:3] for name, values in columns("angles", orders).items()}
+        if enough:
+            assert len(read_motion(flying(), written(tmp_path, few)).base) == 3
+            continue
+        with pytest.raises(TrajectoryError, match="3 samples of the base without"):
+            read_motion(flying(), written(tmp_path, few))
 
 
 def test_rates_of_half_a_base_are_refused_and_odd_ones_doubted(tmp_path):
