@@ -5,27 +5,30 @@ A header with ``t`` [s] and, for each joint, ``NAME``; where they are known also
 ``NAME_deg``, ``NAME_mm``, ``NAME_rate_deg_s``, ``NAME_acceleration_mm_s2``. ``NAME`` is a joint's
 or a motor's; either way the coordinate is the joint's. Of a free root: ``base_x``, ``base_y``,
 ``base_z`` and ``base_roll``, ``base_pitch``, ``base_yaw`` (about the world's x, y, z, in
-that order), or the quaternion ``base_qx``, ``base_qy``, ``base_qz``, ``base_qw``. How the table
-may be written is said in :mod:`thesis_pin.tables`.
+that order), or the quaternion ``base_qx``, ``base_qy``, ``base_qz``, ``base_qw``, and where they
+are known the rates and accelerations of all of them, as ``base_x_rate``: derivatives of the
+columns. How the table may be written is said in :mod:`thesis_pin.tables`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.errors import BadInput, TrajectoryError
+from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.base import (
     BASE_ANGLES,
+    BASE_PARTS,
     BASE_PLACE,
     BASE_QUATERNION,
+    odd_rates,
     read_flight,
 )
 from thesis_pin.loops.motion.sampled import unlike, unwound, with_derivatives
@@ -79,8 +82,14 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
         raise BadInput("no column is a joint's", where=table.file, allowed=", ".join(kinds))
     asked = doubted(
         table.file,
-        [values[joint, 0] for joint in joints if not kinds[joint].turns],
-        [values[joint, 0] for joint in joints if kinds[joint].turns and kinds[joint].high < np.inf],
+        _at(values, [*(joint for joint in joints if not kinds[joint].turns), *BASE_PLACE]),
+        _at(
+            values,
+            [
+                *(one for one in joints if kinds[one].turns and kinds[one].high < np.inf),
+                *BASE_ANGLES,
+            ],
+        ),
     )
     warnings = []
     for joint in joints:
@@ -88,7 +97,10 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
             found, doubts = unwound(joint, values[joint, 0].values)
             values[joint, 0] = replace(values[joint, 0], values=found)
             warnings += doubts
-        warnings += unlike(joint, time.values, values[joint, 0].values, _given(values, joint))
+        warnings += unlike(
+            joint, time.values, [values[joint, o] for o in range(3) if (joint, o) in values]
+        )
+    warnings += odd_rates(values, time.values)
     read = _differentiated(robot, table, time, values)
     friction = bool(robot.model.upperDryFrictionLimit.any())
     resolved, notes = quanta(read, how), [*table.dialect.notes, *asked]
@@ -106,6 +118,11 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
     if through or exact(read, resolved, friction):
         return motion
     return within_resolution(motion, read, resolved, read_flight(values, table))
+
+
+def _at(values: Mapping[tuple[str, int], Column], names: Sequence[str]) -> list[Column]:
+    """Columns of positions, of those that are there."""
+    return [values[name, 0] for name in names if (name, 0) in values]
 
 
 def _given(values: Mapping[tuple[str, int], Column], joint: str) -> list[Array | None]:
@@ -132,8 +149,15 @@ def _splined(
         if given[1] is None:
             interpolated.append(joint)
     flight = read_flight(values, table)
-    if flight is not None:
+    if flight is not None and flight.change[1] is None:
+        if len(time) < 4:
+            raise TrajectoryError(
+                f"{len(time)} samples of the base without its rates and accelerations",
+                where=table.file,
+                allowed="at least 4",
+            )
         interpolated.append("base")
+    change = None if flight is None else flight.derivatives(time)
     return JointMotion(
         name_as_text(Path(table.file).name),
         time,
@@ -143,6 +167,7 @@ def _splined(
         acceleration,
         None if flight is None else flight.base,
         tuple(interpolated),
+        base_change=change,
     )
 
 
@@ -152,7 +177,7 @@ def _differentiated(
     """The columns of which rates or accelerations are made."""
     kinds, columns, turning = singles(robot.model), {}, set()
     for (of, order), column in values.items():
-        if of in kinds and (order == 2 or (of, order + 1) in values):
+        if order == 2 or (of, order + 1) in values:
             continue
         columns[column.name] = column
         if kinds[of].turns if of in kinds else of not in BASE_PLACE:
@@ -181,16 +206,28 @@ def _known(robot: ClosedRobot) -> dict[str, list[Meaning]]:
             (BASE_QUATERNION, PLAIN),
         ):
             for part in parts:
-                for heading, unit in headings(part, units).items():
-                    known.setdefault(heading, []).append(Meaning((part, 0), unit, part))
+                for order, (word, per) in enumerate(_ORDERS):
+                    for heading, unit in headings(part + word, units, per).items():
+                        meaning = Meaning((part, order), unit, part + word)
+                        known.setdefault(heading, []).append(meaning)
     return known
 
 
 def _columns(robot: ClosedRobot, table: Table) -> Chosen:
     """Which column holds which derivative of which joint or part of the base."""
-    base = BASE_PLACE if len(robot.base) else ()
+    known, base = _known(robot), BASE_PARTS if len(robot.base) else ()
     allowed = ["t", *singles(robot.model), *base, "NAME_rate", "NAME_acceleration"]
-    columns, _ = chosen(table, _known(robot), allowed)
+    flies = [one for one in table.header if one.startswith(BASE_PARTS) and one not in known]
+    if flies and not base:
+        raise UnknownName(
+            "column",
+            flies[0],
+            allowed,
+            where=table.file,
+            remedy="The base's columns are of a free root, and this robot's is fixed: "
+            "--free-flyer lets it fly, in Python root_joint=pin.JointModelFreeFlyer()",
+        )
+    columns, _ = chosen(table, known, allowed)
     for key, (place, _) in columns.items():
         if not isinstance(key, tuple):
             continue
