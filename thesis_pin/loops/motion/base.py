@@ -1,180 +1,185 @@
-"""Columns of what moves freely, a root or a tool's frame: where it is, and how it is turned."""
+"""Columns of a free root: where it is, how it is turned, and how both change."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput
-from thesis_pin.numeric.rotations import quaternions
-from thesis_pin.tables.orientations import FORMS, check_order, oriented
+from thesis_pin.loops.motion.sampled import unlike, with_derivatives
+from thesis_pin.numeric.quaternions import unbroken
 from thesis_pin.tables.table import Column, Table
-from thesis_pin.tables.units import ANGLE, LENGTH, PLAIN, Units
 
 Array = NDArray[np.float64]
 
-PLACE = ("x", "y", "z")
-ANGLES = ("roll", "pitch", "yaw")
-QUATERNION = ("qx", "qy", "qz", "qw")
-
-
-@dataclass(frozen=True)
-class Names:
-    """What the columns of a placement are called.
-
-    Attributes:
-        what: Whose placement it is, for messages.
-        prefix: What stands before each name.
-        forms: Columns that together hold an orientation, one of these.
-        partly: Whether some coordinates may be left out: any of the place, any two of the
-            three angles.
-        also: What may stand before each name instead.
-    """
-
-    what: str
-    prefix: str
-    forms: tuple[tuple[str, ...], ...]
-    partly: bool = False
-    also: str = ""
-
-    def __iter__(self) -> Iterator[str]:
-        """Every column there may be."""
-        return (self.prefix + name for part in (PLACE, *self.forms) for name in part)
-
-    def units(self) -> Iterator[tuple[str, str, Units]]:
-        """Every column there may be, what it may be called, and its units."""
-        for form in (PLACE, *self.forms):
-            units = LENGTH if form == PLACE else PLAIN if form == QUATERNION else ANGLE
-            for prefix in dict.fromkeys((self.prefix, self.also or self.prefix)):
-                yield from ((self.prefix + name, prefix + name, units) for name in form)
-
-    @property
-    def angles(self) -> tuple[str, ...]:
-        """The columns of angles that may count turns; those of a rotation vector may not."""
-        forms = [form for form in self.forms if form not in (QUATERNION, ("rx", "ry", "rz"))]
-        return tuple(self.prefix + name for form in forms for name in form)
-
-    @property
-    def lengths(self) -> tuple[str, ...]:
-        """The columns in metres."""
-        return tuple(self.prefix + name for name in PLACE)
-
-
-BASE = Names("the base", "base_", (ANGLES, QUATERNION))
-"""Of a free root."""
-
-
-def tool_names(frame: str, joints: Mapping[str, object]) -> Names:
-    """Of a tool's frame: x, y, z and the like; with its name before, where joints are called so."""
-    forms = tuple(FORMS)
-    names = Names(f"frame {frame!r}", "", forms, partly=True, also=f"{frame}_")
-    if any(name in joints for name in names):
-        return Names(names.what, f"{frame}_", forms, partly=True)
-    return names
+BASE_PLACE = ("base_x", "base_y", "base_z")
+BASE_ANGLES = ("base_roll", "base_pitch", "base_yaw")
+BASE_QUATERNION = ("base_qx", "base_qy", "base_qz", "base_qw")
+BASE_PARTS = (*BASE_PLACE, *BASE_ANGLES, *BASE_QUATERNION)
 
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """A free root, or a tool's frame, over time.
+    """A free root, or a frame, over time.
 
     Attributes:
+        turns: The columns of its orientation: three angles, or a quaternion; of a frame also one
+            angle, or none.
+        base: Places and quaternions x, y, z, w, shape ``(n, 7)``.
+        change: Their first and second derivatives, each ``(n, 7)``, as far as columns hold
+            them; those of ``base``, whose quaternions then don't change sign.
         place: The columns of its place.
-        turns: The columns of its orientation: angles, a quaternion, or none.
-        base: Places and quaternions x, y, z, w, shape ``(n, 7)``; 0, 0, 0 and no turn where no
-            column says them.
-        told: Which of x, y, z, roll, pitch and yaw are told.
-        notes: What was chosen, in plain words.
     """
 
-    place: tuple[str, ...]
     turns: tuple[str, ...]
     base: Array
-    told: tuple[str, ...]
-    notes: tuple[str, ...] = ()
+    change: tuple[Array | None, Array | None] = (None, None)
+    place: tuple[str, ...] = BASE_PLACE
+
+    def derivatives(self, time: Array) -> tuple[Array, Array] | None:
+        """Both derivatives, the second of a spline through the first if need be.
+
+        Args:
+            time: Sample times [s], shape ``(n,)``.
+
+        Returns:
+            None if no column holds any.
+        """
+        first, second = self.change
+        if first is None:
+            return None
+        if second is None:
+            made = [with_derivatives(time, column, column, None)[1] for column in first.T]
+            second = np.column_stack(made)
+        return first, second
 
 
-def read_flight(
-    values: Mapping[tuple[str, int], Column], table: Table, names: Names, euler: str | None = None
-) -> Flight | None:
-    """The placement over time; None if no column says it.
+def read_flight(values: Mapping[tuple[str, int], Column], table: Table) -> Flight | None:
+    """The root's placement over time; None if no column says it.
 
     Args:
         values: Columns by what they hold and which derivative it is.
         table: Where they stand, for messages.
-        names: What its columns are called.
-        euler: Order of the angles in columns a, b, c or rx, ry, rz.
 
     Raises:
         BadInput: Columns are missing, or a quaternion isn't of unit length.
     """
-    if euler is not None:
-        check_order(euler)
-    given = [of for of, _ in values if of in {*names}]
-    if not given:
+    from scipy.spatial.transform import Rotation
+
+    parts = [of for of, order in values if order == 0 and of in BASE_PARTS]
+    if not parts:
         return None
-    place = tuple(name for name in names.lengths if name in given)
-    turns = tuple(of for of in given if of not in place)
-    form = _form(table, names, turns, given)
-    base = np.zeros((len(table), 7))
-    base[:, 6] = 1.0
-    for k, name in enumerate(names.lengths):
-        if name in place:
-            base[:, k] = values[name, 0].values
-    notes: list[str] = []
-    columns = [values[names.prefix + name, 0].values for name in form]
-    if euler is not None and (form == QUATERNION or len(form) < len(ANGLES)):
+    angles = any(part in BASE_ANGLES for part in parts)
+    turns = BASE_ANGLES if angles else BASE_QUATERNION
+    wanted = (*BASE_PLACE, *turns)
+    if set(parts) != set(wanted):
         raise BadInput(
-            f"an order of angles is given ({euler}), and no three columns hold angles",
+            f"the base has the columns {', '.join(parts)}",
             where=table.file,
-            remedy="Leave the order out",
+            allowed=f"{', '.join(BASE_PLACE)} and {', '.join(BASE_ANGLES)}, or these and "
+            f"{', '.join(BASE_QUATERNION)} instead of angles",
         )
-    if form == QUATERNION:
-        base[:, 3:] = _unit(np.column_stack(columns), table, names)
-    elif form and names.partly and len(form) == len(ANGLES):
-        turned, notes = oriented(table, form, np.column_stack(columns), euler)
-        base[:, 3:] = quaternions(turned)
-    elif form:
-        from scipy.spatial.transform import Rotation
+    known = [np.column_stack([values[part, 0].values for part in wanted])]
+    for order, word in ((1, "rate"), (2, "acceleration")):
+        missing = [f"{part}_{word}" for part in wanted if (part, order) not in values]
+        if len(missing) == len(wanted):
+            break
+        if missing:
+            raise BadInput(
+                f"columns of the base are missing: {', '.join(missing)}",
+                where=table.file,
+                allowed=f"the {word} of all of {', '.join(wanted)}, or of none",
+            )
+        known.append(np.column_stack([values[part, order].values for part in wanted]))
+    base = known[0][:, :3]
+    if angles:
+        turned = Rotation.from_euler("xyz", known[0][:, 3:]).as_quat()
+        moving = _turning(known)
+    else:
+        length = np.linalg.norm(known[0][:, 3:], axis=1)
+        if (np.abs(length - 1) > 1e-3).any():
+            k = int(np.argmax(np.abs(length - 1)))
+            raise BadInput(
+                f"the quaternion of the base has length {length[k]:.6g}",
+                where=table.where(k),
+                allowed="1",
+            )
+        turned = known[0][:, 3:] / length[:, None]
+        moving = [one[:, 3:] / length[:, None] for one in known]
+    change: list[Array | None] = [None, None]
+    if len(known) > 1:
+        turned = unbroken(turned)
+        sign = np.sign((turned * moving[0]).sum(axis=1))[:, None]
+        for order in range(1, len(known)):
+            change[order - 1] = np.column_stack([known[order][:, :3], sign * moving[order]])
+    return Flight(turns, np.column_stack([base, turned]), (change[0], change[1]))
 
-        angles = np.zeros((len(table), 3))
-        for name, column in zip(form, columns, strict=True):
-            angles[:, ANGLES.index(name)] = column
-        base[:, 3:] = Rotation.from_euler("xyz", angles).as_quat()
-    turned_about = form if len(form) == 1 else ANGLES if form else ()
-    told = (*(name.removeprefix(names.prefix) for name in place), *turned_about)
-    return Flight(place, tuple(names.prefix + name for name in form), base, told, tuple(notes))
+
+def odd_rates(values: Mapping[tuple[str, int], Column], time: Array) -> list[str]:
+    """Warnings where rates of the root aren't the derivatives of the columns before them.
+
+    Args:
+        values: Columns by what they hold and which derivative it is.
+        time: Sample times [s], shape ``(n,)``.
+    """
+    sign = np.ones(len(time))
+    if all((part, 0) in values for part in BASE_QUATERNION):  # q and -q are one rotation
+        given = np.column_stack([values[part, 0].values for part in BASE_QUATERNION])
+        sign = np.where((unbroken(given) * given).sum(axis=1) < 0, -1.0, 1.0)
+    warnings = []
+    for part in BASE_PARTS:
+        columns = [values[part, order] for order in range(3) if (part, order) in values]
+        if part in BASE_QUATERNION:
+            columns = [replace(one, values=sign * one.values) for one in columns]
+        elif part in BASE_ANGLES and columns:
+            columns[0] = replace(columns[0], values=np.unwrap(columns[0].values))
+        warnings += unlike(part, time, columns)
+    return warnings
 
 
-def _form(table: Table, names: Names, turns: tuple[str, ...], given: list[str]) -> tuple[str, ...]:
-    """Which columns hold the orientation; none, or one angle, where a part is enough."""
-    plain = {name.removeprefix(names.prefix) for name in turns}
-    for form in names.forms:
-        if plain == set(form) and (names.partly or len(given) == len(PLACE) + len(form)):
-            return form
-    if names.partly and (not plain or (len(plain) == 1 and plain <= set(ANGLES))):
-        return tuple(plain)
-    forms = [", ".join(names.prefix + name for name in form) for form in names.forms]
-    allowed = (
-        f"{', '.join(names.lengths)} and {forms[0]}, or these and {forms[1]} instead of angles"
-    )
-    if names.partly:
-        allowed = f"some of {', '.join(names.lengths)} with one or all of {forms[-2]}, or with "
-        allowed += " or ".join(form for k, form in enumerate(forms) if k != len(forms) - 2)
-    raise BadInput(
-        f"{names.what} has the columns {', '.join(given)}", where=table.file, allowed=allowed
-    )
+def _turning(known: Sequence[Array]) -> list[Array]:
+    """The quaternion of turns about the world's x, then y, then z, and its derivatives.
+
+    Args:
+        known: Angles and as many of their derivatives as there are, in the last three columns.
+
+    Returns:
+        As many, each ``(n, 4)``.
+    """
+    found: list[Array] = []
+    for axis in range(3):
+        angle = known[0][:, 3 + axis]
+        rates = [one[:, 3 + axis, None] for one in known[1:]]
+        one = np.zeros((len(angle), 4))
+        one[:, axis], one[:, 3] = np.sin(angle / 2), np.cos(angle / 2)
+        along = np.zeros_like(one)  # its derivative by half the angle
+        along[:, axis], along[:, 3] = np.cos(angle / 2), -np.sin(angle / 2)
+        own = [one]
+        if rates:
+            own.append(rates[0] / 2 * along)
+        if rates[1:]:
+            own.append(rates[1] / 2 * along - rates[0] ** 2 / 4 * one)
+        found = own if not found else _product(own, found)
+    return found
 
 
-def _unit(quaternion: Array, table: Table, names: Names) -> Array:
-    length = np.linalg.norm(quaternion, axis=1)
-    if (np.abs(length - 1) > 1e-3).any():
-        k = int(np.argmax(np.abs(length - 1)))
-        raise BadInput(
-            f"the quaternion of {names.what} has length {length[k]:.6g}",
-            where=table.where(k),
-            allowed="1",
-        )
-    return np.asarray(quaternion / length[:, None])
+def _product(left: Sequence[Array], right: Sequence[Array]) -> list[Array]:
+    """A product of quaternions over time, and as many derivatives as both have."""
+    result = [_times(left[0], right[0])]
+    if left[1:]:
+        result.append(_times(left[1], right[0]) + _times(left[0], right[1]))
+    if left[2:]:
+        both = 2 * _times(left[1], right[1])
+        result.append(_times(left[2], right[0]) + both + _times(left[0], right[2]))
+    return result
+
+
+def _times(left: Array, right: Array) -> Array:
+    """Products of quaternions x, y, z, w, ``(n, 4)`` each."""
+    v, w = left[:, :3], left[:, 3:]
+    u, s = right[:, :3], right[:, 3:]
+    scalar = w * s - (v * u).sum(axis=1, keepdims=True)
+    return np.column_stack([w * u + s * v + np.cross(v, u), scalar])

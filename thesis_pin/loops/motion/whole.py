@@ -91,10 +91,11 @@ def whole_motion(
         for values in (motion.rate, motion.acceleration)
     )
     base = None
-    if motion.base is not None:
+    if motion.base is not None and motion.base_change is not None:
+        _refuse_tied_base(robot)
+        base = flown(motion.base, *motion.base_change)
+    elif motion.base is not None:
         base = base_motion(robot, motion.time, motion.base)
-        if motion.base_change is not None:
-            base = flown(motion.base, *motion.base_change)
     guess = _approach(view, start, position[0], precision)
     found = follow(
         view,

@@ -26,7 +26,7 @@ from thesis_pin.report.torque.uncertainty import uncertainty
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
-SCHEMA, VERSION = "thesis-pin/torque", 2
+SCHEMA, VERSION = "thesis-pin/torque", 3
 
 INTERPOLATED = "Rates and accelerations of {names} come from {how}."
 THROUGH = "a cubic spline through the samples"
@@ -124,14 +124,14 @@ class TorqueReport(TorqueNumbers):
             "coupling_force": dynamics.coupling,
             "base_wrench": dynamics.base,
             "unexplained": self.unexplained,
-            "uncertainty": dynamics.uncertainty,
+            "description_uncertainty": dynamics.uncertainty,
             "condition": [
                 value if np.isfinite(value) else None for value in dynamics.condition.tolist()
             ],
             "parameters": self.parameters,
             "summary": self.summary(),
             "notes": list(self.motion.notes),
-            "samples_uncertainty": uncertainty(self.headlines, self.drawn, self.motion.variants),
+            "uncertainty": uncertainty(self.headlines, self.drawn, self.motion.variants),
         }
 
     def columns(self) -> dict[str, np.ndarray]:
@@ -180,7 +180,7 @@ class TorqueReport(TorqueNumbers):
             "outside_range": self.outside,
             "peak_loop_force": force.max(axis=0, initial=0.0),
             "largest_unexplained": float(self.unexplained.max()),
-            "largest_uncertainty": float(self.dynamics.uncertainty.max()),
+            "largest_description_uncertainty": float(self.dynamics.uncertainty.max()),
             "noise": self.dynamics.noise,
             "digits": list(self.dynamics.digits),
             "idle": [
