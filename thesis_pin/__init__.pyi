@@ -13,6 +13,12 @@ from .loops.dynamics import (
     simulate as simulate,
 )
 
+# Where any robot can go
+from .loops.workspace.mapped import (
+    Workspace as Workspace,
+    evaluate_workspace as evaluate_workspace,
+)
+
 # Motions of any robot
 from .loops.motion.files import read_motion as read_motion
 from .loops.motion.told import JointMotion as JointMotion
