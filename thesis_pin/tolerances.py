@@ -87,6 +87,7 @@ class Tolerances:
             taken as on its border, where a quadratic programme stops [N·m].
         contact: The same of any robot, relative to its weight times its feet's size [-]: what is
             left over by rounding of a motion's numbers.
+        facet: Distance beyond a facet that rounding makes of a wrench on it [N·m].
         impulse: Impulse of a landing still taken as none: what the robot's weight gives in
             this time [s]; it is that of a landing at about 1 mm/s.
         clearance: Depth of a swinging sole's corner below the floor still taken as
@@ -194,6 +195,7 @@ class Tolerances:
     creeping: float = 1e-3
     wrench: float = 1e-7
     contact: float = 1e-9
+    facet: float = 1e-10
     impulse: float = 1e-4
     clearance: float = 1e-4
     scrape_height: float = 1e-3
