@@ -128,7 +128,13 @@ class ConeProgramme:
         np.matmul(self.facets[1], -(second @ self.total[row]), out=bounds[first:])
         sense[:] = 0
         solution, _, flag, more = daqp.solve(
-            self.hessian[row], -self.gradient[row], normals, bounds, lower, sense
+            self.hessian[row],
+            -self.gradient[row],
+            normals,
+            bounds,
+            lower,
+            sense,
+            primal_tol=TOLERANCES.facet,  # its own 1e-6 leaves out facets that bind
         )
         return (solution, np.flatnonzero(more["lam"])) if flag > 0 else None
 

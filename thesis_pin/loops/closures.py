@@ -6,6 +6,7 @@ first; the force reported for a loop acts on the first frame's body.
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -25,7 +26,7 @@ from thesis_pin.loops.system.scale import Scale, scale_of
 from thesis_pin.loops.system.survey import Survey
 from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
 from thesis_pin.model.mechanism.closure_types import word_of
-from thesis_pin.model.mechanism.supplement import Closure, Motor, Supplement
+from thesis_pin.model.mechanism.supplement import FILE_KIND, Closure, Motor, Supplement
 
 if TYPE_CHECKING:  # robots that ship are known to be sound, and loaded without their readers
     from thesis_pin.model.formats.closure_file import ClosureFile
@@ -62,7 +63,10 @@ class ClosedRobot(LoadedRobot):
         passive: Places of all other velocities.
         couplings: Joints that move together, in the file's order.
         springs: Passive springs.
+        leader: Who determines the passive joints, for messages.
     """
+
+    leader = "the motors"
 
     def __init__(
         self,
@@ -70,7 +74,7 @@ class ClosedRobot(LoadedRobot):
         closures: ClosureFile | Supplement | None = None,
         root_joint: RootJoint = None,
         *,
-        where: str = "closure file",
+        where: str = FILE_KIND,
         ships: bool = False,
     ) -> None:
         if closures is not None and not isinstance(closures, Supplement):
@@ -92,6 +96,19 @@ class ClosedRobot(LoadedRobot):
         self.model.gravity.linear = np.array(beside.gravity)
         self.loops = tuple(_loop(self.model, one, where) for one in beside.closures)
         self.motors = _motors(self.model, beside.motors, where)
+        self._place(where)
+        self.couplings, self.springs = beside.couplings, beside.springs
+        for coupling in self.couplings:
+            _refuse_unknown(self.model, coupling.coefficients, f"{where}: {coupling.name}")
+        _refuse_unknown(self.model, [spring.joint for spring in self.springs], where)
+        _add(self.model, "armature", beside.armature, where)
+        _add(self.model, "armature", {m.joint: m.armature for m in self.motors}, where)
+        _add(self.model, "damping", beside.damping, where)
+        _add(self.model, "upperDryFrictionLimit", beside.friction, where)
+        self.data = self.model.createData()
+
+    def _place(self, where: str) -> None:
+        """Where motors, base and all else stand in vectors of the model."""
         self.actuators = tuple(motor.joint for motor in self.motors)
         joints = [self.model.joints[self.model.getJointId(name)] for name in self.actuators]
         for name, joint in zip(self.actuators, joints, strict=True):
@@ -111,15 +128,22 @@ class ClosedRobot(LoadedRobot):
         free = np.ones(self.model.nv, dtype=bool)
         free[held] = False
         self.passive = np.flatnonzero(free)
-        self.couplings, self.springs = beside.couplings, beside.springs
-        for coupling in self.couplings:
-            _refuse_unknown(self.model, coupling.coefficients, f"{where}: {coupling.name}")
-        _refuse_unknown(self.model, [spring.joint for spring in self.springs], where)
-        _add(self.model, "armature", beside.armature, where)
-        _add(self.model, "armature", {m.joint: m.armature for m in self.motors}, where)
-        _add(self.model, "damping", beside.damping, where)
-        _add(self.model, "upperDryFrictionLimit", beside.friction, where)
-        self.data = self.model.createData()
+
+    def led(self, model: pin.Model, joints: Sequence[str], loops: Sequence[Loop]) -> ClosedRobot:
+        """A copy for kinematics, of which other joints and a base are led, not motors.
+
+        Args:
+            model: Its model, with all joints of this one.
+            joints: Names of the joints that are led.
+            loops: Its loops.
+        """
+        found = copy.copy(self)
+        found.model, found.data = model, model.createData()
+        found.q0, found.v0 = pin.neutral(model), np.zeros(model.nv)
+        found.motors = tuple(Motor(name, joint=name) for name in joints)
+        found.loops, found.leader = tuple(loops), "the told coordinates"
+        found._place(FILE_KIND)
+        return found
 
     def _described(self) -> Description:
         return _described(self.urdf, self._closures)

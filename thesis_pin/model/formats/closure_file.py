@@ -28,13 +28,12 @@ from thesis_pin.errors import BadInput
 from thesis_pin.model.formats.yaml_text import parse_yaml
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.mechanism.closure_types import WORDS, JointType, rows_of
+from thesis_pin.model.mechanism.supplement import FILE_KIND as FILE_KIND
 from thesis_pin.model.mechanism.supplement import Closure, Coupling, Motor, Spring, Supplement
 from thesis_pin.model.source import read_text
 from thesis_pin.model.specification import Key, Strict, validate
 from thesis_pin.numeric.checks import shown
 from thesis_pin.tolerances import GRAVITY
-
-FILE_KIND = "closure file"
 
 _Entry = TypeVar("_Entry")
 Bounded = Annotated[tuple[_Entry, ...], Field(max_length=LIMITS.entries)]
