@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
-from typing import Literal
+from functools import cached_property
 
 import numpy as np
 
@@ -19,6 +18,8 @@ from scout_pin.dynamics.scaling import DoubleSupport, Torques, single_support
 from scout_pin.dynamics.stability import polygons
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
+from scout_pin.report.judged.causes import CAUSES, Cause
+from scout_pin.report.judged.trial import Trial, beyond
 from thesis_pin.contacts.cones import in_sole_axes
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks
@@ -32,14 +33,8 @@ from thesis_pin.numeric.inequalities import (
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
-Cause = Literal["zmp", "contact", "stall torque", "servo", "rate jump", "gap"]
-CAUSES: tuple[Cause, ...] = ("zmp", "contact", "stall torque", "servo", "rate jump", "gap")
-
 _MOST = 2048  # samples of double support looked at
-_TRIED = 12  # of these, how many at each speed tried
 _SPEEDS = 7  # speeds tried on a stretch
-_CHECKED = 32  # and how many hold a limit found
-_BISECTED = 4  # samples a limit is bisected on
 _CONES = 128  # samples held against some hundred facets at a time
 
 
@@ -80,11 +75,16 @@ class Speeds:
         """
         found: dict[Cause, list[Intervals]] = {"stall torque": [], "servo": []}
         for torques in self._torques():
-            speed = np.abs(self.joints.part(torques.samples).v) / self.robot.no_load_speed
-            growths: dict[Cause, np.ndarray] = {"stall torque": 0.0 * speed, "servo": speed}
-            for cause, growth in growths.items():
-                found[cause].append(pruned(self._passed(torques, growth, cause)))
+            for cause, parts in found.items():
+                growth = self._growth(torques.samples, cause)
+                parts.append(pruned(self._passed(torques, growth, cause)))
         return {cause: pruned(Intervals.joined(parts, 3)) for cause, parts in found.items()}
+
+    def _growth(self, samples: np.ndarray, cause: Cause) -> np.ndarray:
+        """What speed adds to a servo's share at s = 1, ``(m, 12)``: nothing to stall torque's."""
+        if cause == "stall torque":
+            return np.zeros((len(samples), 12))
+        return np.asarray(np.abs(self.joints.part(samples).v) / self.robot.no_load_speed)
 
     def _torques(self) -> Iterator[Torques]:
         for part in blocks(len(self._single)):
@@ -185,9 +185,15 @@ class Speeds:
             stands: Whether wrenches that no pair of soles can give are forbidden too.
         """
         double, found = self._double, Intervals.joined([], 3)
-        if double is None or not _beyond(double, rest.low, rest.high).size:
+        if double is None or not beyond(double, rest.low, rest.high).size:
             return found
-        trial = _Trial(self, double, cause, stands)
+        trial = Trial(
+            double,
+            self._growth(double.samples, cause),
+            self.robot.stall_torque,
+            cause,
+            stands=stands,
+        )
         inset = TOLERANCES.time_unit * (1 - 1e-9)
         speeds = np.geomspace(rest.low * (1 + inset), rest.high * (1 - inset), _SPEEDS)
         verdicts: list[list[int] | None] = []
@@ -213,76 +219,6 @@ class Speeds:
         return Intervals.joined(parts, 3)
 
 
-class _Trial:
-    """Tries speeds on samples of double support, and remembers which mattered."""
-
-    def __init__(self, speeds: Speeds, double: DoubleSupport, cause: Cause, stands: bool) -> None:
-        self.double, self.cause, self.stands = double, cause, stands
-        self.stall = speeds.robot.stall_torque
-        use = np.abs(speeds.joints.part(double.samples).v) / speeds.robot.no_load_speed
-        self.growth = use if cause == "servo" else 0.0 * use
-
-    def worst(self, s: float) -> list[int] | None:
-        """Cause, sample and joint of what is passed most at a speed; None if nothing is."""
-        some, use, joint = self._uses(s, self._few(s))
-        return self._source(some, use, joint) if use.max(initial=0.0) > 1.0 else None
-
-    def bisected(self, fine: float, bad: float) -> tuple[float, list[int]]:
-        """Where between a fine and a bad speed the limit is, and what it is."""
-        known = np.empty(0, dtype=np.intp)
-        some, use, joint = self._uses(bad, self._checked(bad, known))
-        while True:
-            top = some[np.argsort(use)[-_BISECTED:]]
-            known, source = np.union1d(known, top), self._source(some, use, joint)
-            root = self._root(known, fine, bad)
-            # A little to the fine side of it, and never beyond.
-            step = 1.0 + TOLERANCES.time_unit
-            bad = max(root / step, fine) if fine < bad else min(root * step, fine)
-            some, use, joint = self._uses(bad, self._checked(bad, known))
-            if use.max(initial=0.0) <= 1.0 or bad == fine:
-                return bad, source
-
-    def _root(self, known: np.ndarray, fine: float, bad: float) -> float:
-        """Speed between a fine and a bad one at which one of some samples meets its limit."""
-        from scipy.optimize import brentq
-
-        @cache  # both ends are asked for twice
-        def passed(s: float) -> float:
-            use = self._uses(s, known)[1]
-            return min(float(use.max(initial=0.0)) - 1.0, 1.0)
-
-        if passed(fine) >= 0.0 or passed(bad) <= 0.0:
-            return fine
-        return float(brentq(passed, fine, bad, rtol=TOLERANCES.time_unit / 4))
-
-    def _few(self, s: float) -> np.ndarray:
-        some = _beyond(self.double, s, s)
-        return some[:: 1 + len(some) // _TRIED]
-
-    def _checked(self, s: float, known: np.ndarray) -> np.ndarray:
-        """Samples on which a limit found is held: many, and the neighbours of what decides."""
-        some, few = _beyond(self.double, s, s), self._few(s)
-        near = np.add.outer(known, [-2, -1, 0, 1, 2]).ravel()
-        many = np.union1d(some[:: 1 + len(some) // _CHECKED], few)
-        return np.union1d(many, some[np.isin(some, near)])
-
-    def _uses(self, s: float, some: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The samples, the most each uses of a servo (infinite if it can't stand), and which."""
-        torque, broken = self.double.at(some, s)
-        share = np.abs(torque) / self.stall + self.growth[some] * s
-        use = share.max(axis=1, initial=0.0)
-        if self.stands:
-            use = np.where(broken, np.inf, use)
-        return some, use, share.argmax(axis=1) if len(some) else np.empty(0, dtype=np.intp)
-
-    def _source(self, some: np.ndarray, use: np.ndarray, joint: np.ndarray) -> list[int]:
-        k = int(np.argmax(use))
-        stands = bool(np.isfinite(use[k]))
-        cause: Cause = self.cause if stands else "contact"
-        sample = int(self.double.samples[some[k]])
-        return [CAUSES.index(cause), sample, int(joint[k]) if stands else -1]
-
-
 def pruned(taken: Intervals) -> Intervals:
     """Without intervals that lie in one that starts before them."""
     order = np.argsort(taken.start, kind="stable")
@@ -295,12 +231,6 @@ def stretches(taken: Intervals, low: float, high: float) -> list[Rest]:
     """What is left of a range, slivers left out."""
     left = rest_of(taken, low, high)
     return [rest for rest in left if rest.high > rest.low * (1 + 2 * TOLERANCES.time_unit)]
-
-
-def _beyond(double: DoubleSupport, low: float, high: float) -> np.ndarray:
-    """Samples that some speed in a range takes to the border of a cone."""
-    free = double.free
-    return np.flatnonzero((free.low > low**2) | (free.high < high**2))
 
 
 def _edges(

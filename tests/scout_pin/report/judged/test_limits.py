@@ -18,7 +18,8 @@ from scout_pin.report.judged.limits import (
     fastest_time_unit,
     headline,
 )
-from scout_pin.report.judged.speeds import Speeds, _Trial
+from scout_pin.report.judged.speeds import Speeds
+from scout_pin.report.judged.trial import Trial
 from scout_pin.specification import Specification
 from thesis_pin.errors import NoSupportForce
 from thesis_pin.numeric.interpolation import linear, polynomial
@@ -265,11 +266,12 @@ def test_double_support_uses_its_servos_at_any_speed_as_inverse_dynamics_says(ru
     t, unit = gait.sample_times(101), 0.2
     motion = gait.sample(t, unit)
     joints = joint_trajectory(rubbing, motion)
-    speeds = Speeds(rubbing, motion, joints, inverse_dynamics(rubbing, motion, joints))
     some = np.flatnonzero(motion.support.all(axis=1))
     double = DoubleSupport.of(rubbing, motion, joints, some)
     every = np.arange(len(some))
-    _, found, joint = _Trial(speeds, double, "servo", stands=True)._uses(s, every)
+    speed = np.abs(joints.part(some).v) / rubbing.no_load_speed
+    trial = Trial(double, speed, rubbing.stall_torque, "servo", stands=True)
+    _, found, joint = trial.uses(s, every)
     faster = gait.sample(t, unit / s)
     moving = joint_trajectory(rubbing, faster)
     torque = np.abs(inverse_dynamics(rubbing, faster, moving).torque) / rubbing.stall_torque

@@ -1,0 +1,105 @@
+"""Speeds tried on samples of double support, where a quadratic programme has the answer."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from scout_pin.dynamics.scaling import DoubleSupport
+from scout_pin.report.judged.causes import CAUSES, Cause
+from thesis_pin.tolerances import TOLERANCES
+
+_TRIED = 12  # samples looked at for each speed tried
+_CHECKED = 32  # and how many hold a limit found
+_BISECTED = 4  # samples a limit is bisected on
+
+
+class Trial:
+    """Tries speeds on samples of double support.
+
+    Args:
+        double: The samples.
+        growth: Shares of the servos' speed that count at s = 1, shape ``(m, 12)``.
+        stall: Stall torques [N·m], ``(12,)``.
+        cause: What the servos' limit is called.
+        stands: Whether wrenches that no pair of soles can give are forbidden too.
+    """
+
+    def __init__(
+        self,
+        double: DoubleSupport,
+        growth: np.ndarray,
+        stall: np.ndarray,
+        cause: Cause,
+        *,
+        stands: bool,
+    ) -> None:
+        self.double, self.growth, self.stall = double, growth, stall
+        self.cause, self.stands = cause, stands
+
+    def worst(self, s: float) -> list[int] | None:
+        """Cause, sample and joint of what is passed most at a speed; None if nothing is."""
+        some, use, joint = self.uses(s, self._few(s))
+        return self._source(some, use, joint) if use.max(initial=0.0) > 1.0 else None
+
+    def bisected(self, fine: float, bad: float) -> tuple[float, list[int]]:
+        """Where between a fine and a bad speed the limit is, and what it is."""
+        known = np.empty(0, dtype=np.intp)
+        some, use, joint = self.uses(bad, self._checked(bad, known))
+        while True:
+            top = some[np.argsort(use)[-_BISECTED:]]
+            known, source = np.union1d(known, top), self._source(some, use, joint)
+            root = self._root(known, fine, bad)
+            # A little to the fine side of it, and never beyond.
+            step = 1.0 + TOLERANCES.time_unit
+            bad = max(root / step, fine) if fine < bad else min(root * step, fine)
+            some, use, joint = self.uses(bad, self._checked(bad, known))
+            if use.max(initial=0.0) <= 1.0 or bad == fine:
+                return bad, source
+
+    def _root(self, known: np.ndarray, fine: float, bad: float) -> float:
+        """Speed between a fine and a bad one at which one of some samples meets its limit."""
+        from scipy.optimize import brentq
+
+        @cache  # both ends are asked for twice
+        def passed(s: float) -> float:
+            use = self.uses(s, known)[1]
+            return min(float(use.max(initial=0.0)) - 1.0, 1.0)
+
+        if passed(fine) >= 0.0 or passed(bad) <= 0.0:
+            return fine
+        return float(brentq(passed, fine, bad, rtol=TOLERANCES.time_unit / 4))
+
+    def _few(self, s: float) -> np.ndarray:
+        some = beyond(self.double, s, s)
+        return some[:: 1 + len(some) // _TRIED]
+
+    def _checked(self, s: float, known: np.ndarray) -> np.ndarray:
+        """Samples on which a limit found is held: many, and the neighbours of what decides."""
+        some, few = beyond(self.double, s, s), self._few(s)
+        near = np.add.outer(known, [-2, -1, 0, 1, 2]).ravel()
+        many = np.union1d(some[:: 1 + len(some) // _CHECKED], few)
+        return np.union1d(many, some[np.isin(some, near)])
+
+    def uses(self, s: float, some: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The samples, the most each uses of a servo (infinite if it can't stand), and which."""
+        torque, broken = self.double.at(some, s)
+        share = np.abs(torque) / self.stall + self.growth[some] * s
+        use = share.max(axis=1, initial=0.0)
+        if self.stands:
+            use = np.where(broken, np.inf, use)
+        return some, use, share.argmax(axis=1) if len(some) else np.empty(0, dtype=np.intp)
+
+    def _source(self, some: np.ndarray, use: np.ndarray, joint: np.ndarray) -> list[int]:
+        k = int(np.argmax(use))
+        stands = bool(np.isfinite(use[k]))
+        cause: Cause = self.cause if stands else "contact"
+        sample = int(self.double.samples[some[k]])
+        return [CAUSES.index(cause), sample, int(joint[k]) if stands else -1]
+
+
+def beyond(double: DoubleSupport, low: float, high: float) -> np.ndarray:
+    """Samples that some speed in a range takes to the border of a cone."""
+    free = double.free
+    return np.flatnonzero((free.low > low**2) | (free.high < high**2))
