@@ -35,6 +35,7 @@ from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
 _MOST = 2048  # samples of double support looked at
 _SPEEDS = 7  # speeds tried on a stretch
+_FEW = 64  # samples of a block that are looked at before the others
 _CONES = 128  # samples held against some hundred facets at a time
 
 
@@ -73,12 +74,33 @@ class Speeds:
 
         In double support only while the floor's limits are out of play.
         """
-        found: dict[Cause, list[Intervals]] = {"stall torque": [], "servo": []}
+        taken: dict[Cause, Intervals] = {
+            cause: Intervals.joined([], 3) for cause in ("stall torque", "servo")
+        }
         for torques in self._torques():
-            for cause, parts in found.items():
+            for cause in taken:
                 growth = self._growth(torques.samples, cause)
-                parts.append(pruned(self._passed(torques, growth, cause)))
-        return {cause: pruned(Intervals.joined(parts, 3)) for cause, parts in found.items()}
+                # What a few samples forbid needs no telling of the others.
+                for some in (slice(None, None, 1 + len(growth) // _FEW), slice(None)):
+                    few, more = torques.part(some), growth[some]
+                    passed = self._passing(few, more, taken[cause])
+                    found = self._passed(few.part(passed), more[passed], cause)
+                    taken[cause] = pruned(Intervals.joined([taken[cause], found], 3))
+        return taken
+
+    def _passing(self, torques: Torques, growth: np.ndarray, taken: Intervals) -> np.ndarray:
+        """Samples that may pass their servos' limit at a speed that isn't taken."""
+        parts = torques.constant, torques.linear, torques.square
+        constant, linear, square = (part / self.robot.stall_torque for part in parts)
+        passing = np.zeros(len(growth), dtype=bool)
+        for rest in rest_of(taken, self.low, self.high):
+            low, high = rest.low, rest.high
+            # A quadratic lies in the hull of its control points: both ends, and this between.
+            middle, product = (low + high) / 2, low * high
+            for first, second in ((low, low**2), (middle, product), (high, high**2)):
+                size = np.abs(constant + first * linear + second * square) + first * growth
+                passing |= (size > 1.0 - 1e-9).any(axis=1)
+        return np.flatnonzero(passing)
 
     def _growth(self, samples: np.ndarray, cause: Cause) -> np.ndarray:
         """What speed adds to a servo's share at s = 1, ``(m, 12)``: nothing to stall torque's."""
