@@ -83,9 +83,10 @@ class Speeds:
                 # What a few samples forbid needs no telling of the others.
                 for some in (slice(None, None, 1 + len(growth) // _FEW), slice(None)):
                     few, more = torques.part(some), growth[some]
-                    passed = self._passing(few, more, taken[cause])
-                    found = self._passed(few.part(passed), more[passed], cause)
-                    taken[cause] = pruned(Intervals.joined([taken[cause], found], 3))
+                    passing = self._passing(few, more, taken[cause])
+                    if passing.size:
+                        found = self._passed(few.part(passing), more[passing], cause)
+                        taken[cause] = pruned(Intervals.joined([taken[cause], found], 3))
         return taken
 
     def _passing(self, torques: Torques, growth: np.ndarray, taken: Intervals) -> np.ndarray:
@@ -96,8 +97,8 @@ class Speeds:
         for rest in rest_of(taken, self.low, self.high):
             low, high = rest.low, rest.high
             # A quadratic lies in the hull of its control points: both ends, and this between.
-            middle, product = (low + high) / 2, low * high
-            for first, second in ((low, low**2), (middle, product), (high, high**2)):
+            between = ((low + high) / 2, low * high)
+            for first, second in ((low, low**2), between, (high, high**2)):
                 size = np.abs(constant + first * linear + second * square) + first * growth
                 passing |= (size > 1.0 - 1e-9).any(axis=1)
         return np.flatnonzero(passing)
@@ -117,22 +118,19 @@ class Speeds:
 
     def _passed(self, torques: Torques, growth: np.ndarray, cause: Cause) -> Intervals:
         """Where |torque| / stall + growth s > 1, with cause, sample and joint."""
-        parts = []
-        for sign in (1.0, -1.0):
-            constant, linear, square = (
-                (sign * part / self.robot.stall_torque).ravel()
-                for part in (torques.constant, torques.linear, torques.square)
-            )
-            start, end, which = where_positive(
-                (square, linear + growth.ravel(), constant - 1.0), self.low, self.high
-            )
-            sample, joint = np.divmod(which, 12)
-            source = np.stack(
-                [np.full(len(which), CAUSES.index(cause)), torques.samples[sample], joint], axis=1
-            )
-            bounds = (np.sqrt(np.maximum(x[sample], 0.0)) for x in (torques.low, torques.high))
-            parts.append(Intervals(start, end, source).within(*bounds))
-        return Intervals.joined(parts, 3)
+        sign = np.array([[1.0], [-1.0]])
+        constant, linear, square = (
+            (sign * (part / self.robot.stall_torque).ravel()).ravel()
+            for part in (torques.constant, torques.linear, torques.square)
+        )
+        faster = linear + np.tile(growth.ravel(), 2)
+        start, end, which = where_positive((square, faster, constant - 1.0), self.low, self.high)
+        sample, joint = np.divmod(which % growth.size, 12)
+        source = np.stack(
+            [np.full(len(which), CAUSES.index(cause)), torques.samples[sample], joint], axis=1
+        )
+        bounds = (np.sqrt(np.maximum(x[sample], 0.0)) for x in (torques.low, torques.high))
+        return Intervals(start, end, source).within(*bounds)
 
     def balance(self, com: np.ndarray) -> Intervals:
         """Speeds at which the ZMP leaves the support polygon, or a single sole can't hold.
@@ -140,29 +138,20 @@ class Speeds:
         Args:
             com: Centre of mass at each sample [m], shape ``(n, 3)``.
         """
-        # Of each block only the samples that bind: there may be a million in all.
-        slowest: dict[Cause, list[tuple[float, int]]] = {"zmp": [], "contact": []}
-        fastest: dict[Cause, list[tuple[float, int]]] = {"zmp": [], "contact": []}
-
-        def bind(cause: Cause, some: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
-            slow, fast = int(np.argmax(low)), int(np.argmin(high))
-            slowest[cause].append((float(low[slow]), int(some[slow])))
-            fastest[cause].append((float(high[fast]), int(some[fast])))
-
+        bounds: dict[Cause, _Bound] = {"zmp": _Bound(), "contact": _Bound()}
         for samples, corners in polygons(self.robot, self.motion):
             for part in blocks(len(samples)):
-                edges = _edges(corners, *self._floor(com, samples[part]))
-                bind("zmp", samples[part], *where_lines_hold(*edges))
-        for part in blocks(len(self._single), _CONES):
-            bind("contact", self._single[part], *self._cone(com, self._single[part]))
+                some = samples[part]
+                static, added = self._floor(com, some)
+                bounds["zmp"].take(some, *where_lines_hold(*_edges(corners, static, added)))
+                standing = np.flatnonzero(self.motion.support[some[0]])
+                if len(standing) == 1:
+                    self._press(int(standing[0]), some, (static, added), bounds["contact"])
         found = []
-        for cause in slowest:
-            if not slowest[cause]:
-                continue
-            low, slow = max(slowest[cause], key=lambda one: one[0])
-            high, fast = min(fastest[cause], key=lambda one: one[0])
-            start, end = np.array([self.low, _root(high)]), np.array([_root(low), self.high])
-            source = np.array([[CAUSES.index(cause), sample, -1] for sample in (slow, fast)])
+        for cause, bound in bounds.items():
+            start = np.array([self.low, _root(bound.high)])
+            end = np.array([_root(bound.low), self.high])
+            source = np.array([[CAUSES.index(cause), k, -1] for k in (bound.slow, bound.fast)])
             taken = Intervals(start, end, source)
             found.append(taken.within(np.full(2, self.low), np.full(2, self.high)))
         return Intervals.joined(found, 3)
@@ -179,22 +168,36 @@ class Speeds:
         static[:, 3], static[:, 4] = weight * com[some, 1], -weight * com[some, 0]
         return static, np.concatenate([force, moment], axis=1) - static
 
-    def _cone(self, com: np.ndarray, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The s² between which the standing sole's wrench is in its cone, ``(m,)`` each."""
-        low, high = np.empty((2, len(some)))
-        wrenches = self._floor(com, some)
-        feet = (self.motion.left_foot, self.motion.right_foot)
-        for k, contact in enumerate(self.robot.contacts):
-            mine = self.motion.support[some, k]
-            foot = feet[k].part(some[mine])
-            lines = []
-            for wrench in wrenches:
-                moved = wrench[mine].copy()
-                moved[:, 3:] -= np.cross(foot.position, moved[:, :3])
-                scaled = contact.scale(in_sole_axes(foot.rotation, moved))
-                lines.append(scaled @ contact.facets.T)
-            low[mine], high[mine] = where_lines_hold(lines[0] - TOLERANCES.wrench, lines[1])
-        return low, high
+    def _press(
+        self, k: int, some: np.ndarray, wrenches: tuple[np.ndarray, np.ndarray], bound: _Bound
+    ) -> None:
+        """The s² between which the only sole that stands holds, of samples that may bind.
+
+        Args:
+            k: Which sole.
+            some: The samples, shape ``(m,)``.
+            wrenches: Of :meth:`_floor`, which are turned into the sole's axes.
+            bound: What is known.
+        """
+        contact = self.robot.contacts[k]
+        foot = (self.motion.left_foot, self.motion.right_foot)[k].part(some)
+        for wrench in wrenches:
+            wrench[:, 3:] -= np.cross(foot.position, wrench[:, :3])
+            wrench[:] = in_sole_axes(foot.rotation, wrench)
+        static, added = wrenches
+        every = np.arange(len(some))
+        for tried in (every[:: 1 + len(every) // _FEW], *np.split(every, every[_CONES::_CONES])):
+            # Cones are convex: what holds at both ends known so far binds at neither.
+            ends = (
+                static[tried] + np.clip(square, self.low**2, self.high**2) * added[tried]
+                for square in (bound.low, bound.high)
+            )
+            margin = np.minimum(*(contact.margin(end) for end in ends))
+            left = tried[margin < -TOLERANCES.wrench]
+            if left.size:
+                lines = [contact.scale(x[left]) @ contact.facets.T for x in wrenches]
+                low, high = where_lines_hold(lines[0] - TOLERANCES.wrench, lines[1])
+                bound.take(some[left], low, high)
 
     # -- where double support asks for a quadratic programme -----------------------
 
@@ -239,6 +242,27 @@ class Speeds:
                 end = float(speeds[k + 1])
             parts.append(Intervals(np.array([start]), np.array([end]), np.array([source])))
         return Intervals.joined(parts, 3)
+
+
+@dataclass
+class _Bound:
+    """Which samples bind the square of the speed, from below and from above.
+
+    Of all samples only these are kept: there may be a million.
+    """
+
+    low: float = -np.inf
+    slow: int = -1
+    high: float = np.inf
+    fast: int = -1
+
+    def take(self, some: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
+        """Some samples more, and between which squares each holds."""
+        slow, fast = int(np.argmax(low)), int(np.argmin(high))
+        if low[slow] > self.low:
+            self.low, self.slow = float(low[slow]), int(some[slow])
+        if high[fast] < self.high:
+            self.high, self.fast = float(high[fast]), int(some[fast])
 
 
 def pruned(taken: Intervals) -> Intervals:
