@@ -85,6 +85,7 @@ class Tolerances:
             and a hobby servo takes two seconds for its smallest step.
         wrench: Distance outside a sole's wrench cone, forces scaled to moments, still
             taken as on its border, where a quadratic programme stops [N·m].
+        facet: Distance beyond a facet that rounding makes of a wrench on it [N·m].
         impulse: Impulse of a landing still taken as none: what the robot's weight gives in
             this time [s]; it is that of a landing at about 1 mm/s.
         clearance: Depth of a swinging sole's corner below the floor still taken as
@@ -181,6 +182,7 @@ class Tolerances:
     static: float = 1e-9
     creeping: float = 1e-3
     wrench: float = 1e-7
+    facet: float = 1e-10
     impulse: float = 1e-4
     clearance: float = 1e-4
     scrape_height: float = 1e-3

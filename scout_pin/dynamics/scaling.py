@@ -141,15 +141,12 @@ class DoubleSupport:
         """
         torque, broken = self.free.at(some, s), np.zeros(len(some), dtype=bool)
         constant, linear = self.friction
-        for row, k in enumerate(some):
-            low, high = self.free.low[k], self.free.high[k]
-            if low <= s**2 <= high:
-                continue
-            found = self.static.plus(self.dynamic, s**2, int(k)).least_torques()
-            if found is None:
-                broken[row] = True
-            else:
-                torque[row] = found + constant[k] + linear[k] * s
+        limited = np.flatnonzero((s**2 < self.free.low[some]) | (s**2 > self.free.high[some]))
+        rows = some[limited]
+        found, possible = self.static.plus(self.dynamic, s**2, rows).least_torques()
+        broken[limited] = ~possible
+        found += constant[rows] + linear[rows] * s
+        torque[limited[possible]] = found[possible]
         return torque, broken
 
 

@@ -6,6 +6,7 @@ first; the force reported for a loop acts on the first frame's body.
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -58,7 +59,10 @@ class ClosedRobot(LoadedRobot):
         passive: Places of all other velocities.
         couplings: Joints that move together, in the file's order.
         springs: Passive springs.
+        leader: Who determines the passive joints, for messages.
     """
+
+    leader = "the motors"
 
     def __init__(
         self,
@@ -82,6 +86,19 @@ class ClosedRobot(LoadedRobot):
         self.model.gravity.linear = np.array(beside.gravity)
         self.loops = tuple(_loop(self.model, one, where) for one in beside.closures)
         self.motors = _motors(self.model, beside.motors, where)
+        self._place(where)
+        self.couplings, self.springs = beside.couplings, beside.springs
+        for coupling in self.couplings:
+            _refuse_unknown(self.model, coupling.coefficients, f"{where}: {coupling.name}")
+        _refuse_unknown(self.model, [spring.joint for spring in self.springs], where)
+        _add(self.model, "armature", beside.armature, where)
+        _add(self.model, "armature", {m.joint: m.armature for m in self.motors}, where)
+        _add(self.model, "damping", beside.damping, where)
+        _add(self.model, "upperDryFrictionLimit", beside.friction, where)
+        self.data = self.model.createData()
+
+    def _place(self, where: str) -> None:
+        """Where motors, base and all else stand in vectors of the model."""
         self.actuators = tuple(motor.joint for motor in self.motors)
         joints = [self.model.joints[self.model.getJointId(name)] for name in self.actuators]
         for name, joint in zip(self.actuators, joints, strict=True):
@@ -99,15 +116,22 @@ class ClosedRobot(LoadedRobot):
         self.base = _base(self.model)
         held = np.concatenate([self.actuated, self.base])
         self.passive = np.setdiff1d(np.arange(self.model.nv), held)
-        self.couplings, self.springs = beside.couplings, beside.springs
-        for coupling in self.couplings:
-            _refuse_unknown(self.model, coupling.coefficients, f"{where}: {coupling.name}")
-        _refuse_unknown(self.model, [spring.joint for spring in self.springs], where)
-        _add(self.model, "armature", beside.armature, where)
-        _add(self.model, "armature", {m.joint: m.armature for m in self.motors}, where)
-        _add(self.model, "damping", beside.damping, where)
-        _add(self.model, "upperDryFrictionLimit", beside.friction, where)
-        self.data = self.model.createData()
+
+    def led(self, model: pin.Model, joints: Sequence[str], loops: Sequence[Loop]) -> ClosedRobot:
+        """A copy for kinematics, of which other joints and a base are led, not motors.
+
+        Args:
+            model: Its model, with all joints of this one.
+            joints: Names of the joints that are led.
+            loops: Its loops.
+        """
+        found = copy.copy(self)
+        found.model, found.data = model, model.createData()
+        found.q0, found.v0 = pin.neutral(model), np.zeros(model.nv)
+        found.motors = tuple(Motor(name, joint=name) for name in joints)
+        found.loops, found.leader = tuple(loops), "the told coordinates"
+        found._place(FILE_KIND)
+        return found
 
     @cached_property
     def system(self) -> Equations:

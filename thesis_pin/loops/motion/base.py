@@ -23,18 +23,21 @@ BASE_PARTS = (*BASE_PLACE, *BASE_ANGLES, *BASE_QUATERNION)
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """A free root over time.
+    """A free root, or a frame, over time.
 
     Attributes:
-        turns: The columns of its orientation: three angles, or a quaternion.
+        turns: The columns of its orientation: three angles, or a quaternion; of a frame also one
+            angle, or none.
         base: Places and quaternions x, y, z, w, shape ``(n, 7)``.
         change: Their first and second derivatives, each ``(n, 7)``, as far as columns hold
             them; those of ``base``, whose quaternions then don't change sign.
+        place: The columns of its place.
     """
 
     turns: tuple[str, ...]
     base: Array
     change: tuple[Array | None, Array | None] = (None, None)
+    place: tuple[str, ...] = BASE_PLACE
 
     def derivatives(self, time: Array) -> tuple[Array, Array] | None:
         """Both derivatives, the second of a spline through the first if need be.

@@ -63,7 +63,7 @@ def within_resolution(
     if own.base is not None:
         values |= {
             name: own.base[order][0][:, k]
-            for k, part in enumerate(BASE_PLACE)
+            for k, part in _placed(flight)
             for order, name in enumerate((part, f"{part}_rate"))
             if name in samples.columns
         }
@@ -94,6 +94,11 @@ def itself(motion: JointMotion, rows: NDArray[np.intp] | slice = slice(None)) ->
     moving = (motion.position, motion.rate, motion.acceleration)
     position, rate, acceleration = (one[rows][None] for one in moving)
     return Moved(position, rate, acceleration, base)
+
+
+def _placed(flight: Flight | None) -> list[tuple[int, str]]:
+    """Numbers and names of the columns that hold a place."""
+    return [("xyz".index(name[-1]), name) for name in (flight.place if flight else ())]
 
 
 class _Work:
@@ -127,11 +132,13 @@ class _Work:
         order, word, moved = 0, "", np.column_stack([flight.base[:, :3], quaternion])
         if flight.change[0] is not None:
             order, word, moved = 1, "_rate", flight.change[0]
-        for k, name in enumerate(BASE_PLACE):
+        for k, name in _placed(flight):
             self.column(name + word, moved[:, k], joints + k, order)
+        if not flight.turns:
+            return
         first = len(BASE_PLACE)
         names = [name + word for name in flight.turns]
-        if flight.turns == BASE_QUATERNION:
+        if len(flight.turns) == len(BASE_QUATERNION):
             for k, name in enumerate(names, first):
                 self.column(name, moved[:, k], joints + k, order)
             return
