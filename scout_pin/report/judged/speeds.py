@@ -100,7 +100,7 @@ class Speeds:
             between = ((low + high) / 2, low * high)
             for first, second in ((low, low**2), between, (high, high**2)):
                 size = np.abs(constant + first * linear + second * square) + first * growth
-                passing |= (size > 1.0 - 1e-9).any(axis=1)
+                passing |= (size > 1.0 - 10 * TOLERANCES.mirror).any(axis=1)
         return np.flatnonzero(passing)
 
     def _growth(self, samples: np.ndarray, cause: Cause) -> np.ndarray:
@@ -130,7 +130,7 @@ class Speeds:
             [np.full(len(which), CAUSES.index(cause)), torques.samples[sample], joint], axis=1
         )
         bounds = (np.sqrt(np.maximum(x[sample], 0.0)) for x in (torques.low, torques.high))
-        return Intervals(start, end, source).within(*bounds)
+        return Intervals(_even(start), _even(end), source).within(*bounds)
 
     def balance(self, com: np.ndarray) -> Intervals:
         """Speeds at which the ZMP leaves the support polygon, or a single sole can't hold.
@@ -258,6 +258,7 @@ class _Bound:
 
     def take(self, some: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
         """Some samples more, and between which squares each holds."""
+        low, high = _even(low), _even(high)
         slow, fast = int(np.argmax(low)), int(np.argmin(high))
         if low[slow] > self.low:
             self.low, self.slow = float(low[slow]), int(some[slow])
@@ -267,10 +268,15 @@ class _Bound:
 
 def pruned(taken: Intervals) -> Intervals:
     """Without intervals that lie in one that starts before them."""
-    order = np.argsort(taken.start, kind="stable")
+    order = np.lexsort((*taken.source[:, :0:-1].T, taken.start))  # alike: the first sample
     reach = np.maximum.accumulate(taken.end[order])
     keep = order[np.concatenate([[True], reach[1:] > reach[:-1]])[: len(order)]]
     return Intervals(taken.start[keep], taken.end[keep], taken.source[keep])
+
+
+def _even(speeds: np.ndarray) -> np.ndarray:
+    """Without what only rounding tells apart, so that it doesn't choose what is named."""
+    return np.round(speeds / TOLERANCES.mirror) * TOLERANCES.mirror
 
 
 def stretches(taken: Intervals, low: float, high: float) -> list[Rest]:

@@ -52,7 +52,7 @@ class Trial:
         some, use, joint = self._tried[bad]
         while True:
             source = self._source(some, use, joint)
-            order = np.argsort(use)[-_BISECTED:]
+            order = np.argsort(use, kind="stable")[-_BISECTED:]
             top = some[order[use[order] > 1.0]]
             known, root = np.union1d(known, top), self._root(top, fine, bad, use.max())
             # A little to the fine side of it, and never beyond.
@@ -105,6 +105,7 @@ class Trial:
         """The samples, the most each uses of a servo (infinite if it can't stand), and which."""
         torque, broken = self.double.at(some, s)
         share = np.abs(torque) / self.stall + self.growth[some] * s
+        share = np.round(share / TOLERANCES.mirror) * TOLERANCES.mirror
         use = share.max(axis=1, initial=0.0)
         if self.stands:
             use = np.where(broken, np.inf, use)

@@ -251,6 +251,20 @@ def test_a_rate_that_jumps_by_little_sets_a_unit_from_which_it_is_none(scout, cy
     check_ends(scout, bent, gait.time_unit)
 
 
+@pytest.mark.parametrize("unit", [0.3, 0.7, 1.0, 1.6])
+def test_of_legs_and_times_that_mirror_each_other_the_left_and_the_first_are_named(scout, unit):
+    """A squat goes down and up alike; rounding named any of four servos and times."""
+    gait = load_gait(EXAMPLES / "squat.toml")
+    for samples in (61, 401):
+        found = scout_pin.gait_report(
+            scout, gait, samples=samples, time_unit=unit * gait.time_unit
+        ).time_units
+        limits = {one.below for one in found} | {one.above for one in found}
+        (servo,) = {limit for limit in limits if limit.cause == "servo"}
+        assert servo.joint == "left_knee_pitch"
+        assert servo.t < (gait.start + gait.end) / 2
+
+
 def test_what_happens_at_any_speed_leaves_no_interval(scout):
     report = scout_pin.gait_report(scout, load_gait(EXAMPLES / "walk.toml"), samples=41)
     lowered = report.motion.left_foot.position - (0.0, 0.0, 1e-3)
