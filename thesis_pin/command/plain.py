@@ -54,7 +54,9 @@ def paragraph(text: str, columns: int) -> str:
 def table(
     headings: Sequence[str], rows: Sequence[Sequence[str]], title: str, columns: int
 ) -> str | None:
-    """A table of one text column and columns of numbers; None if it is wider than that, or empty.
+    """A table of one text column and columns of numbers; None if that is left to rich.
+
+    It is where the table is too wide or empty, or a cell has a blank line.
 
     Args:
         headings: Of the columns; may have several lines.
@@ -68,7 +70,8 @@ def table(
     ]
     # A column of blanks at either edge, one beside each column and one between columns.
     whole = sum(widths) + 3 * len(widths) - 1
-    if not any(widths) or whole > columns:
+    blank = any(len(lines) > 1 and not all(lines) for row in cells for lines in row)
+    if blank or not any(widths) or whole > columns:
         return None
     made = [line.ljust(whole) for line in _wrapped(title, whole)] if title else []
     made.append(" " * whole)
