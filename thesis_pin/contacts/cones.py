@@ -28,6 +28,7 @@ from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import real
 from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.nonnegative import nonnegative
 
 FRICTION_EDGES = 8
 """Edges of the pyramid inside each corner's friction cone; it gives away at most
@@ -115,12 +116,10 @@ class Contact:
             Its size [N·m, forces scaled], zero if the wrench is admissible, and
             the wrench itself (unscaled), shape ``(6,)``.
         """
-        from scipy.optimize import nnls
-
         target = self.scale(vector("wrench", wrench, 6))
-        weights, size = nnls(self.rays.T, target)
+        weights, size = nonnegative(self.rays.T, target)
         missing = target - self.rays.T @ weights
-        return float(size), missing / np.repeat([self.length, 1.0], 3)
+        return size, missing / np.repeat([self.length, 1.0], 3)
 
     def friction_used(self, wrench: np.ndarray) -> np.ndarray:
         """Tangential over admissible force, ``(..., 6)`` → ``(...)``; NaN without load."""
