@@ -18,7 +18,8 @@ def nonnegative(matrix: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, flo
     Source: C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, chapter 23 (NNLS).
     """
     rows, count = matrix.shape
-    tiny = 10 * max(rows, count) * np.finfo(float).eps * float(np.abs(matrix).sum(axis=0).max())
+    size = float(np.abs(matrix).sum(axis=0).max()) * float(np.abs(target).max())
+    tiny = 10 * max(rows, count) * np.finfo(float).eps * size
     weights = np.zeros(count)
     used, barred = np.zeros((2, count), dtype=bool)
     gradient = matrix.T @ target
@@ -34,18 +35,19 @@ def nonnegative(matrix: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, flo
             if found.min() > 0:
                 break
             # Go towards it until the first weight is zero, and leave that one out.
-            falling = found <= 0
-            ratio = weights[some][falling] / (weights[some][falling] - found[falling])
+            falling = np.flatnonzero(found <= 0)
+            way = weights[some[falling]] - found[falling]
+            ratio = weights[some[falling]] / np.where(way > 0, way, 1.0)
             weights[some] += ratio.min() * (found - weights[some])
-            used[some[weights[some] <= tiny]] = False
-            weights[~used] = 0.0
+            used[some[falling[ratio == ratio.min()]]] = False
+            weights = np.where(used, np.maximum(weights, 0.0), 0.0)
             if not used[best]:
                 break
         barred[best] = not used[best]  # by rounding it lessens nothing; others may
         if not used[best]:
             continue
         barred[:] = False
-        weights[:] = 0.0
+        weights = np.zeros(count)
         weights[some] = found
         gradient = matrix.T @ (target - matrix @ weights)
     missing = target - matrix @ weights
