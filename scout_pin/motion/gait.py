@@ -21,7 +21,7 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, check_stance
 from scout_pin.motion.variants import RateJump, Rows, Variants
 from thesis_pin.errors import TrajectoryError, WrongShape
-from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.numeric.arrays import ascending, finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples
 from thesis_pin.numeric.interpolation import jumps
@@ -172,9 +172,9 @@ class Gait:
         else:  # their knots are where the fit wants them, and nothing happens there
             changes += [t for one in self.variants.changes for t in (one.start, one.end)]
         side = TOLERANCES.instant * (self.end - self.start)
-        near = np.concatenate([np.unique(changes) - side, np.unique(changes) + side])
+        near = np.concatenate([ascending(changes) - side, ascending(changes) + side])
         near = near[(near > self.start) & (near < self.end)]
-        times = np.union1d(np.linspace(self.start, self.end, samples), near)
+        times = ascending(np.linspace(self.start, self.end, samples), near)
         return times if self.variants is None else times[self.variants.known(times)]
 
     def rate_jumps(self, time_unit: float | None = None) -> list[RateJump]:
