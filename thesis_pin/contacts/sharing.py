@@ -10,6 +10,7 @@ import numpy as np
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.contacts.programme import ConeProgramme, Pair
 from thesis_pin.numeric.arrays import skew
+from thesis_pin.numeric.nonnegative import nonnegative
 
 
 def share_load(
@@ -138,9 +139,9 @@ class LoadSharing:
         if count:
             first = self.without_limits()
             limited = np.flatnonzero(self.programme.furthest(first) > 0)
-            first[limited], possible = self.programme.solve(limited)
+            found, possible = self.programme.solve(limited)
+            first[limited[possible]] = found[possible]
             for row in limited[~possible]:
-                first[row] = np.linalg.lstsq(self.matrix[row], self.target[row], rcond=None)[0]
                 violation[row] = _missing(
                     self.total[row], (self.maps[0][row], self.maps[1][row]), self.contacts
                 )
@@ -179,8 +180,6 @@ def _unit(contacts: tuple[Contact, Contact]) -> np.ndarray:
 
 def _missing(total: np.ndarray, maps: Pair, contacts: tuple[Contact, Contact]) -> float:
     """Size of the least wrench [N·m, forces scaled] two feet can't supply together."""
-    from scipy.optimize import nnls
-
     reference = maps[0]  # distances are measured about the first sole
     rays = [contacts[0].rays, contacts[1].rays @ np.linalg.inv(maps[1]).T @ reference.T]
-    return float(nnls(np.concatenate(rays).T, reference @ total)[1])
+    return nonnegative(np.concatenate(rays).T, reference @ total)[1]
