@@ -25,6 +25,7 @@ from pollard_pin.kinematics.geometry import (
     branch_labels,
     one_branch,
 )
+from pollard_pin.kinematics.regular import check_regular
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
@@ -223,13 +224,13 @@ class Pollard(ClosedRobot):
     def rate_jacobian(self, q: ArrayLike) -> np.ndarray:
         """Joint rates over the pose's rates at closed configurations, ``(..., 12, 6)``."""
         posture = self.posture(q)
-        rates.check_regular(self.geometry, posture.linkage)
+        check_regular(self.geometry, posture.linkage)
         return singularity.rate_jacobian(posture, self.pose(q))
 
     def actuation(self, q: ArrayLike) -> singularity.Actuation:
         """Condition and determinants of the six motors' Jacobian at ``(..., 12)``."""
         posture = self.posture(q)
-        rates.check_regular(self.geometry, posture.linkage)
+        check_regular(self.geometry, posture.linkage)
         return singularity.actuation(posture)
 
     def mobility(self, q: ArrayLike) -> loops.Mobility:

@@ -7,7 +7,6 @@ parts along the rods. One 2×2 system a sample, and no Jacobian.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +14,7 @@ import numpy as np
 from pollard_pin.kinematics.geometry import Geometry, SideNumbers
 from pollard_pin.kinematics.linkage import Linkage, Side, Three, from_arm, in_plane
 from thesis_pin.errors import SingularPose
-from thesis_pin.numeric.elementwise import Elementwise
+from thesis_pin.numeric.elementwise import Elementwise, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -51,7 +50,11 @@ class _Held(NamedTuple):
 
 
 def loads(
-    xp: Elementwise, geometry: Geometry, known: Linkage, tau: Sequence[Any] | np.ndarray, first: int = 0
+    xp: Elementwise,
+    geometry: Geometry,
+    known: Linkage,
+    tau: Numbers,
+    first: int = 0,
 ) -> Loads:
     """Torques and forces that leave every passive joint free.
 
@@ -66,7 +69,8 @@ def loads(
         SingularPose: The forces aren't determined at some sample.
     """
     for i, (side, numbers) in enumerate(zip(known.sides, geometry.sides, strict=True)):
-        if xp.some(abs(side.span) < TOLERANCES.near_singular * numbers.rod):
+        span: Any = side.span
+        if xp.some(abs(span) < TOLERANCES.near_singular * numbers.rod):
             raise SingularPose(
                 f"the rod of chain {i + 1} lies along the axis of θ65{i + 1}, which can't hold it"
             )

@@ -68,7 +68,7 @@ class LongDynamics(PollardDynamics):
         found = np.empty(self._joints.q.shape)
         for part in blocks(len(found)):
             some = self._joints.part(part)
-            found[part] = _tree_torques(self._robot, some.q, some.v, some.a)
+            _tree_torques(self._robot, some.q, some.v, some.a, found[part])
         return found
 
 
@@ -86,16 +86,18 @@ def tree_torques(robot: Pollard, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> np
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
     stack = {name: finite_array(name, x, None, 12) for name, x in (("q", q), ("v", v), ("a", a))}
-    return _tree_torques(robot, *together(**stack))
+    q, v, a = map(np.ascontiguousarray, together(**stack))
+    tau = np.empty(q.shape)
+    if len(tau):
+        _tree_torques(robot, q, v, a, tau)
+    return tau
 
 
 def _tree_torques(
-    robot: Pollard, q: np.ndarray, v: np.ndarray, a: np.ndarray, out: np.ndarray | None = None
-) -> np.ndarray:
+    robot: Pollard, q: np.ndarray, v: np.ndarray, a: np.ndarray, out: np.ndarray
+) -> None:
     """RNEA of contiguous stacks ``(n, 12)``, which Pinocchio reads as columns without a copy."""
-    tau = np.empty(q.shape) if out is None else out
-    pin.rneaInParallel(1, robot.pool, q.T, v.T, a.T, tau.T)
-    return tau
+    pin.rneaInParallel(1, robot.pool, q.T, v.T, a.T, out.T)
 
 
 def inverse_dynamics(
@@ -167,7 +169,8 @@ def inverse_dynamics_at(
             raise WrongShape("q", state[0].shape, f"{(*posture.shape, 12)}, as posture")
     q, v, a = (one.reshape(-1, 12) for one in state)
     found = _empty(len(q))
-    _fill(robot, q if posture is None else posture.angles.T, (q, v, a), found, check=posture is None)
+    angles = q if posture is None else posture.angles.T
+    _fill(robot, angles, (q, v, a), found, check=posture is None)
     return PollardDynamics(
         found.torque.reshape(*shape, 6),
         found.loop_force.reshape(*shape, 2, 3),
@@ -182,7 +185,7 @@ def _empty(count: int) -> PollardDynamics:
 def _fill(
     robot: Pollard,
     angles: np.ndarray,
-    state: tuple[np.ndarray, ...],
+    state: tuple[np.ndarray, np.ndarray, np.ndarray],
     found: PollardDynamics,
     first: int = 0,
     *,
@@ -199,16 +202,16 @@ def _fill(
         check: Whether to refuse what opens a ball joint.
     """
     geometry, torque, force = robot.geometry, found.torque, found.loop_force.reshape(-1, 6)
-    every = pieces(len(angles))
+    (q, v, a), every = state, pieces(len(angles))
     if every and every[0][0] is FLOATS:
-        _tree_torques(robot, *state, found.joint_force)
+        _tree_torques(robot, q, v, a, found.joint_force)
     for xp, start, part in every:
         if xp is not FLOATS:  # what stays in the cache is read again at once
-            _tree_torques(robot, *(one[part] for one in state), found.joint_force[part])
+            _tree_torques(robot, q[part], v[part], a[part], found.joint_force[part])
         known = Linkage.of(geometry, components(angles, part), xp)
         if check:
-            v, a = (components(one, part) for one in state[1:])
-            refuse_open_loops(xp, geometry, known, v, a, first + start)
+            rates, second = components(v, part), components(a, part)
+            refuse_open_loops(xp, geometry, known, rates, second, first + start)
         here = loads(xp, geometry, known, components(found.joint_force, part), first + start)
         put(torque, part, here.torque)
         put(force, part, [*here.loop_force[0], *here.loop_force[1]])

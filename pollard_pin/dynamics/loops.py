@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from pollard_pin.kinematics.geometry import Geometry, SideNumbers
-from pollard_pin.kinematics.linkage import Linkage, Side, Three, in_arm
+from pollard_pin.kinematics.linkage import Linkage, Three, in_arm
 from thesis_pin.errors import BadInput
-from thesis_pin.numeric.elementwise import Elementwise, Number, Numbers
+from thesis_pin.numeric.elementwise import Elementwise, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -46,9 +46,9 @@ def refuse_open_loops(
                 _refuse(gap, v, a, i, what, first)
 
 
-def _beyond(xp: Elementwise, square: Number, limit: float) -> bool:
+def _beyond(xp: Elementwise, square: Any, limit: float) -> bool:
     """Whether some square passes that of a limit, or is none: NaN compares false."""
-    return xp.some(xp.where(square <= limit * limit, False, True))
+    return xp.some(xp.where(square <= limit * limit, 0.0, 1.0) != 0.0)
 
 
 def _refuse(gap: Three, v: Numbers, a: Numbers, i: int, what: str, first: int) -> None:

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.linkage import Linkage, Side
-from thesis_pin.numeric.elementwise import Elementwise, Number, Numbers
+from thesis_pin.numeric.elementwise import Elementwise, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 _REACH, _SINGULAR = TOLERANCES.reach, TOLERANCES.singular
@@ -44,13 +44,13 @@ class Found(NamedTuple):
     sides: tuple[_Side, _Side]
 
     @property
-    def angles(self) -> tuple[Number, ...]:
+    def angles(self) -> tuple[Any, ...]:
         """Twelve angles [rad], those of the arctangent: −π may stand for π."""
         one, two = self.sides
         return (self.shoulder[0], *self.forearm[:2], *self.wrist[:3], *one[:3], *two[:3])
 
     @property
-    def cosines(self) -> tuple[Number, ...]:
+    def cosines(self) -> tuple[Any, ...]:
         """What the arccosines of the three chains are taken of."""
         one, two = self.sides
         return self.shoulder[1], one[3], two[3]
@@ -58,8 +58,8 @@ class Found(NamedTuple):
     @property
     def linkage(self) -> Linkage:
         """The mechanism in the axes of its own links."""
-        one, two = (Side(*side[4:]) for side in self.sides)
-        return Linkage(*self.shoulder[2:4], *self.forearm[2:], *self.wrist[3:], (one, two))
+        sides = tuple(Side(*side[4:]) for side in self.sides)
+        return Linkage._make((*self.shoulder[2:4], *self.forearm[2:], *self.wrist[3:], sides))
 
 
 class ClosedForm:
@@ -93,9 +93,8 @@ class ClosedForm:
     def every(self, branches: Sequence[Branch]) -> Iterator[Found]:
         """Several branches; what they share is computed once."""
         shoulders = {e0: self._shoulder(e0) for e0 in {branch.e0 for branch in branches}}
-        forearms = {
-            (e0, f0): self._forearm(shoulders[e0], f0) for e0, f0 in {branch[:2] for branch in branches}
-        }
+        pairs = {branch[:2] for branch in branches}
+        forearms = {(e0, f0): self._forearm(shoulders[e0], f0) for e0, f0 in pairs}
         wrists: dict[tuple[int, ...], _Wrist] = {}
         sides: dict[tuple[int, ...], _Side] = {}
         for branch in branches:
@@ -115,7 +114,7 @@ class ClosedForm:
         wx, wy, wz = self.W
         arm, dz = g.x_32, wz - g.z_10
         square = wx * wx + dz * dz
-        radius = xp.sqrt(square)
+        radius: Any = xp.sqrt(square)
         reached = (square + (wy * wy + g.excess)) / (2 * arm)
         lost, aside = radius <= _REACH, abs(radius - arm) <= _REACH
         if xp.some(lost | aside):
@@ -134,7 +133,9 @@ class ClosedForm:
         zero = size == 0.0
         return self.xp.where(zero, math.inf, value / self.xp.where(zero, 1.0, size))
 
-    def _free_shoulder(self, e0: int, radius: Any, reached: Any, lost: Any, aside: Any) -> _Shoulder:
+    def _free_shoulder(
+        self, e0: int, radius: Any, reached: Any, lost: Any, aside: Any
+    ) -> _Shoulder:
         """Where some W lies on the shoulder's axis, or as far from it as the elbow.
 
         The former leaves θ21 free; the latter, with the forearm along y, leaves θ43 free, and
@@ -222,7 +223,7 @@ class ClosedForm:
             c, s = p * dx - q * dy, p * dy + q * dx
             theta = xp.atan2(s, c)
         b, d = cb * across + sb * h, cb * h - sb * across
-        span = xp.sqrt(along * along + d * d)
+        span: Any = xp.sqrt(along * along + d * d)
         pitch = xp.atan2(-d, along) if f > 0 else xp.atan2(d, -along)
         if f < 0:
             span = -span

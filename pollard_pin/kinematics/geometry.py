@@ -171,9 +171,10 @@ class Geometry:
     @cached_property
     def sides(self) -> tuple[SideNumbers, SideNumbers]:
         """The side chains, number by number."""
-        columns = (self.y_10, self.z_10 + self.z_32, self.x_43, self.x_87)
-        columns += (self.x_43**2 - self.x_87**2, np.cos(self.beta_54), np.sin(self.beta_54))
-        one, two = np.column_stack([self.anchors, *columns]).tolist()
+        excess = self.x_43**2 - self.x_87**2
+        lengths = (self.y_10, self.z_10 + self.z_32, self.x_43, self.x_87, excess)
+        turn = (np.cos(self.beta_54), np.sin(self.beta_54))
+        one, two = np.column_stack([self.anchors, *lengths, *turn]).tolist()
         return SideNumbers(*one), SideNumbers(*two)
 
     @classmethod

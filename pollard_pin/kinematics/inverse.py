@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +24,7 @@ from numpy.typing import ArrayLike
 from pollard_pin.kinematics.closed_form import ClosedForm
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.linkage import Linkage
-from pollard_pin.kinematics.rates import singular
+from pollard_pin.kinematics.regular import singular
 from pollard_pin.kinematics.solutions import Solutions
 from thesis_pin.numeric.arrays import finite_array, spread, wrap
 from thesis_pin.numeric.elementwise import (
@@ -73,13 +74,11 @@ def inverse_kinematics(
     Raises:
         WrongShape, NotFinite: The pose isn't an array ``(..., 6)`` of finite numbers.
     """
-    if not (isinstance(pose, np.ndarray) and pose.dtype.char == "d" and pose.shape == (6,)):
+    if not _is_pose(pose):
         pose = finite_array("pose", pose, 6)
-    elif not math.isfinite(sum(pose.tolist())):  # a tenth of the time of NumPy's own check
-        pose = finite_array("pose", pose, 6)
-    if squeeze and reference is None and pose.ndim == 1 and len(branches) == 1:
-        if (found := _one(geometry, pose, branches[0])) is not None:
-            return found
+    single = squeeze and reference is None and pose.ndim == 1 and len(branches) == 1
+    if single and (found := _one(geometry, pose, branches[0])) is not None:
+        return found
     stack, count = pose.shape[:-1], pose.size // 6
     flat, free = pose.reshape(count, 6), None
     if reference is not None:
@@ -105,6 +104,13 @@ def inverse_kinematics(
     )
 
 
+def _is_pose(pose: ArrayLike) -> TypeGuard[np.ndarray]:
+    """Whether it is one pose as it should be: a tenth of the time of the full check."""
+    if not isinstance(pose, np.ndarray) or pose.dtype.char != "d" or pose.shape != (6,):
+        return False
+    return math.isfinite(sum(pose.tolist()))
+
+
 _CLOSES = 1.0 + TOLERANCES.reach
 _NONE = (math.nan,) * 12
 ZERO = (0.0,) * 12
@@ -118,7 +124,8 @@ def _one(geometry: Geometry, pose: np.ndarray, branch: Branch) -> Solutions | No
     """One pose on one branch by floats; None where it takes a closer look."""
     chunk = ClosedForm(FLOATS, geometry, pose.tolist(), ZERO)
     found = chunk.solve(branch)
-    angles, (one, two, three) = found.angles, found.cosines
+    angles: tuple[Any, ...] = found.angles
+    one, two, three = found.cosines
     if chunk.loose or geometry.turned or -math.pi in angles:
         return None
     if not (abs(one) <= _CLOSES and abs(two) <= _CLOSES and abs(three) <= _CLOSES):

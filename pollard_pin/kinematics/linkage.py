@@ -15,11 +15,11 @@ Source: Pollard thesis, 2.4, 2.7 (transformations), 3.2 (joint axes).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from pollard_pin.kinematics.geometry import Geometry
 from thesis_pin.numeric.elementwise import ARRAYS, Elementwise, Number, Numbers
-
 
 Three: TypeAlias = tuple[Any, Any, Any]
 """Components of a vector: floats, or arrays with the sample last."""
@@ -82,7 +82,7 @@ class Linkage(NamedTuple):
         )
         sides = []
         for i, (ax, ay, _, _, _, _, rod, _, cb, sb) in enumerate(geometry.sides):
-            (c, s), (c65, s65), (c76, s76) = (xp.cosine_sine(angles[6 + 3 * i + k]) for k in range(3))
+            (c, s), (c65, s65), (c76, s76) = map(xp.cosine_sine, angles[6 + 3 * i : 9 + 3 * i])
             span, b = rod * c76, rod * s76
             along, d = span * c65, -span * s65
             sides.append(
@@ -116,7 +116,7 @@ class Linkage(NamedTuple):
         )
 
 
-def in_plane(known: Linkage, vector: Three) -> Three:
+def in_plane(known: Linkage, vector: Sequence[Any]) -> Three:
     """A vector of the world along p, y, h."""
     x, y, z = vector
     return known.c * x - known.s * z, y, known.s * x + known.c * z

@@ -12,6 +12,7 @@ and need none of those.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,69 +27,14 @@ from pollard_pin.kinematics.linkage import (
     off_forearm,
     on_forearm,
 )
-from pollard_pin.kinematics.screws import Posture
-from thesis_pin.errors import SingularPose
+from pollard_pin.kinematics.regular import check_regular
 from thesis_pin.numeric.elementwise import (
-    ARRAYS,
-    Elementwise,
-    Number,
     Samples,
     components,
     pieces,
     put,
 )
 from thesis_pin.numeric.trajectory import BodyMotion
-from thesis_pin.tolerances import TOLERANCES
-
-def serial_sines(geometry: Geometry, known: Linkage) -> tuple[Number, ...]:
-    """Sines that vanish where the inverse kinematics loses rank.
-
-    sin θ43, cos θ54, sin θ1716 and, for each side chain, the sine between rod and the plane
-    of arm and vertical, and cos θ76i. Names: :attr:`Posture.SERIAL_NAMES`.
-    """
-    values = [known.s43, known.c54, known.bend]
-    for side, numbers in zip(known.sides, geometry.sides, strict=True):
-        values += [side.across / numbers.rod, side.span / numbers.rod]
-    return tuple(values)
-
-
-def singular(xp: Elementwise, geometry: Geometry, known: Linkage) -> bool:
-    """Whether rates don't exist at some posture."""
-    least = TOLERANCES.near_singular
-    return any(xp.some(abs(sine) < least) for sine in serial_sines(geometry, known))
-
-
-def check_regular(
-    geometry: Geometry,
-    known: Linkage,
-    time: np.ndarray | None = None,
-    first: int = 0,
-    xp: Elementwise = ARRAYS,
-) -> None:
-    """Refuse postures in which rates don't exist.
-
-    Args:
-        geometry: The robot's lengths.
-        known: The postures, of floats or of arrays ``(n,)``.
-        time: Their times [s], for the message.
-        first: Number of the first of them, for the message.
-        xp: For floats or for arrays.
-
-    Raises:
-        SingularPose: Names the first one and the direction that is lost.
-    """
-    if not singular(xp, geometry, known):
-        return
-    sines = np.column_stack([np.atleast_1d(one) for one in serial_sines(geometry, known)])
-    lost = np.abs(sines) < TOLERANCES.near_singular
-    sample, which = (int(k) for k in np.argwhere(lost)[0])
-    raise SingularPose(
-        f"rates don't exist: {Posture.SERIAL_NAMES[which]} (sine {sines[sample, which]:.1e})",
-        where=(f"pose {first + sample}" if first + sample or len(sines) > 1 else "pose")
-        + ("" if time is None else f" at t = {time[sample]:.6g} s"),
-        allowed=f"sines above {TOLERANCES.near_singular:.0e}",
-        remedy="Move the path away from this posture, or choose another branch",
-    )
 
 
 class _Tip(NamedTuple):
@@ -109,7 +55,9 @@ class _Spans(NamedTuple):
     arm_h: Any
 
 
-def joint_rates(geometry: Geometry, known: Linkage, velocity: Three, omega: Three) -> tuple[Any, ...]:
+def joint_rates(
+    geometry: Geometry, known: Linkage, velocity: Three, omega: Three
+) -> tuple[Any, ...]:
     """Rates of the twelve joints.
 
     Args:
@@ -127,7 +75,9 @@ def joint_rates(geometry: Geometry, known: Linkage, velocity: Three, omega: Thre
 class _Rates:
     """Rates of a motion, and what the accelerations need of them."""
 
-    def __init__(self, geometry: Geometry, known: Linkage, velocity: Three, omega: Three) -> None:
+    def __init__(
+        self, geometry: Geometry, known: Linkage, velocity: Sequence[Any], omega: Sequence[Any]
+    ) -> None:
         self.geometry, self.known = geometry, known
         upper, length = geometry.x_32, geometry.forearm
         self.spans = _Spans(
@@ -158,7 +108,7 @@ class _Rates:
             -lift - pitch * side.lever_p,
         )
 
-    def accelerations(self, acceleration: Three, alpha: Three) -> tuple[Any, ...]:
+    def accelerations(self, acceleration: Sequence[Any], alpha: Sequence[Any]) -> tuple[Any, ...]:
         """Accelerations of the twelve joints [rad/s²] for those of the tool."""
         geometry, known, spans = self.geometry, self.known, self.spans
         k_2, pitch, k_7, k_12, k_18, k_25 = self.chain
@@ -168,9 +118,7 @@ class _Rates:
         elbow_p, elbow_h = k_2 * self.lift, k_2 * self.push
         alpha = on_forearm(known, in_plane(known, alpha))
         pull = _plus(cross(alpha, known.tool), cross(self.omega, self.turned))
-        p, y, h = _less(
-            in_plane(known, acceleration), geometry.x_1918, off_forearm(known, pull)
-        )
+        p, y, h = _less(in_plane(known, acceleration), geometry.x_1918, off_forearm(known, pull))
         wrist = (
             p + (elbow_p + all_of_it * spans.forearm_p),
             y + bent * spans.forearm_y,
@@ -204,9 +152,7 @@ class _Rates:
         # As the turning arm sees it: Coriolis and centrifugal parts; the rod keeps its length.
         along = tip[0] + k_21 * (2 * before.across + k_21 * (numbers.arm + side.along))
         across = tip[1] + k_21 * (k_21 * side.across - 2 * before.along)
-        speed = (
-            before.along * before.along + before.across * before.across + before.up * before.up
-        )
+        speed = before.along * before.along + before.across * before.across + before.up * before.up
         first, moved = _arm(side, numbers, along, across, tip[2], speed)
         second, third = _rod(side, numbers, moved)
         growth = side.along * before.along + side.d * before.d
@@ -231,9 +177,11 @@ def motion_rates(
     Returns:
         Twelve rates [rad/s] and twelve accelerations [rad/s²].
     """
-    velocity, omega = (components(stack, piece) for stack in (tool.velocity, tool.omega))
+    velocity, omega, acceleration, alpha = (
+        (*components(stack, piece),)
+        for stack in (tool.velocity, tool.omega, tool.acceleration, tool.alpha)
+    )
     found = _Rates(geometry, known, velocity, omega)
-    acceleration, alpha = (components(stack, piece) for stack in (tool.acceleration, tool.alpha))
     return found.rates, found.accelerations(acceleration, alpha)
 
 

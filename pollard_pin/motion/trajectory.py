@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -12,7 +11,8 @@ from numpy.typing import ArrayLike
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.inverse import usual
 from pollard_pin.kinematics.linkage import Linkage
-from pollard_pin.kinematics.rates import check_regular, motion_rates, stack_rates
+from pollard_pin.kinematics.rates import motion_rates, stack_rates
+from pollard_pin.kinematics.regular import check_regular
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
@@ -89,21 +89,33 @@ def joint_trajectory(
     instance("robot", robot, Pollard, "pollard_pin.load()")
     instance("motion", motion, ToolMotion, "ToolPath.sample()")
     branch = DEFAULT_BRANCH if branch is None else one_branch(branch)
-    path = motion.path
     start = None if reference is None else vector("reference", reference, 12)
     joints = _solve(robot, motion, branch, start)
-    for k, joint, change in _suspicious(joints):
-        if path is None or _breaks(robot, path, motion.time[k : k + 2], branch):
-            raise SingularPose(
-                f"the path crosses a serial singularity: {JOINT_NAMES[joint]} "
-                f"({JOINT_SYMBOLS[joint]}) jumps by {np.degrees(change):.0f}°",
-                where=f"between t = {motion.time[k]:.6g} and {motion.time[k + 1]:.6g} s",
-                remedy="Move the path, turn the tool or choose another branch"
-                + ("" if path else "; if the samples are far apart, take more of them"),
-            )
+    check_steps(robot, motion.path, branch, joints)
     if joints.q is not joints.solutions.angles:  # which keep them
         _check_limits(robot, motion.time, joints.q)
     return joints
+
+
+def check_steps(
+    robot: Pollard, path: ToolPath | None, branch: Branch, joints: JointTrajectory
+) -> None:
+    """Refuse a motion that crosses a serial singularity between two samples.
+
+    Raises:
+        SingularPose: An angle changes much more than its rate says, and the path, looked at
+            more closely, breaks there.
+    """
+    time = joints.time
+    for k, joint, change in _suspicious(joints):
+        if path is None or _breaks(robot, path, time[k : k + 2], branch):
+            raise SingularPose(
+                f"the path crosses a serial singularity: {JOINT_NAMES[joint]} "
+                f"({JOINT_SYMBOLS[joint]}) jumps by {np.degrees(change):.0f}°",
+                where=f"between t = {time[k]:.6g} and {time[k + 1]:.6g} s",
+                remedy="Move the path, turn the tool or choose another branch"
+                + ("" if path else "; if the samples are far apart, take more of them"),
+            )
 
 
 def _solve(
@@ -124,7 +136,7 @@ def _solve(
     return LongSolvedTrajectory(robot, motion, q, solutions)
 
 
-_Solved = tuple[Solutions, Sequence[np.ndarray], bool]
+_Solved = tuple[Solutions, np.ndarray | tuple[np.ndarray, ...], bool]
 """Solutions; rates and accelerations ``(n, 12)``, none for very many samples; whether the angles
 neither jump by a turn nor leave the limits, or else may."""
 
