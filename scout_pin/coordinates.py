@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from thesis_pin.errors import BadInput, SingularPose
 from thesis_pin.numeric.arrays import finite_array, together
-from thesis_pin.numeric.rotations import euler_placement, euler_rate_matrix, quaternions
+from thesis_pin.numeric.rotations import euler_placement, euler_rate_matrix, quaternion_rows
 from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
@@ -98,23 +98,28 @@ def to_thesis(
     return position, velocity, np.concatenate([linear, bend, second[..., 6:]], axis=-1)
 
 
-def free_flyer_state(
-    torso: BodyMotion, joints: JointTrajectory
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+State = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root."""
+
+
+def free_flyer_state(torso: BodyMotion, joints: JointTrajectory, out: State | None = None) -> State:
     """Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root.
 
     Args:
         torso: Motion of the torso in the world.
         joints: The twelve joints' trajectory.
+        out: Arrays to write them into; None makes new ones.
     """
     count, turn = len(joints.q), rows(torso.rotation)
-    q, v, a = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
+    if out is None:
+        out = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
+    q, v, a = out
     linear, angular = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
     moving = into(turn, rows(torso.acceleration)) - cross(angular, linear)
-    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternions(torso.rotation), joints.q
+    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternion_rows(turn).T, joints.q
     v[:, :3], v[:, 3:6], v[:, 6:] = linear.T, angular.T, joints.v
     a[:, :3], a[:, 3:6], a[:, 6:] = moving.T, into(turn, rows(torso.alpha)).T, joints.a
-    return q, v, a
+    return out
 
 
 def _motion(q: np.ndarray, v: ArrayLike | None, a: ArrayLike | None) -> tuple[np.ndarray, ...]:

@@ -10,13 +10,15 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator, PPoly
+from scipy.interpolate import PchipInterpolator
 
 from pollard_pin.motion.path import PEAK, Sampled, Timing, ToolPath, Triple, driven, timing_law
 from pollard_pin.motion.samples import through_orientations
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice
+from thesis_pin.numeric.piecewise import Piecewise
+from thesis_pin.numeric.splines import hermite_quintic
 from thesis_pin.tolerances import TOLERANCES
 
 Speed = float | np.ndarray
@@ -124,7 +126,7 @@ def _steady(
     along: np.ndarray,
     speeds: np.ndarray,
     where: Callable[[int], str],
-) -> PPoly:
+) -> Piecewise:
     """The parameter of a curve over the time it takes at its speeds, without ramps.
 
     Of the quintic that has value, rate and acceleration at each part's ends.
@@ -140,7 +142,7 @@ def _steady(
     slowness = (1.0 / rate).reshape(points.shape) @ np.array([5, 8, 5]) / 18
     time = np.cumsum(width * slowness)
     first, second = _pace(curve, speed, places, along, where)
-    return _quintic(np.concatenate([[0.0], time]), places, first, second)
+    return hermite_quintic(np.concatenate([[0.0], time]), places, first, second)
 
 
 def _pace(
@@ -167,23 +169,6 @@ def _pace(
     return rate, rate * (change - value * stretch / size) / size
 
 
-def _quintic(x: np.ndarray, y: np.ndarray, first: np.ndarray, second: np.ndarray) -> PPoly:
-    """The piecewise quintic with given values and two derivatives at its knots, C²."""
-    h = np.diff(x)
-    rise = (y[1:] - y[:-1] - first[:-1] * h - second[:-1] * h**2 / 2) / h**3
-    slope = (first[1:] - first[:-1] - second[:-1] * h) / h**2
-    bend = (second[1:] - second[:-1]) / (2 * h)
-    coefficients = [
-        (6 * rise - 3 * slope + bend) / h**2,
-        (-15 * rise + 7 * slope - 2 * bend) / h,
-        10 * rise - 4 * slope + bend,
-        second[:-1] / 2,
-        first[:-1],
-        y[:-1],
-    ]
-    return PPoly(np.stack(coefficients), x)
-
-
-def _scaled(law: PPoly, whole: float, s: np.ndarray) -> Triple:
+def _scaled(law: Piecewise, whole: float, s: np.ndarray) -> Triple:
     """The parameter over s in [0, 1], which takes a whole time."""
     return law(s * whole), law(s * whole, 1) * whole, law(s * whole, 2) * whole**2

@@ -8,25 +8,17 @@ from pathlib import Path
 
 import numpy as np
 
-from pollard_pin.motion import naming
+from pollard_pin.coordinates import pose_rotation
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.tables.doubts import doubted
 from thesis_pin.tables.meaning import Chosen, chosen, known_names, reader, time_column, time_names
+from thesis_pin.tables.orientations import FORMS, check_order, oriented
 from thesis_pin.tables.reading import read_table
 from thesis_pin.tables.table import Column, Table
-from thesis_pin.tables.units import ANGLE, LENGTH, PLAIN, TIME, Unit, headings
+from thesis_pin.tables.units import LENGTH, TIME, Unit, headings
 
 _PLACE = ("x", "y", "z")
 _BARE = ("time_s", "x_m", "y_m", "z_m", "psi_rad", "theta_rad", "phi_rad")
-
-FORMS = {
-    ("psi", "theta", "phi"): ANGLE,
-    ("qx", "qy", "qz", "qw"): PLAIN,
-    ("rx", "ry", "rz"): ANGLE,
-    ("roll", "pitch", "yaw"): ANGLE,
-    ("a", "b", "c"): ANGLE,
-}
-"""Columns that hold an orientation: one of these sets, and the units of its columns."""
 
 SPEEDS = (
     Unit("_m_s"),
@@ -84,7 +76,7 @@ def read_poses(file: str | Path, euler: str | None = None) -> PoseTable:
     Args:
         file: The table.
         euler: Order of the angles in columns a, b, c or rx, ry, rz, see
-            :func:`pollard_pin.motion.naming.check_order`.
+            :func:`thesis_pin.tables.orientations.check_order`.
 
     Raises:
         BadInput: It can't be read, columns are missing or don't go together, or a cell isn't a
@@ -92,7 +84,7 @@ def read_poses(file: str | Path, euler: str | None = None) -> PoseTable:
         TrajectoryError: Time doesn't increase, or there are fewer than two rows.
     """
     if euler is not None:
-        naming.check_order(euler)
+        check_order(euler)
     table = read_table("path", file, bare=_BARE, means=reader(_KNOWN))
     columns, unused = chosen(table, _KNOWN, tuple(_UNITS), lenient=True)
     form = _form(table, columns)
@@ -109,7 +101,9 @@ def read_poses(file: str | Path, euler: str | None = None) -> PoseTable:
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} poses", where=table.file, allowed="at least 2")
     values = np.stack([column.values for column in orientation], axis=-1)
-    rotation, said = _oriented(table, form, values, euler)
+    rotation, said = oriented(table, form, values, euler)
+    if form[0] == "psi":
+        rotation = pose_rotation(np.pad(values, ((0, 0), (3, 0))))
     notes = [*table.dialect.notes, *asked, *said]
     if unused:
         names = ", ".join(sorted(unused, key=table.header.index))
@@ -151,57 +145,3 @@ def _form(table: Table, columns: Mapping[object, object] | Chosen) -> tuple[str,
             remedy="Leave all but one of them out",
         )
     return whole[0]
-
-
-def _oriented(
-    table: Table, form: tuple[str, ...], values: np.ndarray, euler: str | None
-) -> tuple[np.ndarray, list[str]]:
-    """Orientations of the columns of a form, and what has to be said of them."""
-    names = ", ".join(form)
-    kind = form[0]
-    if kind in ("rx", "a") and euler is not None:
-        if kind == "a":
-            return naming.from_euler(euler, values), [
-                f"{names} are read as {naming.said_order(euler, form)}"
-            ]
-        places = ["xyz".index(letter) for letter in euler.lower()]
-        if len({*places}) < 3:
-            raise BadInput(
-                f"{names} are angles about three axes, and the order {euler} takes one twice",
-                where=table.file,
-                remedy="Call the columns a, b and c, in the order of its letters",
-            )
-        said = naming.said_order(euler, [form[place] for place in places])
-        return naming.from_euler(euler, values[:, places]), [f"{names} are read as {said}"]
-    if euler is not None:
-        reason = f"are ours: {naming.OURS}" if kind == "psi" else "have no order to choose"
-        raise BadInput(
-            f"an order of angles is given ({euler}), and {names} {reason}",
-            where=table.file,
-            remedy="Leave the order out, or call the angles a, b and c in the order of its letters",
-        )
-    if kind == "psi":
-        return naming.from_angles(values), []
-    if kind == "qx":
-        off = naming.not_unit(values)
-        if off is not None:
-            raise BadInput(
-                f"the quaternion's length is {np.linalg.norm(values[off]):.6g}",
-                where=table.where(off),
-                allowed="unit quaternions, 1 up to rounding",
-                remedy="Columns qx, qy, qz, qw hold one, qw its real part",
-            )
-        return naming.from_quaternions(values), []
-    if kind == "roll":
-        return naming.from_euler("xyz", values), [f"{names} are read as Rz(yaw) Ry(pitch) Rx(roll)"]
-    if kind == "rx":
-        return naming.from_rotation_vectors(values), [
-            f"{names} are read as a rotation vector, its axis times its angle; "
-            "an order of angles (euler) reads them otherwise"
-        ]
-    raise BadInput(
-        f"nothing says in which order the angles {names} turn",
-        where=table.file,
-        allowed="an order as ZYX (euler), the first letter's angle in a",
-        remedy=f"psi, theta and phi are ours: {naming.OURS}",
-    )

@@ -30,7 +30,6 @@ import numpy as np
 from pydantic import Field
 
 from pollard_pin.coordinates import pose_from_placement, pose_rotation
-from pollard_pin.motion import naming
 from pollard_pin.motion.curves import arc, joined, line
 from pollard_pin.motion.feed import at_speed
 from pollard_pin.motion.orientation import turns
@@ -38,6 +37,13 @@ from pollard_pin.motion.path import PEAK, Timing, ToolPath
 from pollard_pin.motion.samples import through_orientations
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.model.specification import Key, Positive, Strict, Vector3, read_toml
+from thesis_pin.tables.orientations import (
+    check_order,
+    from_euler,
+    from_quaternions,
+    from_rotation_vectors,
+    not_unit,
+)
 
 _NAMED = ("orientation_deg", "quaternion", "rotation_vector")
 
@@ -65,7 +71,7 @@ class Oriented(Strict):
         given = [name for name in _NAMED if getattr(self, name) is not None]
         if len(given) > 1:
             yield (given[1],), f"is a second orientation beside {given[0]}", None
-        if self.quaternion is not None and naming.not_unit(np.array([self.quaternion])) is not None:
+        if self.quaternion is not None and not_unit(np.array([self.quaternion])) is not None:
             length = float(np.linalg.norm(self.quaternion))
             yield ("quaternion",), f"x, y, z, w of length {length:.6g}; it must be 1", None
 
@@ -76,11 +82,11 @@ class Oriented(Strict):
             angles = np.radians(self.orientation_deg)
             if euler is None:
                 return np.concatenate([place, angles])
-            rotation = naming.from_euler(euler, angles[None])[0]
+            rotation = from_euler(euler, angles[None])[0]
         elif self.quaternion is not None:
-            rotation = naming.from_quaternions(np.array([self.quaternion]))[0]
+            rotation = from_quaternions(np.array([self.quaternion]))[0]
         elif self.rotation_vector is not None:
-            rotation = naming.from_rotation_vectors(np.array([self.rotation_vector]))[0]
+            rotation = from_rotation_vectors(np.array([self.rotation_vector]))[0]
         else:
             return np.concatenate([place, before])
         return pose_from_placement(place, rotation, before)
@@ -137,7 +143,7 @@ class PathFile(Strict):
             yield (), "[[segments]] need a [start]", None
         if self.euler is not None:
             try:
-                naming.check_order(self.euler)
+                check_order(self.euler)
             except BadInput as error:
                 yield ("euler",), f"must be {error.allowed}", self.euler
         every: list[tuple[Key, Oriented]] = [

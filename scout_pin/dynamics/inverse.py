@@ -21,11 +21,11 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
-from thesis_pin.contacts.dynamics import ContactDynamics, LongContactDynamics
+from thesis_pin.contacts.dynamics import ContactDynamics, MotionContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import LONG, blocks
-from thesis_pin.numeric.trajectory import JointTrajectory
+from thesis_pin.numeric.elementwise import BLOCK, blocks
+from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
 
@@ -87,59 +87,85 @@ def inverse_dynamics(
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     count = len(joints.q)
-    shapes = {"torque": (12,), "wrench": (2, 6), "double_violation": ()}
-    if count < LONG:
-        shapes |= {"sole_wrench": (2, 6), "required": (6,)}
-    kept = {name: np.zeros((count, *shape)) for name, shape in shapes.items()}
+    torque, wrench = np.empty((count, 12)), np.zeros((count, 2, 6))
+    violation = np.full(count, np.nan)
+    room = _Room(robot, min(count, BLOCK))
     for part in blocks(count):
-        here = {name: values[part] for name, values in kept.items()}
-        _fill(here, robot, motion.part(part), joints.part(part))
-    if count < LONG:
-        return ContactDynamics(contacts=robot.contacts, support=motion.support, **kept)
-    return LongContactDynamics(
+        kept = torque[part], wrench[part], violation[part]
+        _fill(kept, robot, motion.part(part), joints.part(part), room)
+    return MotionContactDynamics(
+        torque=torque,
+        wrench=wrench,
         contacts=robot.contacts,
         support=motion.support,
+        double_violation=violation,
         base=motion.torso,
         feet=(motion.left_foot, motion.right_foot),
-        **kept,
     )
 
 
+class _Room:
+    """What Pinocchio reads and writes of a block, in memory that all blocks share."""
+
+    def __init__(self, robot: Scout, count: int) -> None:
+        self.pool = robot.pool
+        self.state = tuple(np.empty((count, size)) for size in (19, 18, 18))
+        self.found = np.empty((count, 18))
+
+    def forces(self, torso: BodyMotion, joints: JointTrajectory) -> np.ndarray:
+        """:func:`free_flying_forces` ``(n, 18)``, good until the next block is worked out."""
+        count = len(joints.q)
+        q, v, a = (one[:count] for one in self.state)
+        q, v, a = free_flyer_state(torso, joints, (q, v, a))
+        pin.rneaInParallel(1, self.pool, q.T, v.T, a.T, self.found[:count].T)
+        return self.found[:count]
+
+
 def _fill(
-    kept: dict[str, np.ndarray], robot: Scout, motion: GaitMotion, joints: JointTrajectory
+    kept: tuple[np.ndarray, np.ndarray, np.ndarray],
+    robot: Scout,
+    motion: GaitMotion,
+    joints: JointTrajectory,
+    room: _Room,
 ) -> None:
-    """Work out one block of samples and write it where it belongs, in arrays of zeros."""
-    forces = free_flying_forces(robot, *free_flyer_state(motion.torso, joints))
-    kept["double_violation"][:] = np.nan
-    torque, total = rows(forces[:, 6:]), rows(forces[:, :6])
-    shares = [np.where(motion.support[:, k], total, 0.0) for k in (0, 1)]
+    """Work out one block of samples and write torque, wrench and violation where they belong."""
+    torque, wrench, violation = kept
+    forces = room.forces(motion.torso, joints)
+    torque[:] = forces[:, 6:]
+    shares = [np.ascontiguousarray(forces[:, :6].T)] * 2
     double = np.flatnonzero(motion.support.all(axis=1))
     if double.size:
-        both, missing = share_load(robot, motion, joints, forces, double)
-        kept["double_violation"][double] = missing
+        both, violation[double] = share_load(robot, motion, joints, forces, double)
+        shares = [shares[0].copy() for _ in SIDES]
         for k in (0, 1):
             shares[k][:, double] = both[:, k].T
-    turn = rows(motion.torso.rotation)
+    back = rows(motion.torso.rotation).transpose(1, 0, 2)
     feet = (motion.left_foot, motion.right_foot)
     for k, (side, foot, mine) in enumerate(zip(SIDES, feet, _LEGS, strict=True)):
-        if not motion.support[:, k].any():
+        standing = _consecutive(motion.support[:, k])
+        if standing is None:
             continue
-        force, moment = shares[k][:3], shares[k][3:]
-        torque[mine] -= LegScrews(robot.legs[side], joints.q[:, mine]).torques(force, moment)
+        force, moment = shares[k][:3, standing], shares[k][3:, standing]
+        screws = LegScrews(robot.legs[side], joints.q[standing, mine])
+        for joint, taken in zip(range(12)[mine], screws.torques(force, moment), strict=True):
+            torque[standing, joint] -= taken
         # From the torso's axes to the world's, and from its origin to the sole's.
-        back = turn.transpose(1, 0, 2)
-        arm = rows(foot.position) - rows(motion.torso.position)
-        force = into(back, force)
-        moment = into(back, moment) - cross(arm, force)
-        for column, vector in ((0, force), (3, moment)):
-            kept["wrench"][:, k, column : column + 3] = vector.T
-            if "sole_wrench" in kept:
-                own = into(rows(foot.rotation), vector)
-                kept["sole_wrench"][:, k, column : column + 3] = own.T
-    kept["torque"][:] = torque.T
-    kept["torque"] += joint_friction(robot, joints.v, joints.resting)
-    if "required" in kept:
-        kept["required"][:] = forces[:, :6]
+        force, moment = into(back[:, :, standing], force), into(back[:, :, standing], moment)
+        arm = rows(foot.position[standing] - motion.torso.position[standing])
+        wrench[standing, k, :3] = force.T
+        wrench[standing, k, 3:] = (moment - cross(arm, force)).T
+    friction = robot.specification.assumptions.joint_friction
+    if friction.viscous or friction.coulomb:
+        torque += joint_friction(robot, joints.v, joints.resting)
+
+
+def _consecutive(yes: np.ndarray) -> slice | np.ndarray | None:
+    """Samples that say yes, as a slice if they follow each other; None if there are none."""
+    some = np.flatnonzero(yes)
+    if not some.size:
+        return None
+    first, last = int(some[0]), int(some[-1])
+    return slice(first, last + 1) if last - first + 1 == some.size else some
 
 
 def joint_friction(robot: Scout, v: np.ndarray, resting: np.ndarray | None = None) -> np.ndarray:

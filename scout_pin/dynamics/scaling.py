@@ -20,6 +20,7 @@ from scout_pin.dynamics.load_sharing import sharing_problem
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from thesis_pin.contacts.sharing import LoadSharing
+from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.numeric.inequalities import where_lines_hold
 from thesis_pin.numeric.trajectory import JointTrajectory
 
@@ -42,6 +43,10 @@ class Torques:
     square: np.ndarray
     low: np.ndarray
     high: np.ndarray
+
+    def part(self, some: Samples) -> Torques:
+        """Some of the samples."""
+        return Torques(**{name: values[some] for name, values in vars(self).items()})
 
     def at(self, some: np.ndarray, s: float) -> np.ndarray:
         """Torques of some of the samples at a speed, ``(k, 12)``."""
@@ -136,15 +141,12 @@ class DoubleSupport:
         """
         torque, broken = self.free.at(some, s), np.zeros(len(some), dtype=bool)
         constant, linear = self.friction
-        for row, k in enumerate(some):
-            low, high = self.free.low[k], self.free.high[k]
-            if low <= s**2 <= high:
-                continue
-            found = self.static.plus(self.dynamic, s**2, int(k)).least_torques()
-            if found is None:
-                broken[row] = True
-            else:
-                torque[row] = found + constant[k] + linear[k] * s
+        limited = np.flatnonzero((s**2 < self.free.low[some]) | (s**2 > self.free.high[some]))
+        rows = some[limited]
+        found, possible = self.static.plus(self.dynamic, s**2, rows).least_torques()
+        broken[limited] = ~possible
+        found += constant[rows] + linear[rows] * s
+        torque[limited[possible]] = found[possible]
         return torque, broken
 
 

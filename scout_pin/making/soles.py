@@ -44,7 +44,7 @@ def find_sole(
     """The sole of a foot at zero angles.
 
     A link that is fixed to the foot and has ``sole`` in its name gives the frame; without
-    one it is level with the torso, its origin below the ankle.
+    one, or if its axes don't lie in a face, it is level with the torso, its origin below the ankle.
 
     Args:
         robot: With its shapes.
@@ -58,28 +58,38 @@ def find_sole(
         ModelError: There is no shape, or its lowest face is none.
     """
     named = _named(robot.description, foot)
-    frame = np.eye(4)
-    frame[:3, :3], frame[:3, 3] = torso[:3, :3], ankle
+    level, frames = np.eye(4), []
+    level[:3, :3], level[:3, 3] = torso[:3, :3], ankle
     if named is not None:
-        own = named[1]
-        frame[:3, :3], frame[:3, 3] = _nearest_axes(own[:3, :3], torso[:3, :3]), own[:3, 3]
+        own = level.copy()
+        own[:3, :3], own[:3, 3] = _nearest_axes(named[1][:3, :3], torso[:3, :3]), named[1][:3, 3]
+        frames.append(own)
+    frames.append(level)
     if given is not None:
         left, right, heel, toes, height = given
-        if named is None:
-            frame[:3, 3] = frame[:3, 3] - height * frame[:3, 2]
+        frame = frames[0]
+        frame[:3, 3] = ankle - height * frame[:3, 2]
         corners = ((-left, -heel), (right, -heel), (right, toes), (-left, toes))
         return Sole(frame, corners, "as given")
     faces, source = _faces(robot, foot, named[0] if named else "")
-    inside = [(face - frame[:3, 3]) @ frame[:3, :3] for face in faces]
-    if not inside:
+    if not faces:
         raise ModelError(
             f"joint {shown(foot.joint.name)} carries no shape that says where the sole is",
             where=robot.description.where,
             remedy="Say it: --sole LEFT RIGHT HEEL TOES HEIGHT [m], from the point below the ankle",
         )
-    lowest = min(float(face[:, 2].min()) for face in inside)
-    frame[:3, 3] = frame[:3, 3] + lowest * frame[:3, 2]
-    return Sole(frame, _outline(inside, lowest, foot, robot.description.where), source)
+    for frame in frames:
+        inside = [(face - frame[:3, 3]) @ frame[:3, :3] for face in faces]
+        lowest = min(float(face[:, 2].min()) for face in inside)
+        if (outline := _outline(inside, lowest)) is not None:
+            frame[:3, 3] = frame[:3, 3] + lowest * frame[:3, 2]
+            return Sole(frame, outline, source)
+    raise ModelError(
+        f"the lowest shape of joint {shown(foot.joint.name)} is no level face at zero angles",
+        where=robot.description.where,
+        remedy="Say where the sole is: --sole LEFT RIGHT HEEL TOES HEIGHT [m], or fix a link "
+        "with 'sole' in its name to the foot, x and y in the sole",
+    )
 
 
 def _named(description: Description, foot: Turn) -> tuple[str, np.ndarray] | None:
@@ -145,10 +155,8 @@ def _of_shape(shape: pin.GeometryObject) -> list[np.ndarray]:
     return [face @ place.rotation.T + place.translation for face in faces]
 
 
-def _outline(
-    faces: Sequence[np.ndarray], lowest: float, foot: Turn, where: str
-) -> tuple[tuple[float, float], ...]:
-    """What of the faces lies level at the lowest height, as one polygon."""
+def _outline(faces: Sequence[np.ndarray], lowest: float) -> tuple[tuple[float, float], ...] | None:
+    """What of the faces lies level at the lowest height, as one polygon; None if nothing does."""
     from shapely import MultiPoint, Polygon, union_all
 
     size = max(float(np.ptp(np.concatenate(faces), axis=0).max()), 1e-6)
@@ -159,11 +167,6 @@ def _outline(
         found = MultiPoint(np.concatenate(level)).convex_hull
     corners = np.array(found.exterior.coords)[:-1] if found.area > 0.0 else np.empty((0, 2))
     if len(corners) < 3:
-        raise ModelError(
-            f"the lowest shape of joint {shown(foot.joint.name)} is no level face at zero angles",
-            where=where,
-            remedy="Say where the sole is: --sole LEFT RIGHT HEEL TOES HEIGHT [m], or fix a link "
-            "with 'sole' in its name to the foot, x and y in the sole",
-        )
+        return None
     # Meshes are held in single precision.
     return tuple((round(float(x), 7), round(float(y), 7)) for x, y in corners)

@@ -12,11 +12,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Literal, get_args
 
 import numpy as np
-from scipy.interpolate import PPoly
 
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError
-from thesis_pin.model.specification import Strict
+from thesis_pin.model.strict import Strict
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.tolerances import TOLERANCES
 
 Support = Literal["left", "right", "double"]
@@ -36,7 +36,9 @@ class Phase(Strict):
     support: Support
 
 
-def check_stance(name: str, feet: Mapping[str, Sequence[PPoly]], phases: Sequence[Phase]) -> None:
+def check_stance(
+    name: str, feet: Mapping[str, Sequence[Piecewise]], phases: Sequence[Phase]
+) -> None:
     """A foot that bears load must rest flat on the floor z = 0.
 
     Args:

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase
@@ -22,6 +21,7 @@ from thesis_pin.errors import TrajectoryError
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance, whole
 from thesis_pin.numeric.interpolation import join
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.tolerances import TOLERANCES
 
 What = Literal["position", "rate", "acceleration"]
@@ -221,7 +221,7 @@ def _variants(gait: Gait, steps: dict[str, float], times: int) -> Variants | Non
     )
 
 
-def _again(curve: PPoly, start: float, end: float, step: float, times: int) -> PPoly:
+def _again(curve: Piecewise, start: float, end: float, step: float, times: int) -> Piecewise:
     """The part of a curve between two times, repeated, moved by ``step`` each time."""
     knots = np.concatenate([[start], curve.x[(curve.x > start) & (curve.x < end)], [end]])
     order = len(curve.c)
@@ -232,7 +232,7 @@ def _again(curve: PPoly, start: float, end: float, step: float, times: int) -> P
     for k in range(times):
         moved = coefficients.copy()
         moved[-1] += k * step
-        pieces.append(PPoly(moved, knots + k * (end - start)))
+        pieces.append(Piecewise(moved, knots + k * (end - start)))
     return join(pieces)
 
 

@@ -10,21 +10,19 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field
-from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.model import Scout
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
-from scout_pin.motion.resolution.reading import gait_from_samples
-from scout_pin.motion.tables import read_gait_table
 from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
-from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.specification import Key, Positive, Strict, read_toml
+from thesis_pin.model.limits import LIMITS, Key
+from thesis_pin.model.shipped import read_shipped
+from thesis_pin.model.strict import Held, Positive, Strict
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.smoothing.stated import stated
 from thesis_pin.tables.reading import TABLES
 from thesis_pin.tolerances import TOLERANCES
@@ -43,9 +41,9 @@ class Segment(Strict):
     pass through the start of the next segment instead.
     """
 
-    t: Annotated[tuple[float, ...], Field(min_length=2)]
-    value: Annotated[tuple[float, ...], Field(min_length=1)] | None = None
-    polynomial: Annotated[tuple[float, ...], Field(min_length=1)] | None = None
+    t: Annotated[tuple[float, ...], Held(min_length=2)]
+    value: Annotated[tuple[float, ...], Held(min_length=1)] | None = None
+    polynomial: Annotated[tuple[float, ...], Held(min_length=1)] | None = None
     interpolation: Method | None = None
     until: float | None = None
 
@@ -84,7 +82,7 @@ class GaitFile(BranchKeys):
     torso: BodyCurves
     left_foot: BodyCurves
     right_foot: BodyCurves
-    phases: Annotated[tuple[Phase, ...], Field(min_length=1, max_length=LIMITS.phases)]
+    phases: Annotated[tuple[Phase, ...], Held(min_length=1, max_length=LIMITS.phases)]
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Phases follow each other; segments do, with as many values as nodes."""
@@ -189,13 +187,20 @@ def load_gait(
     if not isinstance(source, str | Path):
         raise BadInput(f"{source!r} isn't a gait", allowed=f"{', '.join(PRESETS)} or a path")
     if str(source) in PRESETS:
-        source = GAITS / f"{source}.toml"
+        file = read_shipped("gait", GaitFile, GAITS / f"{source}.toml")
+        return gait_of(file, interpolation)
     path = Path(source)
     if path.suffix.lower() in TABLES:
+        # With SciPy's splines, which no other gait needs.
+        from scout_pin.motion.resolution.reading import gait_from_samples
+        from scout_pin.motion.tables import read_gait_table
+
         samples = read_gait_table(path, robot)
         return gait_from_samples(samples, how, interpolation, time_unit or 1.0)
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
+    from thesis_pin.model.specification import read_toml
+
     return gait_of(read_toml("gait", GaitFile, path), interpolation)
 
 
@@ -221,7 +226,7 @@ def gait_of(file: GaitFile, interpolation: str | None = None) -> Gait:
     )
 
 
-def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[PPoly, ...]:
+def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[Piecewise, ...]:
     curves = []
     for coordinate in POSE_NAMES:
         suffix, scale = ("_mm", 1e-3) if coordinate in "xyz" else ("_deg", np.pi / 180)
@@ -235,17 +240,17 @@ def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[PPo
             curves.append(constant(start, end, curve * factor))
             continue
         made = _join_segments(curve, override, file.interpolation)
-        made = PPoly(made.c * factor, made.x)
+        made = Piecewise(made.c * factor, made.x)
         _refuse_jumps(made, f"gait {file.name!r}: {coordinate}")
         curves.append(made)
     return tuple(curves)
 
 
-def _refuse_jumps(curve: PPoly, where: str) -> None:
+def _refuse_jumps(curve: Piecewise, where: str) -> None:
     """Segments must meet; the thesis's own rounding leaves gaps below 0.06 mm."""
     sizes = np.abs(jumps(curve))
     if (sizes > TOLERANCES.seam).any():
-        k = int(np.argmax(sizes))
+        k = int(np.argmax(sizes >= sizes.max() * (1 - TOLERANCES.mirror)))  # of equals the first
         raise TrajectoryError(
             f"its value jumps by {sizes[k]:.3g}",
             where=f"{where} at t = {curve.x[k + 1]:g}",
@@ -254,8 +259,8 @@ def _refuse_jumps(curve: PPoly, where: str) -> None:
         )
 
 
-def _join_segments(curve: tuple[Segment, ...], override: str | None, default: str) -> PPoly:
-    pieces: list[PPoly] = []
+def _join_segments(curve: tuple[Segment, ...], override: str | None, default: str) -> Piecewise:
+    pieces: list[Piecewise] = []
     for k, segment in enumerate(curve):
         if segment.polynomial is not None:
             pieces.append(polynomial(segment.t[0], segment.t[1], segment.polynomial))
@@ -273,6 +278,6 @@ def _join_segments(curve: tuple[Segment, ...], override: str | None, default: st
             continue
         piece = interpolate(t, values, method)
         if segment.end > piece.x[-1]:
-            piece = PPoly(piece.c, np.append(piece.x[:-1], segment.end))
+            piece = Piecewise(piece.c, np.append(piece.x[:-1], segment.end))
         pieces.append(piece)
     return join(pieces)

@@ -16,7 +16,6 @@ from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, check_stance
@@ -27,6 +26,7 @@ from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples
 from thesis_pin.numeric.interpolation import jumps
 from thesis_pin.numeric.long import LongBody
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.numeric.rotations import euler_placement
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
@@ -110,7 +110,7 @@ class Gait:
     name: str
     source: str
     time_unit: float
-    curves: dict[str, tuple[PPoly, ...]]
+    curves: dict[str, tuple[Piecewise, ...]]
     phases: tuple[Phase, ...]
     notes: tuple[str, ...] = ()
     cycle: bool = False

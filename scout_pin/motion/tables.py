@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import PPoly
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.model import Scout
@@ -23,6 +22,7 @@ from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.interpolation import constant, interpolate
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.tables.doubts import doubted
 from thesis_pin.tables.meaning import chosen, known_names, text_names, time_column, time_names
 from thesis_pin.tables.reading import read_table
@@ -196,7 +196,7 @@ def phases_of(samples: GaitSamples) -> tuple[tuple[Phase, ...], tuple[str, ...],
     return phases, notes, labels
 
 
-def _curve(t: np.ndarray, values: np.ndarray, method: str) -> PPoly:
+def _curve(t: np.ndarray, values: np.ndarray, method: str) -> Piecewise:
     """A curve through samples; one that doesn't move stays a constant."""
     if np.ptp(values) > 0:
         return interpolate(t, values, method)

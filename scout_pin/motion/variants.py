@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PPoly
 
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.smoothing.resolution import Sampled
 
 
@@ -75,7 +75,7 @@ class Variants(Sampled):
         jumps: These jumps, their rates per unit of t.
     """
 
-    curves: dict[str, tuple[PPoly, ...]]
+    curves: dict[str, tuple[Piecewise, ...]]
     changes: tuple[Change, ...]
     hidden: tuple[tuple[float, float], ...]
     jumps: tuple[RateJump, ...]

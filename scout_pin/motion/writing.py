@@ -9,6 +9,7 @@ import numpy as np
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.gait import BODIES, Gait
 from thesis_pin.numeric.interpolation import interpolate
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.tables.units import Unit
 from thesis_pin.tables.writing import WrittenUnits, texts
 from thesis_pin.tolerances import TOLERANCES
@@ -64,11 +65,9 @@ def supports(gait: Gait, t: np.ndarray) -> list[str]:
     return found
 
 
-def _through(curve: object, t: np.ndarray) -> bool:
+def _through(curve: Piecewise, t: np.ndarray) -> bool:
     """Whether a curve is the spline with free ends through its own nodes."""
-    from scipy.interpolate import PPoly
-
-    if not isinstance(curve, PPoly) or len(curve.c) != 4 or not np.array_equal(curve.x, t):
+    if len(curve.c) != 4 or not np.array_equal(curve.x, t):
         return False
     again = interpolate(t, curve(t), "free")
     middle = t[:-1] + np.diff(t) / 2

@@ -241,6 +241,25 @@ def test_the_zero_moment_point_has_its_place_and_the_colour_of_its_margin(browse
         np.testing.assert_allclose(place, thesis.zmp[k], atol=2e-4)
 
 
+def test_a_value_that_rounds_to_zero_has_no_sign(browser, folder):
+    values = np.array([-4e-9, -0.0])
+    shown = scene.Scene(
+        title="still",
+        description="Nothing moves.",
+        time=np.linspace(0, 1, 2),
+        groups=(),
+        items=(),
+        readouts=(
+            scene.Readout("torque", values, "N·m", 3),
+            scene.Readout("speed", values - 0.25, "rad/s", 2),
+        ),
+    )
+    viewer.write_html(shown, folder / "still.html")
+    browser.watch(folder / "still.html")
+    texts = browser.run("[...document.querySelectorAll('dd')].map((e) => e.textContent)")
+    assert texts == ["0.000 N·m", "-0.25 rad/s"]
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_any_pinocchio_robot_can_be_shown(browser, folder, artefacts, name):
     model, visual, q = example_robot(name)

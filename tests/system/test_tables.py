@@ -113,3 +113,16 @@ def test_milliseconds_in_t_are_doubted_before_the_verdict(motion, tmp_path):
     assert done.returncode == 0, done.stderr
     assert json.loads((tmp_path / "b.json").read_text())["summary"]["doubts"] == []
     assert done.stderr.startswith("wrote ")
+
+
+@pytest.mark.parametrize("motion", [gait, path, motors])
+@pytest.mark.parametrize("lines", [0, 1, 2])
+def test_a_table_of_hardly_any_rows_is_refused_in_one_line(motion, lines, tmp_path):
+    command, words, columns = motion()
+    kept = csv_bytes(columns).splitlines(keepends=True)[:lines]
+    (tmp_path / "short.csv").write_bytes(b"".join(kept))
+    done = run(command, *words, tmp_path / "short.csv")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1
+    assert "short.csv" in done.stderr

@@ -16,6 +16,7 @@ from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import read_motion
+from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.model.pair import pair
 from thesis_pin.numeric.checks import shown
@@ -45,7 +46,7 @@ def torque(arguments: argparse.Namespace) -> ExitCode:
     def make(_: object) -> TorqueReport:
         robot = _loaded(arguments)
         with warned():
-            motion = read_motion(robot, arguments.motion, smooth=arguments.smooth)
+            motion = _motion(arguments, robot)
             x = arguments.precision
             pose = assembly(robot, arguments.pose, precision=x).q
             external = _external(arguments)
@@ -71,6 +72,17 @@ def _loaded(arguments: argparse.Namespace) -> ClosedRobot:
     root = pin.JointModelFreeFlyer() if arguments.free_flyer else None
     with warnings.catch_warnings(action="ignore", category=ModelWarning):  # the verbs say them
         return load(arguments.file, arguments.closures, root_joint=root)
+
+
+def _motion(arguments: argparse.Namespace, robot: ClosedRobot) -> JointMotion:
+    """The motion that the arguments name."""
+    return read_motion(
+        robot,
+        arguments.motion,
+        smooth=arguments.smooth,
+        frame=arguments.frame,
+        euler=arguments.euler,
+    )
 
 
 def _external(arguments: argparse.Namespace) -> dict[str, tuple[float, ...]]:

@@ -28,9 +28,21 @@ def _which_motion(words: Words) -> None:
         "motion",
         metavar="MOTION",
         help="CSV with t [s] and a column per motor or joint: NAME, NAME_rate, "
-        "NAME_acceleration (SI, or NAME_deg and the like)",
+        "NAME_acceleration (SI, or NAME_deg and the like); with --frame of x, y, z and the like",
     )
     add_smooth(words)
+    words.add_argument(
+        "--frame",
+        metavar="NAME",
+        help="the frame that MOTION leads through the world, its columns x, y, z and roll, pitch, "
+        "yaw or qx, qy, qz, qw: as many as the robot has freedoms (default: it leads joints)",
+    )
+    words.add_argument(
+        "--euler",
+        metavar="ORDER",
+        help="order of the angles in columns a, b, c (or about rx, ry, rz) of the frame: ZYX turns "
+        "about z, then the turned y, then the turned x; zyx about the fixed axes",
+    )
 
 
 def _which_wrenches(words: Words) -> None:

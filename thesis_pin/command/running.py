@@ -52,7 +52,7 @@ def targets(parsed: argparse.Namespace) -> Iterator[None]:
         parsed: The parsed arguments; ``out`` becomes a claim on its folder.
 
     Raises:
-        BadInput: Two outputs want standard output, or one would replace what is read.
+        BadInput: Two outputs want the same place, or one would replace what is read.
         CannotWrite: An output can't be written.
         Busy: Another run is at work for the folder.
     """
@@ -63,6 +63,7 @@ def targets(parsed: argparse.Namespace) -> Iterator[None]:
             remedy="Write one of them to a file",
         )
     sources = _sources(parsed)
+    named: dict[str, str] = {}
     for option in _FILES:
         if (target := _value(parsed, option)) is not None:
             if (source := _same(target, sources)) is not None:
@@ -71,6 +72,14 @@ def targets(parsed: argparse.Namespace) -> Iterator[None]:
                     remedy="Name another file",
                 )
             check_file(target)
+            path = os.path.realpath(target)
+            # A device or a pipe takes one after the other.
+            if path in named and (os.path.isfile(path) or not os.path.exists(path)):
+                raise BadInput(
+                    f"--{named[path]} and --{option} can't both be {target!r}",
+                    remedy="Name another file",
+                )
+            named[path] = option
     out = _value(parsed, "out")
     if out is None:
         yield

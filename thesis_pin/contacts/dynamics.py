@@ -10,7 +10,7 @@ import numpy as np
 
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.numeric.checks import element
-from thesis_pin.numeric.elementwise import Samples
+from thesis_pin.numeric.elementwise import LONG, Samples
 from thesis_pin.numeric.long import gathered
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.numeric.vectors import cross, into, rows
@@ -98,8 +98,10 @@ class ContactDynamics:
         return self.contacts[k].violation(self.part(np.array([sample])).sole_wrench[0, k])
 
 
-class LongContactDynamics(ContactDynamics):
-    """Of very many samples: what follows from the wrenches is worked out when asked for.
+class MotionContactDynamics(ContactDynamics):
+    """Of a known motion: what follows from the wrenches is worked out when asked for.
+
+    Of very many samples it isn't kept, see :mod:`thesis_pin.numeric.long`.
 
     Args:
         torque: Joint torques [N·m], shape ``(n, joints)``.
@@ -110,6 +112,12 @@ class LongContactDynamics(ContactDynamics):
         base: Motion of the robot's base.
         feet: Motions of both soles.
     """
+
+    def __new__(cls, **values: np.ndarray) -> ContactDynamics:  # type: ignore[misc]
+        """What ``dataclasses.replace`` makes of it: all is given, and nothing left to work out."""
+        if "sole_wrench" in values:
+            return ContactDynamics(**values)  # type: ignore[arg-type]
+        return super().__new__(cls)
 
     def __init__(
         self,
@@ -160,7 +168,13 @@ class LongContactDynamics(ContactDynamics):
         )
 
     def _whole(self, of: Callable[[ContactDynamics], np.ndarray]) -> np.ndarray:
+        if len(self.support) < LONG:
+            return of(self._full)
         return gathered(len(self.support), self.part, of)
+
+    @cached_property
+    def _full(self) -> ContactDynamics:
+        return self.part(slice(None))
 
     @property
     def sole_wrench(self) -> np.ndarray:

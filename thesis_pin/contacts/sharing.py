@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
-import daqp
 import numpy as np
 
 from thesis_pin.contacts.cones import Contact
+from thesis_pin.contacts.programme import ConeProgramme, Pair
 from thesis_pin.numeric.arrays import skew
-from thesis_pin.numeric.elementwise import blocks
-
-Pair = tuple[np.ndarray, np.ndarray]
-"""The same quantity of both feet."""
-
-_AT_ONCE = 128  # samples whose wrenches are held against some hundred facets
 
 
 def share_load(
@@ -89,28 +84,39 @@ class LoadSharing:
         target = np.concatenate([torques[0], torques[1] - carried], axis=1)
         return LoadSharing(self.contacts, self.matrix, target, self.maps, scaled)
 
-    def plus(self, other: LoadSharing, share: float, row: int) -> LoadSharing:
-        """One sample with a share of another load of the same poses added to its own."""
-        one = slice(row, row + 1)
+    def plus(self, other: LoadSharing, share: float, rows: np.ndarray) -> LoadSharing:
+        """Some samples with a share of another load of the same poses added to their own."""
         return LoadSharing(
             self.contacts,
-            self.matrix[one],
-            self.target[one] + share * other.target[one],
-            (self.maps[0][one], self.maps[1][one]),
-            self.total[one] + share * other.total[one],
+            self.matrix[rows],
+            self.target[rows] + share * other.target[rows],
+            (self.maps[0][rows], self.maps[1][rows]),
+            self.total[rows] + share * other.total[rows],
         )
 
     def torques(self, w: np.ndarray) -> np.ndarray:
         """Joint torques for given w, ``(n, 6)`` → ``(n, joints)``."""
         return np.asarray(self.target - np.einsum("nij,nj->ni", self.matrix, w))
 
+    @cached_property
+    def programme(self) -> ConeProgramme:
+        """The same problem by its normal equations."""
+        turned = np.swapaxes(self.matrix, 1, 2)
+        one, other = self.contacts
+        return ConeProgramme(
+            turned @ self.matrix,
+            np.matmul(turned, self.target[:, :, None])[:, :, 0],
+            self.maps,
+            self.total,
+            (one.facets, other.facets),
+        )
+
     def without_limits(self) -> np.ndarray:
         """The w with the least torques if the floor could do anything, ``(n, 6)``."""
-        turned, target = np.swapaxes(self.matrix, 1, 2), self.target[:, :, None]
         try:
-            found = np.linalg.solve(turned @ self.matrix, turned @ target)
+            found = np.linalg.solve(self.programme.hessian, self.programme.gradient[:, :, None])
         except np.linalg.LinAlgError:  # legs that are stretched alike
-            found = np.linalg.pinv(self.matrix) @ target
+            found = np.linalg.pinv(self.matrix) @ self.target[:, :, None]
         return np.asarray(found[:, :, 0])
 
     def beyond_limits(self, w: np.ndarray, part: slice) -> np.ndarray:
@@ -123,13 +129,7 @@ class LoadSharing:
         Returns:
             Shape ``(m, facets)``, at most zero inside.
         """
-        soles = [
-            np.einsum("nij,nj->ni", maps[part], load[part])
-            for maps, load in zip(self.maps, (w, self.total - w), strict=True)
-        ]
-        return np.concatenate(
-            [sole @ c.facets.T for sole, c in zip(soles, self.contacts, strict=True)], axis=1
-        )
+        return np.concatenate(self.programme.beyond(w[part], part), axis=1)
 
     def solve(self) -> tuple[np.ndarray, np.ndarray]:
         """What :func:`share_load` returns."""
@@ -137,29 +137,22 @@ class LoadSharing:
         violation, first = np.zeros(count), np.empty((count, 6))
         if count:
             first = self.without_limits()
-        programme = _Programme(self.contacts)
-        for row in self._limited(first):
-            found = programme.solve(self, row)
-            if found is None:
-                found = np.linalg.lstsq(self.matrix[row], self.target[row], rcond=None)[0]
+            limited = np.flatnonzero(self.programme.furthest(first) > 0)
+            first[limited], possible = self.programme.solve(limited)
+            for row in limited[~possible]:
+                first[row] = np.linalg.lstsq(self.matrix[row], self.target[row], rcond=None)[0]
                 violation[row] = _missing(
                     self.total[row], (self.maps[0][row], self.maps[1][row]), self.contacts
                 )
-            first[row] = found
         return np.stack([first, self.total - first], axis=1) / unit, violation
 
-    def least_torques(self) -> np.ndarray | None:
-        """Torques of a single sample ``(joints,)``; None if no pair of wrenches is admissible."""
-        found = _Programme(self.contacts).solve(self, 0)
-        return None if found is None else self.torques(found[None])[0]
+    def least_torques(self) -> tuple[np.ndarray, np.ndarray]:
+        """Torques ``(n, joints)``, and whether any pair of wrenches is admissible ``(n,)``.
 
-    def _limited(self, free: np.ndarray) -> list[int]:
-        """Samples whose least torques without limits take a sole beyond its cone."""
-        result: list[int] = []
-        for part in blocks(len(free), _AT_ONCE):
-            beyond = (self.beyond_limits(free, part) > 0).any(axis=1)
-            result += (part.start + np.flatnonzero(beyond)).tolist()
-        return result
+        Torques are NaN where none is.
+        """
+        found, possible = self.programme.solve(np.arange(len(self.total)))
+        return self.torques(found), possible
 
 
 def scaled_sole_maps(rotation: np.ndarray, sole: np.ndarray, length: float) -> np.ndarray:
@@ -177,29 +170,6 @@ def scaled_sole_maps(rotation: np.ndarray, sole: np.ndarray, length: float) -> n
     result[:, :3, :3] = length * rotation
     result[:, 3:, :3], result[:, 3:, 3:] = -rotation @ skew(sole), rotation
     return result
-
-
-class _Programme:
-    """The quadratic programme of one sample; its large arrays are filled anew each time."""
-
-    def __init__(self, contacts: tuple[Contact, Contact]) -> None:
-        self.one, self.other = contacts[0].facets, contacts[1].facets
-        count, self.first = len(self.one) + len(self.other), len(self.one)
-        self.normals, self.bounds = np.empty((count, 6)), np.zeros(count)
-        self.lower, self.sense = np.full(count, -1e30), np.zeros(count, dtype=np.int32)
-
-    def solve(self, problem: LoadSharing, row: int) -> np.ndarray | None:
-        """The w of one sample, or None if no pair of wrenches is admissible."""
-        matrix, target = problem.matrix[row], problem.target[row]
-        second_map, total = problem.maps[1][row], problem.total[row]
-        np.matmul(self.one, problem.maps[0][row], out=self.normals[: self.first])
-        np.matmul(self.other, -second_map, out=self.normals[self.first :])
-        np.matmul(self.other, -(second_map @ total), out=self.bounds[self.first :])
-        self.sense[:] = 0
-        solution, _, flag, _ = daqp.solve(
-            matrix.T @ matrix, -matrix.T @ target, self.normals, self.bounds, self.lower, self.sense
-        )
-        return solution if flag > 0 else None
 
 
 def _unit(contacts: tuple[Contact, Contact]) -> np.ndarray:

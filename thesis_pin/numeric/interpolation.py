@@ -1,20 +1,22 @@
 """Interpolation of tabulated curves as piecewise polynomials with exact derivatives.
 
-Every method returns a ``scipy.interpolate.PPoly``, so that values, rates and
-accelerations come from one object and users can go on with SciPy's tools.
+Every method returns a :class:`~thesis_pin.numeric.piecewise.Piecewise`, so that values, rates
+and accelerations come from one object; its ``ppoly`` is SciPy's, for all of SciPy's tools.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline, PPoly, make_interp_spline
 
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice
+from thesis_pin.numeric.piecewise import Piecewise
+from thesis_pin.numeric.splines import resting_cubic, resting_quintic, solvable
 from thesis_pin.tolerances import TOLERANCES
 
 MOST_COEFFICIENTS = 32
@@ -39,7 +41,7 @@ def _nodes(t: ArrayLike, value: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     return nodes, values
 
 
-def quadratic(t: ArrayLike, value: ArrayLike) -> PPoly:
+def quadratic(t: ArrayLike, value: ArrayLike) -> Piecewise:
     """Quadratic spline whose first piece is a straight line; C¹.
 
     Args:
@@ -60,40 +62,60 @@ def quadratic(t: ArrayLike, value: ArrayLike) -> PPoly:
         curvature = (rise[k] - slope * width[k]) / width[k] ** 2 if k else 0.0
         coefficients[:, k] = curvature, slope, values[k]
         slope += 2 * curvature * width[k]
-    return PPoly(coefficients, nodes)
+    return Piecewise(coefficients, nodes)
 
 
-def linear(t: ArrayLike, value: ArrayLike) -> PPoly:
+def linear(t: ArrayLike, value: ArrayLike) -> Piecewise:
     """Straight lines between the nodes; C⁰, so rates jump at every node."""
     nodes, values = _nodes(t, value)
-    return PPoly(np.stack([np.diff(values) / np.diff(nodes), values[:-1]]), nodes)
+    return Piecewise(np.stack([np.diff(values) / np.diff(nodes), values[:-1]]), nodes)
 
 
-def cubic(t: ArrayLike, value: ArrayLike) -> PPoly:
+def cubic(t: ArrayLike, value: ArrayLike) -> Piecewise:
     """Cubic spline, C², at rest at both ends."""
-    return CubicSpline(*_nodes(t, value), bc_type="clamped")
+    nodes, values = _nodes(t, value)
+    if solvable(nodes):
+        return resting_cubic(nodes, values)
+    from scipy.interpolate import CubicSpline
+
+    return _ours(CubicSpline(nodes, values, bc_type="clamped"))
 
 
-def free(t: ArrayLike, value: ArrayLike) -> PPoly:
+def free(t: ArrayLike, value: ArrayLike) -> Piecewise:
     """Cubic spline through samples of a motion that goes on at both ends (not-a-knot), C²."""
-    return CubicSpline(*_nodes(t, value), bc_type="not-a-knot")
+    from scipy.interpolate import CubicSpline
+
+    return _ours(CubicSpline(*_nodes(t, value), bc_type="not-a-knot"))
 
 
-def quintic(t: ArrayLike, value: ArrayLike) -> PPoly:
+def quintic(t: ArrayLike, value: ArrayLike) -> Piecewise:
     """Quintic spline, C⁴, with zero rate and acceleration at both ends."""
+    nodes, values = _nodes(t, value)
+    if solvable(nodes):
+        return resting_quintic(nodes, values)
+    from scipy.interpolate import PPoly, make_interp_spline
+
     ends = [(1, 0.0), (2, 0.0)]
-    return PPoly.from_spline(make_interp_spline(*_nodes(t, value), k=5, bc_type=(ends, ends)))
+    return _ours(PPoly.from_spline(make_interp_spline(nodes, values, k=5, bc_type=(ends, ends))))
 
 
-def free_quintic(t: ArrayLike, value: ArrayLike) -> PPoly:
+def free_quintic(t: ArrayLike, value: ArrayLike) -> Piecewise:
     """Quintic spline through samples of a motion that goes on at both ends, C⁴; cubic below six."""
     nodes, values = _nodes(t, value)
     if len(nodes) < 6:
         return free(nodes, values)
-    return PPoly.from_spline(make_interp_spline(nodes, values, k=5))
+    from scipy.interpolate import PPoly, make_interp_spline
+
+    return _ours(PPoly.from_spline(make_interp_spline(nodes, values, k=5)))
 
 
-METHODS: dict[str, Callable[[ArrayLike, ArrayLike], PPoly]] = {
+def _ours(curve: Any) -> Piecewise:
+    """One of SciPy's splines as one of ours, without its pieces of no length."""
+    lasts = np.diff(curve.x) > 0
+    return Piecewise(curve.c[:, lasts], np.append(curve.x[:-1][lasts], curve.x[-1]))
+
+
+METHODS: dict[str, Callable[[ArrayLike, ArrayLike], Piecewise]] = {
     "linear": linear,
     "quadratic": quadratic,
     "cubic": cubic,
@@ -103,7 +125,7 @@ METHODS: dict[str, Callable[[ArrayLike, ArrayLike], PPoly]] = {
 """Methods by the names used in files and on the command line."""
 
 
-def interpolate(t: ArrayLike, value: ArrayLike, method: str = "quadratic") -> PPoly:
+def interpolate(t: ArrayLike, value: ArrayLike, method: str = "quadratic") -> Piecewise:
     """Curve through nodes by a named method.
 
     Args:
@@ -123,15 +145,15 @@ def interpolate(t: ArrayLike, value: ArrayLike, method: str = "quadratic") -> PP
     return METHODS[method](t, value)
 
 
-def constant(start: float, end: float, value: float) -> PPoly:
+def constant(start: float, end: float, value: float) -> Piecewise:
     """A curve that stays at one value."""
-    return PPoly(np.array([[value]]), np.array([start, end]))
+    return Piecewise(np.array([[value]]), np.array([start, end]))
 
 
-def polynomial(start: float, end: float, coefficients: Sequence[float]) -> PPoly:
+def polynomial(start: float, end: float, coefficients: Sequence[float]) -> Piecewise:
     """One piece given by its coefficients in t itself, highest power first.
 
-    The theses print their splines that way; PPoly counts from a piece's start.
+    The theses print their splines that way; ours count from a piece's start.
     """
     if len(coefficients) > MOST_COEFFICIENTS:
         raise TrajectoryError(
@@ -145,10 +167,10 @@ def polynomial(start: float, end: float, coefficients: Sequence[float]) -> PPoly
             f"a polynomial overflows between t = {start:g} and {end:g}",
             remedy="Give coefficients and times of usual size",
         )
-    return PPoly(np.atleast_1d(np.poly1d(shifted).coeffs)[:, None], np.array([start, end]))
+    return Piecewise(np.atleast_1d(np.poly1d(shifted).coeffs)[:, None], np.array([start, end]))
 
 
-def jumps(curve: PPoly, order: int = 0) -> np.ndarray:
+def jumps(curve: Piecewise, order: int = 0) -> np.ndarray:
     """Jumps of a curve, or of a derivative, at its inner knots, shape ``(knots − 2,)``."""
     derivative = curve.derivative(order) if order else curve
     width = np.diff(curve.x)[:-1]
@@ -158,7 +180,7 @@ def jumps(curve: PPoly, order: int = 0) -> np.ndarray:
     return np.asarray(derivative(curve.x[1:-1]) - before)
 
 
-def join(pieces: Sequence[PPoly]) -> PPoly:
+def join(pieces: Sequence[Piecewise]) -> Piecewise:
     """Curves that follow each other, as one piecewise polynomial.
 
     Args:
@@ -173,4 +195,4 @@ def join(pieces: Sequence[PPoly]) -> PPoly:
         for piece in pieces
     ]
     knots = np.concatenate([pieces[0].x, *(piece.x[1:] for piece in pieces[1:])])
-    return PPoly(np.concatenate(padded, axis=1), knots)
+    return Piecewise(np.concatenate(padded, axis=1), knots)

@@ -139,14 +139,22 @@ def euler_rate_matrix(axes: str, angles: np.ndarray) -> np.ndarray:
 
 def quaternions(matrix: np.ndarray) -> np.ndarray:
     """Unit quaternions (x, y, z, w) of rotations: ``(..., 3, 3)`` → ``(..., 4)``."""
-    r = np.moveaxis(matrix, (-2, -1), (0, 1))
+    return np.moveaxis(quaternion_rows(np.moveaxis(matrix, (-2, -1), (0, 1))), 0, -1)
+
+
+def quaternion_rows(r: np.ndarray) -> np.ndarray:
+    """:func:`quaternions` with components first: ``(3, 3, ...)`` → ``(4, ...)``."""
     trace = r[0, 0] + r[1, 1] + r[2, 2]
     if not (trace > 0).all():
         from scipy.spatial.transform import Rotation
 
+        matrix = np.moveaxis(r, (0, 1), (-2, -1))
         flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
-        return np.asarray(flat.reshape(*matrix.shape[:-2], 4))
+        return np.asarray(flat.T.reshape(4, *r.shape[2:]))
     # No turn beyond 120°, the usual case: w is at least 1/2, and the rest follow from it.
     w = np.sqrt(1.0 + trace) / 2
-    x, y, z = np.stack([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]]) / (4 * w)
-    return np.stack([x, y, z, w], axis=-1)
+    found, share = np.empty((4, *trace.shape)), 0.25 / w
+    found[0], found[1], found[2] = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+    found[:3] *= share
+    found[3] = w
+    return found

@@ -34,8 +34,10 @@ def quantum(cells: Sequence[str], values: Array) -> float:
 
     Returns:
         The step; 0.0 where a value that never changes says nothing of it, as 0, 0.0 or 0.03
-        do and 0.030 doesn't.
+        do and 0.030 doesn't, or where there is no row.
     """
+    if not cells:
+        return 0.0
     every = max(1, len(cells) // _LINES)
     looked, sizes = cells[::every], np.abs(values[::every])
     places = np.array([Decimal(cell).as_tuple().exponent for cell in looked], dtype=int)

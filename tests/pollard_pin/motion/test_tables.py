@@ -8,9 +8,9 @@ from scipy.spatial.transform import Rotation
 
 import pollard_pin
 from pollard_pin.motion.files import load_path
-from pollard_pin.motion.naming import from_euler, said_order
 from pollard_pin.motion.tables import read_poses
 from thesis_pin.errors import BadInput, ModelWarning, SpecificationError, TrajectoryError
+from thesis_pin.tables.orientations import from_euler, said_order
 
 FORMS = ("psi", "quaternion", "negated", "rotation vector", "rpy", "ZYX", "ZYZ", "xyz")
 

@@ -140,7 +140,9 @@ class Another:
             self.parts.append((name, number, place, sign * turn.T @ own, sign))
         self.frames = frames
 
-    def text(self, sole="box"):
+    def text(self, sole="box", turn=None):
+        """Its URDF; ``turn`` turns the frames of the links that are called soles."""
+        turned = pin.SE3.Identity() if turn is None else pin.SE3(turn, np.zeros(3))
         model, spec = self.robot.model, self.robot.specification
         yield '<robot name="another">'
         yield from self.body(1, "base")
@@ -163,6 +165,7 @@ class Another:
             corners = np.array(spec.leg(side).sole)
             low, high = corners.min(axis=0), corners.max(axis=0)
             middle = pin.SE3(np.eye(3), np.array([*(low + high) / 2, 0.002]))
+            place, middle = place * turned, turned.inverse() * middle
             size = words([*(high - low), 0.004])
             box = f'<geometry><box size="{size}"/></geometry>'
             shape = f"<collision>{origin(middle)}{box}</collision>" if sole == "box" else ""
@@ -375,6 +378,34 @@ def test_feet_without_shapes_and_joints_without_servos_are_asked_for(tmp_path, r
         from_urdf(path, sole=SOLE)
     found = from_urdf(path, sole=SOLE, servo=(2.5, 6.0))
     assert found.specification.servos["servo_1"].stall_torque == 2.5
+
+
+@pytest.mark.parametrize("name", [None, "lopsided"])
+def test_frames_of_sole_links_may_be_turned_at_will(name, tmp_path, rng):
+    for _ in range(5):
+        another = Another(specification(name), rng)
+        path = written(tmp_path / "turned.urdf", another.text(turn=random_rotation(rng)))
+        plain = written(tmp_path / "plain.urdf", another.text())
+        found = [scout_pin.load(from_urdf(file).specification) for file in (plain, path)]
+        for side in SIDES:
+            feet = [robot.neutral_feet()[side] for robot in found]
+            soles = [
+                robot.sole_vertices(side, foot) for robot, foot in zip(found, feet, strict=True)
+            ]
+            for end in (np.min, np.max):
+                np.testing.assert_allclose(end(soles[1], axis=0), end(soles[0], axis=0), atol=1e-6)
+            assert abs(feet[1][2, 2] - 1.0) < 1e-12
+
+
+def test_what_is_said_of_soles_counts_from_below_the_ankle_whatever_links_are_called(tmp_path, rng):
+    another = Another(Specification.read(), rng)
+    path = written(tmp_path / "named.urdf", another.text())
+    found = [
+        scout_pin.load(from_urdf(path, sole=(*SOLE[:4], h)).specification) for h in (0.02, 0.05)
+    ]
+    for side in SIDES:
+        low, lower = (robot.neutral_feet()[side] for robot in found)
+        np.testing.assert_allclose(low[:3, 3] - lower[:3, 3], [0.0, 0.0, 0.03], atol=1e-12)
 
 
 def test_axes_rounded_to_four_digits_are_taken_and_said(tmp_path, rng):

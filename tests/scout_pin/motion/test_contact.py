@@ -167,3 +167,17 @@ def test_a_gait_that_stands_throughout_has_one_phase():
     phases, cleared = changes(np.arange(5.0), rows("ddddd"), (still, still))
     assert phases == [(0, 4, "double")]
     assert cleared.all()
+
+
+@pytest.mark.parametrize(("off", "lands"), [(4e-5, 0.8), (1.5e-4, 0.9)])
+def test_a_row_that_finds_the_foot_beside_its_place_is_one_too_early(off, lands):
+    """Half of the tenth of a millimetre that a stance may move is left to curves between rows."""
+    t = np.arange(13) / 10
+    standing = np.array([(True, k >= 8) for k in range(13)])
+    left, right = np.zeros((2, 13, 6))
+    right[:8, 2] = 0.01
+    right[8, 2] = off
+    phases, stands = changes(t, standing, (left, right))
+    assert [support for _, _, support in phases] == ["left", "double"]
+    assert phases[1][0] == pytest.approx(lands)
+    assert bool(stands[8, 1]) == (lands == 0.8)

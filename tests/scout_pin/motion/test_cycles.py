@@ -13,6 +13,7 @@ from thesis_pin.errors import TrajectoryError
 from thesis_pin.numeric.interpolation import polynomial
 
 from ..conftest import EXAMPLES
+from .test_contact import write_log
 
 POSE = ("x", "y", "z", "pitch", "roll", "yaw")
 
@@ -111,3 +112,28 @@ def test_rates_that_do_not_fit_jump_in_the_repeated_gait(walk):
     (jump,) = repeat_gait(bent, 2).rate_jumps()
     assert (jump.t, jump.body, jump.coordinate) == (30.0, "torso", "x")
     assert jump.size == pytest.approx(2e-3 / 30 / 0.2)
+
+
+def sampled(path, gait, rate, digits):
+    """The gait as a table of rounded samples, read again."""
+    t = np.minimum(np.arange(0.0, 6.0 + 1e-9, 1.0 / rate) / gait.time_unit, gait.end)
+    return load_gait(write_log(path, gait, t, gait.support(t), digits))
+
+
+@pytest.mark.parametrize(("rate", "digits"), [(60, 4), (100, 3), (100, 5)])
+def test_what_rounding_leaves_open_is_no_gap(walk, tmp_path, rate, digits):
+    found = closure(sampled(tmp_path / "log.csv", walk, rate, digits))
+    assert found.gaps == ()
+    np.testing.assert_allclose(found.displacement, [0.0, 0.02], atol=10.0**-digits)
+
+
+def test_a_gap_wider_than_what_rounding_leaves_open_is_one_at_every_seam(walk, tmp_path):
+    """2 cm over a cycle's 6 s: what its rate changes by from end to start."""
+    bent = changed(walk, "torso", "x", polynomial(0, 30, [1e-2 / 30**2, -1e-2 / 30, 0.0]))
+    log = sampled(tmp_path / "log.csv", bent, 100, 5)
+    (gap,) = [gap for gap in closure(log).gaps if gap.what == "rate"]
+    assert gap.size == pytest.approx(0.02 / 6, rel=0.01)
+    jumps = repeat_gait(log, 3).rate_jumps()
+    assert [(jump.body, jump.coordinate) for jump in jumps] == [("torso", "x")] * 2
+    assert [jump.t for jump in jumps] == pytest.approx([6.0, 12.0])
+    assert [jump.size for jump in jumps] == pytest.approx([0.02 / 6] * 2, rel=0.01)

@@ -180,3 +180,46 @@ def test_a_foot_that_slides_on_the_floor_is_asked_for(tmp_path):
     file = write(tmp_path / "a.csv", {"t": np.arange(21) / 10}, named(angles))
     with pytest.raises(TrajectoryError, match="one slides: which foot stands can't be told"):
         scout_pin.load_gait(file, robot=robot)
+
+
+def test_the_world_is_midway_between_the_first_soles_and_along_their_mean_heading(tmp_path):
+    """Soles turned by 0.2 and −0.06 rad in a world elsewhere: theirs has neither."""
+    robot = scout_pin.load()
+    torso = np.eye(4)
+    torso[:3, 3] = 0.3, 0.2, 0.22
+    feet = {}
+    for side, x, y, yaw in (("left", 0.256, 0.16, 0.2), ("right", 0.344, 0.17, -0.06)):
+        foot = np.eye(4)
+        foot[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
+        foot[:2, 3] = x, y
+        feet[side] = np.tile(foot, (6, 1, 1))
+    angles = robot.inverse_kinematics(torso, feet["left"], feet["right"])
+    columns = {"t": np.arange(6) / 10, "support": ["double"] * 6, **named(angles)}
+    gait = scout_pin.load_gait(write(tmp_path / "a.csv", columns), robot=robot)
+    left, right, body = (
+        np.array([curve(0.0) for curve in gait.curves[name]])
+        for name in ("left_foot", "right_foot", "torso")
+    )
+    np.testing.assert_allclose((left + right)[[0, 1, 5]], 0.0, atol=1e-9)
+    assert left[5] - right[5] == pytest.approx(0.26, abs=1e-9)
+    assert body[5] == pytest.approx(-0.07, abs=1e-9)
+    # The mean heading is 0.07 rad; what the torso is beside the soles' middle turns back by it.
+    away = np.array([0.3 - 0.3, 0.2 - 0.165])
+    turned = [[np.cos(0.07), np.sin(0.07)], [-np.sin(0.07), np.cos(0.07)]] @ away
+    np.testing.assert_allclose(body[:3], [*turned, 0.22], atol=1e-9)
+
+
+@pytest.mark.parametrize("step", [0.01, 0.1])
+def test_who_stands_is_told_from_rounded_angles_too(step, tmp_path):
+    robot, gait = scout_pin.load(), scout_pin.load_gait(EXAMPLES / "walk.toml")
+    t = np.union1d(np.linspace(0.0, 30.0, 121), [phase.start for phase in gait.phases])
+    angles = np.degrees(scout_pin.joint_trajectory(robot, gait.sample(t)).q)
+    rounded = [[f"{step * round(x / step):.2f}" for x in row] for row in angles]
+    columns = {f"{name}_deg": [row[k] for row in rounded] for k, name in enumerate(JOINT_NAMES)}
+    file = write(tmp_path / "a.csv", {"t": t * gait.time_unit}, columns)
+    found = scout_pin.load_gait(file, robot=robot, smooth="none")
+    assert [phase.support for phase in found.phases] == [
+        *("double", "left", "double", "right", "double")
+    ]
+    starts = [phase.start for phase in found.phases]
+    np.testing.assert_allclose(starts, [0.0, 0.8, 2.4, 3.6, 5.2], atol=0.2)

@@ -1,5 +1,6 @@
 """Gaits written down and read back."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import yaml
 
 import scout_pin
 from scout_pin.motion.gait import BODIES
-from scout_pin.motion.writing import rows_of
+from scout_pin.motion.writing import rows_of, supports
 from scout_pin.report.document import gait_report
 from scout_pin.report.movement import gait_movement
 from thesis_pin.report.exchange.movement import content, form_of
@@ -113,3 +114,20 @@ def test_feet_stand_from_and_until_the_same_instants_when_read_back(given, form,
     assert [support for *_, support in found] == [support for *_, support in wanted]
     times, unit = np.array([p[:2] for p in found]), gait.time_unit
     np.testing.assert_allclose(times, np.array([p[:2] for p in wanted]) * unit, atol=1e-12)
+
+
+def test_where_one_foot_takes_over_from_the_other_both_stand():
+    """The thesis's gait, where both do for an instant only."""
+    gait = scout_pin.load_gait("thesis")
+    lasting = [phase for phase in gait.phases if phase.end > phase.start]
+    t = np.union1d(np.linspace(gait.start, gait.end, 81), [phase.start for phase in lasting])
+    names = dict(zip(t.tolist(), supports(gait, t), strict=True))
+    over = [
+        phase.start
+        for before, phase in pairwise(lasting)
+        if {before.support, phase.support} == {"left", "right"}
+    ]
+    assert over
+    assert [names[at] for at in over] == ["double"] * len(over)
+    middle = [(phase.start + phase.end) / 2 for phase in lasting]
+    assert supports(gait, np.array(middle)) == [phase.support for phase in lasting]

@@ -230,3 +230,32 @@ def test_what_a_command_reads_is_not_replaced_by_what_it_writes(through, tmp_pat
     assert "would replace" in capsys.readouterr().err
     assert run(parser, [str(read), "--json", str(tmp_path / "new.json")]) == ExitCode.DONE
     assert read.read_text() == "<robot/>"
+
+
+@pytest.mark.parametrize("through", ["its name", "another name", "a link"])
+def test_two_outputs_can_t_be_one_file(through, tmp_path, capsys):
+    first, second = tmp_path / "out", tmp_path / "out"
+    if through == "another name":
+        (tmp_path / "inner").mkdir()
+        second = tmp_path / "inner" / ".." / "out"
+    if through == "a link":
+        second = tmp_path / "link"
+        second.symlink_to(first)
+    parser = doing(lambda _: ExitCode.DONE)
+    parser.add_argument("--json")
+    parser.add_argument("--html")
+    command = ["--json", str(first), "--html", str(second)]
+    assert run(parser, command) == ExitCode.BAD_INPUT
+    assert "--json and --html can't both be" in capsys.readouterr().err
+    first.write_text("of an earlier run")
+    assert run(parser, command) == ExitCode.BAD_INPUT
+    assert run(parser, [*command[:-1], str(tmp_path / "page")]) == ExitCode.DONE
+
+
+def test_two_outputs_can_go_to_one_pipe(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    parser = doing(lambda _: ExitCode.DONE)
+    parser.add_argument("--json")
+    parser.add_argument("--html")
+    assert run(parser, ["--json", str(pipe), "--html", str(pipe)]) == ExitCode.DONE

@@ -11,6 +11,7 @@ from scipy.optimize import minimize
 
 from thesis_pin.contacts import polygons
 from thesis_pin.contacts.polygons import least_distance, polygon_distance
+from thesis_pin.tolerances import TOLERANCES
 
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
 NOTCHED = np.array([[0, 0], [3, 0], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]], dtype=float)
@@ -102,3 +103,18 @@ def test_samples_that_are_alike_but_for_rounding_are_not_all_measured():
     with unittest.mock.patch.object(polygons, "polygon_distance", wraps=polygon_distance) as seen:
         least_distance(level, aside)
     assert sum(len(call.args[0]) for call in seen.call_args_list) < 20
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_of_many_tilted_pairs_the_nearest_is_found(seed):
+    """Shadows bound distances from below: the pair whose shadows are nearest need not be it."""
+    rng = np.random.default_rng(seed)
+    one = np.stack([placed(SQUARE, rng, 0.3) for _ in range(60)])
+    other = np.stack([placed(NOTCHED / 3, rng, 0.3) for _ in range(60)])
+    other += (0.0, 0.0, 2.0)
+    distances = polygon_distance(one, other)
+    least, sample = least_distance(one, other)
+    assert least == pytest.approx(distances.min(), abs=TOLERANCES.nearer)
+    assert distances[sample] == pytest.approx(least, abs=1e-12)
+    known = 0.999 * distances.min()
+    assert least_distance(one, other, known) is None

@@ -148,3 +148,49 @@ def test_pieces_join_to_one_curve() -> None:
     assert isinstance(whole, SmoothCurve)
     np.testing.assert_allclose(whole.value([0.5, 1.5]), [0.1, rise.value(1.5)])
     assert whole.draws(np.array([0.2, 1.2])).shape == (2, 16)
+
+
+def test_where_zero_is_does_not_matter() -> None:
+    t, y = rounded(100, 1e-4)
+    one = smooth_curve(t, y, 1e-4, generator(0))
+    other = smooth_curve(t, y + 400.0, 1e-4, generator(0))
+    np.testing.assert_allclose(other.variants(t) - 400.0, one.variants(t), atol=1e-9)
+
+
+def test_the_rival_is_better_where_an_acceleration_jumps_and_worse_where_nothing_does() -> None:
+    t = np.arange(0.0, 2.0 + 1e-9, 0.005)
+    jerky = smooth_curve(
+        t, np.round(np.where(t > 1.0, 0.5 * (t - 1.0) ** 2, 0.0), 5), 1e-5, generator(0)
+    )
+    at = np.linspace(0.9, 1.1, 101)
+    own, rival = (
+        np.sqrt(np.mean((curve(at, 2) - (at > 1.0)) ** 2)) for curve in (jerky.value, jerky.rival)
+    )
+    assert rival < 0.95 * own
+    smooth = smooth_curve(*rounded(300, 1e-5), 1e-5, generator(0))
+    at = np.linspace(0.0, 4.0, 401)
+    own, rival = (
+        np.sqrt(np.mean((curve(at, 2) - truth(at, 2)) ** 2))
+        for curve in (smooth.value, smooth.rival)
+    )
+    assert own < 0.5 * rival
+
+
+def test_the_errors_of_a_staircase_are_counted_once_a_step() -> None:
+    """Some hundred rows a step: they don't average out as independent ones would."""
+    t, y = rounded(1000, 3e-3)
+    curve = smooth_curve(t, y, 3e-3, generator(0))
+    for order in (0, 2):
+        spread = 3 * curve.draws(t, order).std(axis=1, ddof=1)
+        assert np.mean(np.abs(curve.value(t, order) - truth(t, order)) <= spread) > 0.97
+
+
+def test_less_is_left_open_at_rest_than_in_motion() -> None:
+    t = np.arange(0.0, 4.0, 0.005)
+    u = np.clip(t - 2.0, 0.0, 1.0)
+    noise = 1e-5 * np.random.default_rng(4).standard_normal(len(t))
+    curve = smooth_curve(t, 0.05 * (10 * u**3 - 15 * u**4 + 6 * u**5) + noise, 1e-7, generator(0))
+    spread = curve.draws(t, 2).std(axis=1, ddof=1)
+    rest, motion = spread[(t > 0.2) & (t < 1.5)], spread[(t > 2.1) & (t < 2.9)]
+    assert rest.mean() < 0.5 * motion.mean()
+    assert np.sqrt(np.mean(curve.value(t[t < 1.5], 2) ** 2)) < 1.1e-3

@@ -20,6 +20,14 @@ def test_a_peak_spreads_up_by_friction_that_nobody_knows() -> None:
     assert found.high == pytest.approx(2.2 + 0.05 + 0.3 + 0.002)
 
 
+def test_draws_that_peak_higher_widen_a_peak_s_interval() -> None:
+    draws = np.array([2.1, 2.2, 2.3])  # mean 0.2 above the curve's own, deviation 0.1
+    found = largest_value(2.0, 2.0, draws)
+    assert (found.low, found.high) == pytest.approx((2.0 - 0.3 - 0.2, 2.0 + 0.3 + 0.2))
+    lower = largest_value(2.0, 2.0, draws - 0.4)
+    assert (lower.low, lower.high) == pytest.approx((2.0 - 0.3, 2.0 + 0.3))
+
+
 def test_a_peak_is_never_negative() -> None:
     assert largest_value(0.1, 0.1, np.array([0.0, 0.5])).low == 0.0
 

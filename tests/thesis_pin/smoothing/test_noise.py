@@ -9,6 +9,7 @@ from thesis_pin.numeric.interpolation import interpolate
 from thesis_pin.smoothing.noise import (
     acceleration_noise,
     difference_noise,
+    rate_noise,
     run_lengths,
     still,
     uneven,
@@ -38,6 +39,22 @@ def test_a_splines_acceleration_is_as_wrong_as_promised() -> None:
         curve = interpolate(t, 1e-4 * random.standard_normal(400), "free")
         found.append(np.sqrt(np.mean(curve(t[20:-20], 2) ** 2)))
     assert np.mean(found) == pytest.approx(acceleration_noise(1e-4, h), rel=0.1)
+
+
+def test_a_splines_rate_is_as_wrong_as_promised() -> None:
+    random, h, found = np.random.default_rng(3), 0.01, []
+    t = h * np.arange(400)
+    for _ in range(10):
+        curve = interpolate(t, 1e-4 * random.standard_normal(400), "free")
+        found.append(np.sqrt(np.mean(curve(t[20:-20], 1) ** 2)))
+    assert np.mean(found) == pytest.approx(rate_noise(1e-4, h), rel=0.1)
+
+
+@pytest.mark.parametrize("order", [2, 6, 10])
+def test_noise_by_differences_is_right_on_average(order: int) -> None:
+    random = np.random.default_rng(order)
+    found = [difference_noise(random.standard_normal(5000), order) for _ in range(40)]
+    assert np.mean(found) == pytest.approx(1.0, rel=0.02)
 
 
 def test_runs_are_counted() -> None:

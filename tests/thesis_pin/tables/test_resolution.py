@@ -57,3 +57,7 @@ def test_the_step_of_a_counter_is_found_though_it_is_written_with_all_digits():
 def test_a_ramp_of_even_steps_is_not_taken_for_a_counter():
     values = np.linspace(0, 1, 101)
     assert quantum([repr(x) for x in values.tolist()], values) < 1e-15
+
+
+def test_no_rows_say_nothing():
+    assert quantum([], np.empty(0)) == 0.0

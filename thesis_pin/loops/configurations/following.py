@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -50,6 +51,7 @@ def follow(
     *,
     base: Base | None = None,
     precision: float | None = None,
+    where: Callable[[int], str] = "sample {}".format,
 ) -> JointTrajectory:
     """Motion of all joints from that of the motors.
 
@@ -65,6 +67,7 @@ def follow(
         guess: Configuration near the first sample, shape ``(nq,)``.
         base: How a free flyer moves; None leaves it at rest at ``guess``.
         precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
+        where: What a sample is called in messages, by its number.
 
     Returns:
         Closed configurations, rates and accelerations; each sample starts from the
@@ -76,7 +79,7 @@ def follow(
             asked to move as the loops forbid.
     """
     drive = (time, motors, rates, accelerations)
-    return _followed(robot, drive, guess, base, precision, strict=True).motion
+    return _followed(robot, drive, guess, base, precision, where=where).motion
 
 
 def follow_each(
@@ -92,7 +95,7 @@ def follow_each(
 ) -> Following:
     """The same where some samples may fail: says which, and why; see :func:`follow`."""
     drive = (time, motors, rates, accelerations)
-    return _followed(robot, drive, guess, base, precision, strict=False)
+    return _followed(robot, drive, guess, base, precision, where=None)
 
 
 def _followed(
@@ -102,8 +105,9 @@ def _followed(
     base: Base | None,
     precision: float | None,
     *,
-    strict: bool,
+    where: Callable[[int], str] | None,
 ) -> Following:
+    """Samples that fail raise, with their place, if ``where`` says it; else they are masked."""
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     count = len(robot.actuators)
     times = finite_array("time", drive[0], None)
@@ -147,8 +151,8 @@ def _followed(
                 raise errors[good] or SingularPose("")
             many, alone = min(max(4 * good, many), MOST), bool(survey.idle)
         except ThesisPinError as error:
-            if strict:
-                raise _at(error, k) from None
+            if where is not None:
+                raise _at(error, where(k)) from None
             v[k] = a[k] = np.nan
             reasons[k] = str(error)
             k, many = k + 1, 1
@@ -156,11 +160,9 @@ def _followed(
     return Following(JointTrajectory(times, q, v, a), valid, tuple(reasons))
 
 
-def _at(error: ThesisPinError, sample: int) -> ThesisPinError:
+def _at(error: ThesisPinError, where: str) -> ThesisPinError:
     if isinstance(error, Unreachable | SingularPose) and not error.where:
-        return type(error)(
-            error.what, where=f"sample {sample}", allowed=error.allowed, remedy=error.remedy
-        )
+        return type(error)(error.what, where=where, allowed=error.allowed, remedy=error.remedy)
     return error
 
 

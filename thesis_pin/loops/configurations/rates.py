@@ -29,7 +29,9 @@ def passive_rates(
     if heavy:
         # A ball joint that nothing holds is three groups of one name.
         names = "; ".join(dict.fromkeys(", ".join(group.joints[:6]) for group in heavy))
-        what = f"the motors don't determine the other joints: {names} move while they stand still"
+        what = (
+            f"{robot.leader} don't determine the other joints: {names} move while they stand still"
+        )
         return [SingularPose(what) for _ in found]
     equations, scale, passive = robot.system, robot.scale, robot.passive
     columns = scale.columns[passive]
@@ -50,7 +52,7 @@ def passive_rates(
     for k in range(len(q)):
         if kept[k] < survey.passive_rank:
             found[k] = SingularPose(
-                "the motors don't determine the other joints here",
+                f"{robot.leader} don't determine the other joints here",
                 remedy="Keep away from poses where the mechanism can move by itself",
             )
             continue
@@ -62,7 +64,7 @@ def passive_rates(
             worst = float(np.abs(opening).max(initial=0.0))
             if worst > allowed and not found[k]:
                 found[k] = SingularPose(
-                    f"the loops forbid the motors' {what}: they would open by {worst:.2e} of "
+                    f"the loops forbid {robot.leader}' {what}: they would open by {worst:.2e} of "
                     "their size",
                     allowed=f"{allowed:.1e}",
                 )

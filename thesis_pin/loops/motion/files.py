@@ -5,13 +5,16 @@ A header with ``t`` [s] and, for each joint, ``NAME``; where they are known also
 ``NAME_deg``, ``NAME_mm``, ``NAME_rate_deg_s``, ``NAME_acceleration_mm_s2``. ``NAME`` is a joint's
 or a motor's; either way the coordinate is the joint's. Of a free root: ``base_x``, ``base_y``,
 ``base_z`` and ``base_roll``, ``base_pitch``, ``base_yaw`` (about the world's x, y, z, in
-that order), or the quaternion ``base_qx``, ``base_qy``, ``base_qz``, ``base_qw``. How the table
-may be written is said in :mod:`thesis_pin.tables`.
+that order), or the quaternion ``base_qx``, ``base_qy``, ``base_qz``, ``base_qw``, and where they
+are known the rates and accelerations of all of them, as ``base_x_rate``: derivatives of the
+columns. Of a frame that leads the robot: ``x``, ``y``, ``z`` and an orientation as
+:data:`thesis_pin.tables.orientations.FORMS` has it, or as many of them as the robot has freedoms.
+How the table may be written is said in :mod:`thesis_pin.tables`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,29 +28,39 @@ from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.base import (
     BASE_ANGLES,
     BASE_PLACE,
-    BASE_QUATERNION,
+    Flight,
+    odd_rates,
     read_flight,
 )
+from thesis_pin.loops.motion.columns import ORDERS, columns_of
+from thesis_pin.loops.motion.leading import Names, read_lead, without_turns
 from thesis_pin.loops.motion.sampled import unlike, unwound, with_derivatives
 from thesis_pin.loops.motion.smoothing import within_resolution
-from thesis_pin.loops.motion.told import JointMotion
+from thesis_pin.loops.motion.told import JointMotion, Tool
+from thesis_pin.model.loading import frame_id
+from thesis_pin.numeric.checks import shown
 from thesis_pin.smoothing.stated import stated
 from thesis_pin.tables.doubts import doubted
-from thesis_pin.tables.meaning import Chosen, Meaning, chosen, time_column, time_names
+from thesis_pin.tables.meaning import time_column
 from thesis_pin.tables.reading import read_table
 from thesis_pin.tables.samples import Samples, close_rows, exact, mended, quanta, warning
 from thesis_pin.tables.table import Column, Table
-from thesis_pin.tables.units import ANGLE, LENGTH, PLAIN, headings
 
 Array = NDArray[np.float64]
 
-_ORDERS = (("", ""), ("_rate", "_s"), ("_acceleration", "_s2"))
 LEAST = 12
 """Rows below which nothing is known of their noise: curves pass through them."""
 
 
-def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -> JointMotion:
-    """A motion of a robot's joints from CSV; see the head of this module.
+def read_motion(
+    robot: ClosedRobot,
+    file: str | Path,
+    *,
+    smooth: str = "auto",
+    frame: str | None = None,
+    euler: str | None = None,
+) -> JointMotion:
+    """A motion of a robot's joints, or of a frame of it, from CSV; see the head of this module.
 
     Args:
         robot: The robot, for the names of its joints and motors.
@@ -55,32 +68,47 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
         smooth: Of columns whose rates aren't given: ``auto`` takes their samples for as fine
             as they show themselves to be, ``none`` for exact, and a length such as ``0.1mm``,
             an angle such as ``0.05deg`` or both with a comma for no finer than that.
+        frame: Name of the frame that the file leads through the world; None if it leads joints.
+        euler: Order of the angles in columns a, b, c or rx, ry, rz; see
+            :func:`thesis_pin.tables.orientations.check_order`.
 
     Raises:
         BadInput: ``smooth`` is none of these, the file can't be read, a column is missing or
             means two things, a cell isn't a number.
-        UnknownName: A column is none of the robot's.
+        UnknownName: A column is none of the robot's, or the frame isn't.
         TrajectoryError: Time doesn't increase, or there are too few samples.
     """
     how = stated(smooth)
+    lead = _lead(robot, frame, euler)
     table = read_table("motion", file)
-    columns = _columns(robot, table)
+    columns = columns_of(robot, table, lead)
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} samples", where=table.file, allowed="at least 2")
     time = time_column(table, columns)
     values = {
-        key: table.column(*place, key[0] + _ORDERS[key[1]][0])
+        key: table.column(*place, key[0] + ORDERS[key[1]][0])
         for key, place in columns.items()
         if isinstance(key, tuple)
     }
     kinds = singles(robot.model)
     joints = tuple(dict.fromkeys(of for of, _ in values if of in kinds))
-    if not joints:
+    told, said = tuple[str, ...](), list[str]()
+    if lead is not None:
+        without_turns(values, lead)
+        _, told, said = read_lead(values, table, lead, euler)
+    elif not joints:
         raise BadInput("no column is a joint's", where=table.file, allowed=", ".join(kinds))
+    placed = BASE_PLACE if lead is None else lead("x", "y", "z")
     asked = doubted(
         table.file,
-        [values[joint, 0] for joint in joints if not kinds[joint].turns],
-        [values[joint, 0] for joint in joints if kinds[joint].turns and kinds[joint].high < np.inf],
+        _at(values, [*(joint for joint in joints if not kinds[joint].turns), *placed]),
+        _at(
+            values,
+            [
+                *(one for one in joints if kinds[one].turns and kinds[one].high < np.inf),
+                *(BASE_ANGLES if lead is None else lead.turning()),
+            ],
+        ),
     )
     warnings = []
     for joint in joints:
@@ -88,10 +116,13 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
             found, doubts = unwound(joint, values[joint, 0].values)
             values[joint, 0] = replace(values[joint, 0], values=found)
             warnings += doubts
-        warnings += unlike(joint, time.values, values[joint, 0].values, _given(values, joint))
-    read = _differentiated(robot, table, time, values)
+        warnings += unlike(
+            joint, time.values, [values[joint, o] for o in range(3) if (joint, o) in values]
+        )
+    warnings += odd_rates(values, time.values)
+    read = _differentiated(robot, table, time, values, placed)
     friction = bool(robot.model.upperDryFrictionLimit.any())
-    resolved, notes = quanta(read, how), [*table.dialect.notes, *asked]
+    resolved, notes = quanta(read, how), [*table.dialect.notes, *asked, *said]
     through = how.through or len(table) < LEAST
     if through:
         warnings += warning(read, resolved, friction)
@@ -101,11 +132,41 @@ def read_motion(robot: ClosedRobot, file: str | Path, *, smooth: str = "auto") -
         values |= {
             key: read.columns[one.name] for key, one in values.items() if one.name in read.columns
         }
-    motion = _splined(values, joints, table, time.values)
-    motion = replace(motion, warnings=tuple(warnings), notes=tuple(notes))
+    if lead is None:
+        flight = read_flight(values, table)
+    else:
+        flight, _, _ = read_lead(values, table, lead, euler)
+    motion = _splined(values, joints, table, time.values, flight)
+    motion = replace(
+        motion,
+        warnings=tuple(warnings),
+        notes=tuple(notes),
+        tool=None if lead is None else Tool(lead.frame, told),
+        lines=table.lines,
+    )
     if through or exact(read, resolved, friction):
         return motion
-    return within_resolution(motion, read, resolved, read_flight(values, table))
+    return within_resolution(motion, read, resolved, flight)
+
+
+def _lead(robot: ClosedRobot, frame: str | None, euler: str | None) -> Names | None:
+    """What columns of the frame that leads are called; None if none leads."""
+    if frame is None:
+        if euler is not None:
+            raise BadInput("an order of angles is given, and no frame", remedy="Name the frame")
+        return None
+    frame_id(robot.model, frame)
+    if len(robot.base):
+        raise BadInput(
+            f"frame {shown(frame)} can't lead a robot whose root flies freely",
+            remedy="Tell the base and the joints, or fix the root",
+        )
+    return Names.of(frame, singles(robot.model))
+
+
+def _at(values: Mapping[tuple[str, int], Column], names: Sequence[str]) -> list[Column]:
+    """Columns of positions, of those that are there."""
+    return [values[name, 0] for name in names if (name, 0) in values]
 
 
 def _given(values: Mapping[tuple[str, int], Column], joint: str) -> list[Array | None]:
@@ -114,7 +175,11 @@ def _given(values: Mapping[tuple[str, int], Column], joint: str) -> list[Array |
 
 
 def _splined(
-    values: Mapping[tuple[str, int], Column], joints: tuple[str, ...], table: Table, time: Array
+    values: Mapping[tuple[str, int], Column],
+    joints: tuple[str, ...],
+    table: Table,
+    time: Array,
+    flight: Flight | None,
 ) -> JointMotion:
     """The motion through every sample."""
     position, rate, acceleration = np.empty((3, len(time), len(joints)))
@@ -131,9 +196,16 @@ def _splined(
         rate[:, j], acceleration[:, j] = with_derivatives(time, position[:, j], *given)
         if given[1] is None:
             interpolated.append(joint)
-    flight = read_flight(values, table)
-    if flight is not None:
-        interpolated.append("base")
+    if flight is not None and flight.change[1] is None:
+        moving = "the base" if flight.place == BASE_PLACE else "the frame"
+        if len(time) < 4:
+            raise TrajectoryError(
+                f"{len(time)} samples of {moving} without its rates and accelerations",
+                where=table.file,
+                allowed="at least 4",
+            )
+        interpolated.append(moving.removeprefix("the "))
+    change = None if flight is None else flight.derivatives(time)
     return JointMotion(
         name_as_text(Path(table.file).name),
         time,
@@ -143,62 +215,24 @@ def _splined(
         acceleration,
         None if flight is None else flight.base,
         tuple(interpolated),
+        base_change=change,
     )
 
 
 def _differentiated(
-    robot: ClosedRobot, table: Table, time: Column, values: Mapping[tuple[str, int], Column]
+    robot: ClosedRobot,
+    table: Table,
+    time: Column,
+    values: Mapping[tuple[str, int], Column],
+    placed: Sequence[str],
 ) -> Samples:
     """The columns of which rates or accelerations are made."""
     kinds, columns, turning = singles(robot.model), {}, set()
     for (of, order), column in values.items():
-        if of in kinds and (order == 2 or (of, order + 1) in values):
+        if order == 2 or (of, order + 1) in values:
             continue
         columns[column.name] = column
-        if kinds[of].turns if of in kinds else of not in BASE_PLACE:
+        if kinds[of].turns if of in kinds else of not in placed:
             turning.add(column.name)
     rates = {column.name for (_, order), column in values.items() if order == 1}
     return Samples(table, time, columns, frozenset(turning), frozenset(rates))
-
-
-def _known(robot: ClosedRobot) -> dict[str, list[Meaning]]:
-    """Every column a file may have, with all it could mean."""
-    turning = {name: one.turns for name, one in singles(robot.model).items()}
-    names = {name: name for name in turning}
-    for motor in robot.motors:
-        names.setdefault(motor.name, motor.joint)
-    known = time_names()
-    for name, joint in names.items():
-        units = ANGLE if turning[joint] else LENGTH
-        for order, (word, per) in enumerate(_ORDERS):
-            said = f"{word[1:] or 'position'} of {joint!r}"
-            for heading, unit in headings(name + word, units, per).items():
-                known.setdefault(heading, []).append(Meaning((joint, order), unit, said))
-    if len(robot.base):
-        for parts, units in (
-            (BASE_PLACE, LENGTH),
-            (BASE_ANGLES, ANGLE),
-            (BASE_QUATERNION, PLAIN),
-        ):
-            for part in parts:
-                for heading, unit in headings(part, units).items():
-                    known.setdefault(heading, []).append(Meaning((part, 0), unit, part))
-    return known
-
-
-def _columns(robot: ClosedRobot, table: Table) -> Chosen:
-    """Which column holds which derivative of which joint or part of the base."""
-    base = BASE_PLACE if len(robot.base) else ()
-    allowed = ["t", *singles(robot.model), *base, "NAME_rate", "NAME_acceleration"]
-    columns, _ = chosen(table, _known(robot), allowed)
-    for key, (place, _) in columns.items():
-        if not isinstance(key, tuple):
-            continue
-        of, order = key
-        for lower in range(order):
-            if (of, lower) not in columns:
-                raise BadInput(
-                    f"column {table.header[place]!r} stands without {of}{_ORDERS[lower][0]}",
-                    where=table.file,
-                )
-    return columns

@@ -10,6 +10,7 @@ from thesis_pin.loops.configurations.chaining import place
 from thesis_pin.loops.configurations.closing import close_stack, motor_positions
 from thesis_pin.loops.configurations.rates import passive_rates
 from thesis_pin.loops.configurations.surveying import surveyed
+from thesis_pin.loops.motion.tool import inverted, lifted
 from thesis_pin.loops.motion.variants import Moved
 from thesis_pin.loops.motion.whole import WholeMotion, driven_by, flown
 
@@ -39,20 +40,25 @@ def near_motions(
         Configurations ``(motions, k, nq)``, rates and accelerations ``(motions, k, nv)``, and
         which motions can be closed all along, ``(motions,)``.
     """
-    view = driven_by(robot, whole.driving)
+    view = whole.view or driven_by(robot, whole.driving)
     many, count, told = moved.position.shape
-    starts = np.tile(whole.joints.q[rows], (many, 1))
-    still = np.tile(motor_positions(view, whole.joints.q[0])[told:], (len(starts), 1))
-    drive = np.column_stack([moved.position.reshape(-1, told), still])
-    v, a = np.zeros((2, len(starts), robot.model.nv))
+    starts = np.tile(lifted(view, whole.joints.q[rows]), (many, 1))
+    still = np.tile(
+        motor_positions(view, lifted(view, whole.joints.q[:1])[0])[told:], (len(starts), 1)
+    )
+    drive = np.column_stack([moved.position.reshape(len(starts), told), still])
+    v, a = np.zeros((2, len(starts), view.model.nv))
     base = np.tile(starts[:1, :7], (len(starts), 1))
     if moved.base is not None:
         value, first, second = (x.reshape(-1, x.shape[-1]) for x in moved.base)
-        base, v[:, view.base], a[:, view.base] = flown(value, first, second)
+        led = flown(value, first, second)
+        if whole.tool is not None:
+            led = inverted(whole.tool, value, first, second)
+        base, v[:, view.base], a[:, view.base] = led
     elif len(view.base):
         base = starts[:, :7]
-    v[:, view.actuated[:told]] = moved.rate.reshape(-1, told)
-    a[:, view.actuated[:told]] = moved.acceleration.reshape(-1, told)
+    v[:, view.actuated[:told]] = moved.rate.reshape(len(starts), told)
+    a[:, view.actuated[:told]] = moved.acceleration.reshape(len(starts), told)
     q, good = place(view, starts, drive, base), np.ones(len(starts), dtype=bool)
     if view.equations or len(view.passive):
         data = view.model.createData()
@@ -66,6 +72,9 @@ def near_motions(
                 bool(why) or error is not None for why, error in zip(reasons, errors, strict=True)
             ]
             good[some] = ~np.array(failed)
-    shape = (many, count, -1)
     whether = np.asarray(good.reshape(many, count).all(axis=1))
-    return q.reshape(shape), v.reshape(shape), a.reshape(shape), whether
+    own = (
+        x[:, -size:] for x, size in ((q, robot.model.nq), (v, robot.model.nv), (a, robot.model.nv))
+    )
+    whole_q, whole_v, whole_a = (x.reshape(many, count, -1) for x in own)
+    return whole_q, whole_v, whole_a, whether

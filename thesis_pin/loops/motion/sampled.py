@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.numeric.interpolation import interpolate
+from thesis_pin.smoothing.noise import rate_noise, sample_noise
+from thesis_pin.tables.table import Column
 
 Array = NDArray[np.float64]
 
@@ -81,19 +83,30 @@ def unwound(joint: str, angle: Array) -> tuple[Array, list[str]]:
     ]
 
 
-def unlike(joint: str, time: Array, value: Array, given: Sequence[Array | None]) -> list[str]:
-    """Warnings where a column of rates isn't the derivative of the one before it."""
-    warnings, below = [], value
-    for word, column in zip(("rate", "acceleration"), given, strict=True):
-        if column is None or len(time) < 4:
-            break
-        slope = interpolate(time, below, "free")(time, 1) if np.ptp(below) > 0 else 0 * time
-        size = float(np.sqrt(np.mean(column**2) + np.mean(slope**2)))
-        if size and float(np.sqrt(np.mean((column - slope) ** 2))) > UNLIKE * size:
-            ratio = float(column @ slope / (slope @ slope)) if slope.any() else math.inf
+def unlike(name: str, time: Array, columns: Sequence[Column]) -> list[str]:
+    """Warnings where a column of rates isn't the derivative of the one before it.
+
+    What rounding and noise of samples make of their derivative is no difference.
+
+    Args:
+        name: What moves, for messages.
+        time: Sample times [s], shape ``(n,)``.
+        columns: Its values, and its rates and accelerations as far as they are given.
+    """
+    if len(time) < 4:
+        return []
+    warnings, often = [], float(np.sqrt(np.mean(np.diff(time) ** -2.0)))
+    for word, below, column in zip(("rate", "acceleration"), columns, columns[1:], strict=False):
+        given, moves = column.values, np.ptp(below.values) > 0
+        slope = interpolate(time, below.values, "free")(time, 1) if moves else 0 * time
+        size = float(np.sqrt(np.mean(given**2) + np.mean(slope**2)))
+        noise = rate_noise(sample_noise(time, below.values, below.quantum), 1 / often)
+        if size and float(np.sqrt(np.mean((given - slope) ** 2))) > math.hypot(
+            UNLIKE * size, noise
+        ):
+            ratio = float(given @ slope / (slope @ slope)) if slope.any() else math.inf
             warnings.append(
-                f"{joint}_{word} isn't the derivative of its samples: it is {ratio:.3g} times "
+                f"{name}_{word} isn't the derivative of its samples: it is {ratio:.3g} times "
                 "that on average. Is its unit right?"
             )
-        below = column
     return warnings

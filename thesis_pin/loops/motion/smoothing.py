@@ -60,8 +60,13 @@ def within_resolution(
         for order, name in enumerate((joint, f"{joint}_rate"))
         if name in samples.columns
     }
-    if base[0] is not None:
-        values |= {name: base[0][:, k] for k, name in enumerate(BASE_PLACE)}
+    if own.base is not None:
+        values |= {
+            name: own.base[order][0][:, k]
+            for k, part in _placed(flight)
+            for order, name in enumerate((part, f"{part}_rate"))
+            if name in samples.columns
+        }
     nodes, told = scatter(samples, resolved, values)
     motion = replace(motion, notes=(*motion.notes, *told))
     if nodes:
@@ -91,6 +96,11 @@ def itself(motion: JointMotion, rows: NDArray[np.intp] | slice = slice(None)) ->
     return Moved(position, rate, acceleration, base)
 
 
+def _placed(flight: Flight | None) -> list[tuple[int, str]]:
+    """Numbers and names of the columns that hold a place."""
+    return [("xyz".index(name[-1]), name) for name in (flight.place if flight else ())]
+
+
 class _Work:
     """Curves of one column after the other.
 
@@ -115,21 +125,30 @@ class _Work:
         self.columns.append(Resolution(name, quantum, noise, moves, turns))
 
     def flight(self, flight: Flight, joints: int) -> None:
-        """A free root; its orientation by its quaternion."""
-        for k, name in enumerate(BASE_PLACE):
-            self.column(name, flight.base[:, k], joints + k)
-        quaternion = unbroken(flight.base[:, 3:])
-        first = joints + len(BASE_PLACE)
-        if flight.turns == BASE_QUATERNION:
-            for k, name in enumerate(flight.turns):
-                self.column(name, quaternion[:, k], first + k)
+        """A free root; its orientation by its quaternion, or the rate of that."""
+        if flight.change[1] is not None:
             return
-        moving = [name for name in flight.turns if self.samples.moves(name)]
+        quaternion = unbroken(flight.base[:, 3:])
+        order, word, moved = 0, "", np.column_stack([flight.base[:, :3], quaternion])
+        if flight.change[0] is not None:
+            order, word, moved = 1, "_rate", flight.change[0]
+        for k, name in _placed(flight):
+            self.column(name + word, moved[:, k], joints + k, order)
+        if not flight.turns:
+            return
+        first = len(BASE_PLACE)
+        names = [name + word for name in flight.turns]
+        if len(flight.turns) == len(BASE_QUATERNION):
+            for k, name in enumerate(names, first):
+                self.column(name, moved[:, k], joints + k, order)
+            return
+        moving = [name for name in names if self.samples.moves(name)]
         runs = shared_runs([self.samples.columns[name].values for name in moving])
-        coarsest = max(self.resolved[name] for name in flight.turns)
+        coarsest = max(self.resolved[name] for name in names)
         before, noise = len(self.curves), 0.0
-        for k, step in enumerate(component_steps(quaternion, coarsest)):
-            noise = max(noise, 2 * self._fit(quaternion[:, k], step, first + k, 0, runs).sigma)
+        for k, step in enumerate(component_steps(quaternion, coarsest), first):
+            found = self._fit(moved[:, k], step, joints + k, order, runs)
+            noise = max(noise, 2 * found.sigma)
         for name in moving:  # angles make all of a quaternion together
             self.parts.append(tuple(range(before, len(self.curves))))
             self.columns.append(Resolution(name, self.resolved[name], noise, True, True))

@@ -83,7 +83,7 @@ class Variants(Sampled):
                 if one.joint < joints:
                     moving[one.order + order][..., one.joint] = values
                 elif base is not None:
-                    base[order][..., one.joint - joints] = values
+                    base[one.order + order][..., one.joint - joints] = values
         flown = None if base is None else (base[0], base[1], base[2])
         position, rate, acceleration = moving
         return Moved(position, rate, acceleration, flown)

@@ -15,7 +15,8 @@ from thesis_pin.loops.configurations.closing import close, motor_positions
 from thesis_pin.loops.configurations.following import follow
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.sampled import with_derivatives
-from thesis_pin.loops.motion.told import JointMotion
+from thesis_pin.loops.motion.told import JointMotion, Tool
+from thesis_pin.loops.motion.tool import approach, inverted, refuse_tilted, tool_view
 from thesis_pin.loops.system.idle import joint_names
 from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.numeric import quaternions
@@ -40,11 +41,15 @@ class WholeMotion:
         joints: Positions, rates and accelerations in Pinocchio's coordinates.
         driving: Joints whose motion determines the others'.
         still: Those of them that no column moves: they stay at the pose.
+        tool: The frame that leads them; None if joints do.
+        view: The robot seen from it.
     """
 
     joints: JointTrajectory
     driving: tuple[str, ...]
     still: tuple[str, ...]
+    tool: Tool | None = None
+    view: ClosedRobot | None = None
 
 
 def whole_motion(
@@ -53,7 +58,7 @@ def whole_motion(
     """What every joint does while some move as they are told.
 
     Where only motors are told, the other motors stay at the pose; where joints are told
-    that aren't motors, they alone determine the motion.
+    that aren't motors, or a frame is, they alone determine the motion.
 
     Args:
         robot: The robot.
@@ -65,12 +70,14 @@ def whole_motion(
 
     Raises:
         Unreachable: A sample can't be closed.
-        SingularPose: The given joints don't determine the others, at a sample or between two.
+        SingularPose: What is told doesn't determine the other joints, at a sample or between two.
         TrajectoryError: The base is told to move, and the robot is tied to the world.
     """
     instance("robot", robot, ClosedRobot, "thesis_pin.load()")
     instance("motion", motion, JointMotion, "read_motion()")
     start = vector("pose", pose, robot.model.nq)
+    if motion.tool is not None:
+        return _by_tool(robot, motion, motion.tool, start, precision)
     motors = robot.actuators or tuple(singles(robot.model))
     alone = not set(motion.joints) <= set(motors)
     still = () if alone else tuple(name for name in motors if name not in motion.joints)
@@ -84,16 +91,54 @@ def whole_motion(
         for values in (motion.rate, motion.acceleration)
     )
     base = None
-    if motion.base is not None:
+    if motion.base is not None and motion.base_change is not None:
+        _refuse_tied_base(robot)
+        base = flown(motion.base, *motion.base_change)
+    elif motion.base is not None:
         base = base_motion(robot, motion.time, motion.base)
-        if motion.base_change is not None:
-            base = flown(motion.base, *motion.base_change)
     guess = _approach(view, start, position[0], precision)
     found = follow(
-        view, motion.time, position, rate, acceleration, guess, base=base, precision=precision
+        view,
+        motion.time,
+        position,
+        rate,
+        acceleration,
+        guess,
+        base=base,
+        precision=precision,
+        where=motion.where,
     )
     _refuse_jump(view, found)
     return WholeMotion(found, driving, still)
+
+
+def _by_tool(
+    robot: ClosedRobot, motion: JointMotion, tool: Tool, pose: Array, precision: float | None
+) -> WholeMotion:
+    """What every joint does while a frame is led, and maybe some joints beside it."""
+    view = tool_view(robot, tool, motion.joints, pose)
+    if motion.base is None:
+        raise TrajectoryError(f"nothing says how frame {tool.frame!r} moves")
+    change = motion.base_change
+    course = (motion.base, *change) if change else _splined(motion.time, motion.base)
+    base = inverted(tool, *course)
+    guess = approach(robot, view, tool, pose, (course[0][0], motion.position[0]), precision)
+    found = follow(
+        view,
+        motion.time,
+        motion.position,
+        motion.rate,
+        motion.acceleration,
+        guess,
+        base=base,
+        precision=precision,
+        where=motion.where,
+    )
+    _refuse_jump(view, found)
+    nq, nv = robot.model.nq, robot.model.nv
+    joints = JointTrajectory(found.time, found.q[:, -nq:], found.v[:, -nv:], found.a[:, -nv:])
+    refuse_tilted(robot, tool, pose, joints.q)
+    return WholeMotion(joints, motion.joints, (), tool, view)
 
 
 def driven_by(robot: ClosedRobot, joints: Sequence[str]) -> ClosedRobot:
@@ -124,7 +169,8 @@ def _refuse_jump(robot: ClosedRobot, found: JointTrajectory) -> None:
     jump = np.abs(np.diff(found.v, axis=0) - step * (found.a[1:] + found.a[:-1]) / 2)
     size = np.abs(found.v).max(axis=0, initial=0.0)
     share = jump / np.where(size > 0, size, 1.0)
-    driving = share[:, robot.actuated].max(axis=1, initial=0.0)
+    leading = np.concatenate([robot.actuated, robot.base])
+    driving = share[:, leading].max(axis=1, initial=0.0)
     passive = share[:, robot.passive].max(axis=1, initial=0.0)
     bad = (passive > JUMP) & (driving < JUMP / 2)
     if bad.any():
@@ -132,7 +178,7 @@ def _refuse_jump(robot: ClosedRobot, found: JointTrajectory) -> None:
         name = joint_names(robot.model)[robot.passive[share[k, robot.passive].argmax()]]
         raise SingularPose(
             f"the rate of {name!r} jumps by {passive[k]:.0%} of its largest: there "
-            f"{', '.join(robot.actuators)} don't determine the other joints",
+            f"{', '.join(robot.actuators) or robot.leader} don't determine the other joints",
             where=f"between t = {found.time[k]:.6g} and {found.time[k + 1]:.6g} s",
             remedy="Give the motors' motion, sample more finely, or keep away from that pose",
         )
@@ -156,13 +202,18 @@ def base_motion(robot: ClosedRobot, time: Array, base: Array) -> tuple[Array, Ar
         TrajectoryError: A loop ties the robot to the world, or there are too few samples.
     """
     _refuse_tied_base(robot)
+    return flown(*_splined(time, base))
+
+
+def _splined(time: Array, base: Array) -> tuple[Array, Array, Array]:
+    """Places and quaternions through samples, and their derivatives, each ``(n, 7)``."""
     if len(time) < 4:
-        raise TrajectoryError(f"{len(time)} samples of the base", allowed="at least 4")
+        raise TrajectoryError(f"{len(time)} samples of a placement", allowed="at least 4")
     size = np.linalg.norm(base[:, 3:], axis=1, keepdims=True)
     places = np.column_stack([base[:, :3], quaternions.unbroken(base[:, 3:] / size)])
     courses = [with_derivatives(time, column, None, None) for column in places.T]
     rates, pushes = (np.column_stack(columns) for columns in zip(*courses, strict=True))
-    return flown(places, rates, pushes)
+    return places, rates, pushes
 
 
 def flown(value: Array, first: Array, second: Array) -> tuple[Array, Array, Array]:

@@ -61,13 +61,16 @@ function makePlayer(root, scene, options = {}) {
     });
   }
 
+  // No "-0.000": what rounds to zero has no sign.
+  const rounded = (value, digits) => (+value.toFixed(digits) || 0).toFixed(digits);
+
   function apply(t) {
     const at = locate(time, t);
     for (const item of items) item.object.visible = item.update(at) !== false;
     for (const [k, readout] of scene.readouts.entries()) {
       const value = readout.values[at.nearest];
       const text = readout.texts.length ? readout.texts[value]
-        : Number.isFinite(value) ? `${value.toFixed(readout.digits)} ${readout.unit}` : "–";
+        : Number.isFinite(value) ? `${rounded(value, readout.digits)} ${readout.unit}` : "–";
       if (values[k].textContent !== text) values[k].textContent = text;
     }
     slider.value = t - start;

@@ -26,7 +26,7 @@ from thesis_pin.report.torque.uncertainty import uncertainty
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
-SCHEMA, VERSION = "thesis-pin/torque", 2
+SCHEMA, VERSION = "thesis-pin/torque", 3
 
 INTERPOLATED = "Rates and accelerations of {names} come from {how}."
 THROUGH = "a cubic spline through the samples"
@@ -55,15 +55,21 @@ class TorqueReport(TorqueNumbers):
 
     def doubts(self) -> list[str]:
         """What is to be asked before the numbers are believed."""
-        motion = self.motion
-        found = []
+        motion, known = self.motion, singles(self.robot.model)
+        names, position, push_of = motion.joints, motion.position, motion.acceleration
+        if motion.tool is not None:  # a frame moves as all joints do
+            names = tuple(known)
+            position = np.column_stack([one.position(self.joints.q) for one in known.values()])
+            push_of = self.joints.a[:, [one.v for one in known.values()]]
+        found = list[str]()
+        duration = float(motion.time[-1] - motion.time[0])
         for unit in ("m", "rad"):
-            here = [singles(self.robot.model)[name].unit == unit for name in motion.joints]
-            travel = float(np.ptp(motion.position[:, here], axis=0).max(initial=0.0))
-            push = float(np.abs(motion.acceleration[:, here]).max(initial=0.0))
+            here = [known[name].unit == unit for name in names]
+            travel = float(np.ptp(position[:, here], axis=0).max(initial=0.0))
+            push = float(np.abs(push_of[:, here]).max(initial=0.0))
             if push >= TOLERANCES.inertia_unfelt:
                 return []
-            found += pace.doubts(float(motion.time[-1] - motion.time[0]), travel, push, unit)
+            found += pace.doubts(duration, travel, push, unit)
         return found
 
     def warnings(self) -> list[str]:
@@ -84,6 +90,8 @@ class TorqueReport(TorqueNumbers):
             "motion": self.motion.name,
             "samples": len(self.joints.time),
             "given": list(self.motion.joints),
+            "frame": None if self.motion.tool is None else self.motion.tool.frame,
+            "frame_given": [] if self.motion.tool is None else list(self.motion.tool.told),
             "external": {frame: list(wrench) for frame, wrench in self.external.items()},
             "thesis_pin": __version__,
         }
@@ -116,14 +124,14 @@ class TorqueReport(TorqueNumbers):
             "coupling_force": dynamics.coupling,
             "base_wrench": dynamics.base,
             "unexplained": self.unexplained,
-            "uncertainty": dynamics.uncertainty,
+            "description_uncertainty": dynamics.uncertainty,
             "condition": [
                 value if np.isfinite(value) else None for value in dynamics.condition.tolist()
             ],
             "parameters": self.parameters,
             "summary": self.summary(),
             "notes": list(self.motion.notes),
-            "samples_uncertainty": uncertainty(self.headlines, self.drawn, self.motion.variants),
+            "uncertainty": uncertainty(self.headlines, self.drawn, self.motion.variants),
         }
 
     def columns(self) -> dict[str, np.ndarray]:
@@ -172,7 +180,7 @@ class TorqueReport(TorqueNumbers):
             "outside_range": self.outside,
             "peak_loop_force": force.max(axis=0, initial=0.0),
             "largest_unexplained": float(self.unexplained.max()),
-            "largest_uncertainty": float(self.dynamics.uncertainty.max()),
+            "largest_description_uncertainty": float(self.dynamics.uncertainty.max()),
             "noise": self.dynamics.noise,
             "digits": list(self.dynamics.digits),
             "idle": [

@@ -7,14 +7,23 @@ import pytest
 
 import scout_pin
 from scout_pin.dynamics.inverse import inverse_dynamics
+from scout_pin.dynamics.scaling import DoubleSupport
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import Phase
 from scout_pin.motion.trajectory import joint_trajectory
-from scout_pin.report.judged.limits import SPEEDS, fastest_time_unit, headline
+from scout_pin.report.judged.limits import (
+    SPEEDS,
+    Limit,
+    TimeUnits,
+    fastest_time_unit,
+    headline,
+)
 from scout_pin.report.judged.speeds import Speeds
+from scout_pin.report.judged.trial import Trial
 from scout_pin.specification import Specification
 from thesis_pin.errors import NoSupportForce
-from thesis_pin.numeric.interpolation import polynomial
+from thesis_pin.numeric.interpolation import linear, polynomial
+from thesis_pin.tolerances import TOLERANCES
 
 from ...conftest import EXAMPLES
 
@@ -210,6 +219,52 @@ def test_the_headline_is_the_interval_with_the_given_unit_or_else_the_nearest():
     assert "It would do both at time units from 0.1896 s" in " ".join(at[0.5].verdict())
 
 
+@pytest.mark.parametrize(
+    ("unit", "nearest"), [(0.05, 0), (0.19, 0), (0.25, 0), (0.9, 1), (1.5, 1), (5.0, 2), (90.0, 2)]
+)
+def test_of_several_intervals_the_headline_is_the_nearest_by_ratio(unit, nearest):
+    """Between 0.3 and 2 that is by their middle on a logarithmic scale, 0.77."""
+    end = Limit("range")
+    units = [TimeUnits(*ends, end, end) for ends in ((0.2, 0.3), (2.0, 3.0), (6.0, 8.0))]
+    assert headline(units, unit) is units[nearest]
+    assert headline([], unit) is None
+
+
+@pytest.mark.parametrize(("cycle", "cause"), [(True, "gap"), (False, "rate jump")])
+def test_a_rate_that_jumps_by_little_sets_a_unit_from_which_it_is_none(scout, cycle, cause):
+    """The torso's rate changes by 2e-4 m/s at the unit given: twice what counts as a jump."""
+    gait = load_gait(EXAMPLES / "squat.toml")
+    size, length = 2 * TOLERANCES.rate_jump * gait.time_unit, gait.end - gait.start
+    middle = (gait.start + gait.end) / 2
+    place = float(gait.curves["torso"][1](gait.start))
+    if cycle:  # down and up again on a parabola: the rate at the end isn't that at the start
+        bend = size / (2 * length)
+        curve = polynomial(gait.start, gait.end, [bend, -bend * length, place])
+    else:
+        curve = linear([gait.start, middle, gait.end], [place, place + size * length / 4, place])
+    torso = list(gait.curves["torso"])
+    torso[1] = curve
+    bent = dataclasses.replace(gait, curves=gait.curves | {"torso": tuple(torso)}, cycle=cycle)
+    (found,) = scout_pin.gait_report(scout, bent, samples=61).time_units
+    assert found.below.cause == cause
+    assert found.shortest == pytest.approx(2 * gait.time_unit, rel=1e-3)
+    check_ends(scout, bent, gait.time_unit)
+
+
+@pytest.mark.parametrize("unit", [0.3, 0.7, 1.0, 1.6])
+def test_of_legs_and_times_that_mirror_each_other_the_left_and_the_first_are_named(scout, unit):
+    """A squat goes down and up alike; rounding named any of four servos and times."""
+    gait = load_gait(EXAMPLES / "squat.toml")
+    for samples in (61, 401):
+        found = scout_pin.gait_report(
+            scout, gait, samples=samples, time_unit=unit * gait.time_unit
+        ).time_units
+        limits = {one.below for one in found} | {one.above for one in found}
+        (servo,) = {limit for limit in limits if limit.cause == "servo"}
+        assert servo.joint == "left_knee_pitch"
+        assert servo.t < (gait.start + gait.end) / 2
+
+
 def test_what_happens_at_any_speed_leaves_no_interval(scout):
     report = scout_pin.gait_report(scout, load_gait(EXAMPLES / "walk.toml"), samples=41)
     lowered = report.motion.left_foot.position - (0.0, 0.0, 1e-3)
@@ -217,3 +272,23 @@ def test_what_happens_at_any_speed_leaves_no_interval(scout):
     dug = dataclasses.replace(report, motion=dataclasses.replace(report.motion, left_foot=foot))
     assert report.time_units
     assert dug.time_units == []
+
+
+@pytest.mark.parametrize("s", [0.5, 1.0, 2.5])
+def test_double_support_uses_its_servos_at_any_speed_as_inverse_dynamics_says(rubbing, s):
+    gait = load_gait(EXAMPLES / "walk.toml")
+    t, unit = gait.sample_times(101), 0.2
+    motion = gait.sample(t, unit)
+    joints = joint_trajectory(rubbing, motion)
+    some = np.flatnonzero(motion.support.all(axis=1))
+    double = DoubleSupport.of(rubbing, motion, joints, some)
+    every = np.arange(len(some))
+    speed = np.abs(joints.part(some).v) / rubbing.no_load_speed
+    trial = Trial(double, speed, rubbing.stall_torque, "servo", stands=True)
+    _, found, joint = trial.uses(s, every)
+    faster = gait.sample(t, unit / s)
+    moving = joint_trajectory(rubbing, faster)
+    torque = np.abs(inverse_dynamics(rubbing, faster, moving).torque) / rubbing.stall_torque
+    wanted = (torque + np.abs(moving.v) / rubbing.no_load_speed)[some]
+    np.testing.assert_allclose(found, wanted.max(axis=1), rtol=1e-6)
+    np.testing.assert_allclose(wanted[every, joint], wanted.max(axis=1), rtol=1e-6)

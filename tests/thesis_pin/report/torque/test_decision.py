@@ -61,7 +61,7 @@ def test_a_limit_that_the_interval_holds_is_undecided(rounded, share, verdict):
     document = json.loads(json_bytes(report.document()))
     assert (document["summary"]["reason"] is None) == (verdict is not None)
     assert (document["summary"]["verdict"] is None) == (verdict is None)
-    use = document["samples_uncertainty"]["effort_use"][0]
+    use = document["uncertainty"]["effort_use"][0]
     assert use["low"] < 1 / share < use["high"]
 
 
@@ -84,5 +84,5 @@ def test_exact_columns_leave_nothing_open(tmp_path):
     file.write_text("t,hip\n" + "".join(f"{t:.3f},{x:.17g}\n" for t, x in rows))
     report = reported(file)
     assert report.headlines is None
-    assert report.document()["samples_uncertainty"] is None
+    assert report.document()["uncertainty"] is None
     assert report.actuators.peak_torque[0] == pytest.approx(PEAK, rel=1e-5)

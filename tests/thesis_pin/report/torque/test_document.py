@@ -235,7 +235,7 @@ def test_documents_and_figures_can_be_written_and_read():
     start = singles(robot.model)["motor"].position(torque_start(robot))
     report = torque_report(robot, swing("motor", start=float(start), size=0.1))
     document = json.loads(json_bytes(report.document()))
-    assert (document["schema"], document["version"]) == ("thesis-pin/torque", 2)
+    assert (document["schema"], document["version"]) == ("thesis-pin/torque", 3)
     assert np.shape(document["torque"]) == (len(TIME), 1)
     assert document["summary"]["verdict"] == report.verdict()
     assert set(figures(report)) == {

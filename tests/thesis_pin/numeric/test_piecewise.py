@@ -1,0 +1,71 @@
+"""Piecewise polynomials against SciPy's."""
+
+import copy
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.interpolate import PPoly
+
+from thesis_pin.numeric.piecewise import Piecewise
+
+SHAPES = st.sampled_from([(), (3,), (2, 2)])
+
+
+def made(seed, order, pieces, shape=()):
+    rng = np.random.default_rng(seed)
+    x = np.cumsum(rng.uniform(0.01, 2, pieces + 1)) - 3
+    c = rng.normal(size=(order, pieces, *shape)) * 10.0 ** rng.integers(
+        -5, 5, (order, pieces, *shape)
+    )
+    c[rng.random(c.shape) < 0.2] = -0.0
+    around = rng.uniform(x[0] - 1, x[-1] + 1, 40)
+    return c, x, np.concatenate([around, x, [np.nan, -0.0]])
+
+
+@given(
+    seed=st.integers(0, 2**32 - 1), order=st.integers(1, 7), pieces=st.integers(1, 6), shape=SHAPES
+)
+@settings(max_examples=100, deadline=None)
+def test_values_and_derivatives_are_scipys_to_the_bit(seed, order, pieces, shape):
+    c, x, t = made(seed, order, pieces, shape)
+    ours, scipys = Piecewise(c, x), PPoly(c, x)
+    for nu in range(4):
+        assert ours(t, nu).tobytes() == scipys(t, nu).tobytes()
+        assert ours(t.reshape(-1, 1), nu).shape == scipys(t.reshape(-1, 1), nu).shape
+        assert ours(x[0], nu).shape == scipys(x[0], nu).shape
+    for nu in (1, 2):
+        np.testing.assert_array_equal(ours.derivative(nu).c, scipys.derivative(nu).c)
+
+
+def test_what_else_a_ppoly_has_is_there():
+    c, x, _ = made(1, 4, 3)
+    ours, scipys = Piecewise(c, x), PPoly(c, x)
+    np.testing.assert_array_equal(ours.roots(), scipys.roots())
+    assert ours.integrate(x[0], x[-1]) == scipys.integrate(x[0], x[-1])
+    assert isinstance(ours.ppoly, PPoly)
+    with pytest.raises(AttributeError, match="nonsense"):
+        ours.nonsense  # noqa: B018
+
+
+def test_copies_and_pickles_are_the_same_curve():
+    c, x, t = made(2, 3, 4)
+    curve = Piecewise(c, x)
+    for again in (copy.deepcopy(curve), pickle.loads(pickle.dumps(curve))):
+        np.testing.assert_array_equal(again(t), curve(t))
+
+
+def test_curves_through_nodes_need_no_scipy():
+    code = (
+        "import sys\n"
+        "from thesis_pin.numeric.interpolation import interpolate\n"
+        "for method in ('linear', 'quadratic', 'cubic', 'quintic'):\n"
+        "    interpolate([0, 1, 2.5, 3], [0, 1, 0, 2], method)([0.5], 1)\n"
+        "print('scipy' in sys.modules)\n"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ran.stdout == "False\n"
