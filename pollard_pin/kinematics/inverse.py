@@ -151,13 +151,14 @@ def _few(
             cosines += cosine
         if chunk.loose:
             loose.append(k)
-    shape = (len(poses), len(branches), -1)
-    return half_open(np.array(angles)).reshape(shape), np.array(cosines).reshape(shape), loose
+    shape = (len(poses), len(branches))
+    rows = half_open(np.array(angles)).reshape(*shape, 12)
+    return rows, np.array(cosines).reshape(*shape, 3), loose
 
 
 def half_open(angles: np.ndarray) -> np.ndarray:
     """Arctangents in (−π, π], in place: of −0.0 they make −π."""
-    if not angles.min() > -np.pi:
+    if not angles.min(initial=0.0) > -np.pi:
         angles[angles <= -np.pi] += TURN
     return angles
 

@@ -162,7 +162,7 @@ def _usual(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Solved | None
             least = np.minimum(least, found[0].min(axis=1))
             most = np.maximum(most, found[0].max(axis=1))
     if count < FEW:
-        least, most = angles.min(axis=0), angles.max(axis=0)
+        least, most = angles.min(axis=0, initial=np.inf), angles.max(axis=0, initial=-np.inf)
     slack = TOLERANCES.joint_limit
     if not (robot.lower - slack <= least).all() or not (most <= robot.upper + slack).all():
         return None
