@@ -13,6 +13,12 @@ from .loops.dynamics import (
     simulate as simulate,
 )
 
+# Where any robot can go
+from .loops.workspace.mapped import (
+    Workspace as Workspace,
+    evaluate_workspace as evaluate_workspace,
+)
+
 # Robots with feet
 from .contacts.balance.dynamics import foot_dynamics as foot_dynamics
 from .contacts.balance.result import FootDynamics as FootDynamics
