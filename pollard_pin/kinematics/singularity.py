@@ -69,7 +69,8 @@ def _jacobian(posture: Posture, velocity: np.ndarray, omega: np.ndarray) -> np.n
     known = posture.linkage
     rates = joint_rates(posture.geometry, known, (*velocity,), (*omega,))
     whole = np.stack(np.broadcast_arrays(*rates, known.c21)[:12])
-    return np.ascontiguousarray(whole.transpose(2, 0, 1)).reshape(*posture.shape, 12, whole.shape[1])
+    by_sample = np.ascontiguousarray(whole.transpose(2, 0, 1))
+    return by_sample.reshape(*posture.shape, *by_sample.shape[1:])
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import TypeAlias
 
 import numpy as np
@@ -93,20 +92,8 @@ _OF_ARRAYS = cosine_sine, np.sqrt, np.arccos, np.arctan2, np.where, np.any, _cli
 ARRAYS = Elementwise(*_OF_ARRAYS)  # type: ignore[arg-type]
 
 
-@cache
-def _keep_freed_memory() -> None:
-    """Free a large array once: glibc then keeps as much for the next block.
-
-    It gives back what lies above twice the largest piece freed so far, which is little at
-    first; getting it again takes a page fault each 4 kB, up to a third of a block's time.
-    """
-    np.empty(1 << 20)
-
-
 def blocks(count: int, size: int = BLOCK) -> list[slice]:
     """Slices of at most ``size`` samples that cover ``count``."""
-    if count > size:
-        _keep_freed_memory()
     return [slice(start, min(start + size, count)) for start in range(0, count, size)]
 
 
