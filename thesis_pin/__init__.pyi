@@ -13,6 +13,23 @@ from .loops.dynamics import (
     simulate as simulate,
 )
 
+# Where any robot can go
+from .loops.workspace.mapped import (
+    Workspace as Workspace,
+    evaluate_workspace as evaluate_workspace,
+)
+
+# Robots with feet
+from .contacts.balance.dynamics import foot_dynamics as foot_dynamics
+from .contacts.balance.result import FootDynamics as FootDynamics
+from .contacts.floor import Floor as Floor
+from .contacts.soles.finding import find_feet as find_feet
+from .contacts.soles.foot import Foot as Foot
+from .contacts.standing.placing import (
+    Placed as Placed,
+    stand as stand,
+)
+
 # Motions of any robot
 from .loops.motion.files import read_motion as read_motion
 from .loops.motion.told import JointMotion as JointMotion

@@ -85,6 +85,8 @@ class Tolerances:
             and a hobby servo takes two seconds for its smallest step.
         wrench: Distance outside a sole's wrench cone, forces scaled to moments, still
             taken as on its border, where a quadratic programme stops [N·m].
+        contact: The same of any robot, relative to its weight times its feet's size [-]: what is
+            left over by rounding of a motion's numbers.
         facet: Distance beyond a facet that rounding makes of a wrench on it [N·m].
         impulse: Impulse of a landing still taken as none: what the robot's weight gives in
             this time [s]; it is that of a landing at about 1 mm/s.
@@ -96,6 +98,16 @@ class Tolerances:
             and meets the floor moving [-].
         scrape_way: Way over the floor below which a foot goes straight up and down [m].
         sole_gap: Distance at which two soles touch [m], as :attr:`clearance`.
+        sole_face: How far above a link's lowest point its shapes still belong to the sole [m]:
+            meshes of soles are no flatter.
+        sole_width: Width below which what is lowest of a link is a point or an edge [m]: a
+            ball of 5 cm has 14 mm within ``sole_face``.
+        foot_height: How much higher than the lowest link others may end that are taken for
+            feet too, relative to the robot's height [-].
+        touch_height: Height of a foot, relative to that of the centre of mass, below which it is
+            on the floor if it is slow: a swinging foot of a walker gets ten times as high [-].
+        touch_speed: Its speed, relative to that of a fall from that height, below which it
+            rests: feet swing ten times as fast [-].
         nearer: Difference [m] by which one pair of soles must be nearer to be told from another:
             where feet stand, all samples are alike but for rounding.
         parallel: Squared sine of the angle below which two edges are parallel.
@@ -121,6 +133,8 @@ class Tolerances:
             lengths, that is replaced before one divides by it [-], [m²].
         time_unit: Relative width of the interval in which the fastest time unit counts as
             found [-].
+        mirror: Relative difference of speeds, shares of a servo or jumps that counts as none:
+            of two legs that do the same only rounding would name one [-].
         unbalanced: Force or moment an explicit model may leave over: above rounding,
             below anything physical [N], [N·m].
         determined: Scaled singular value below which motors don't determine passive rates
@@ -182,6 +196,7 @@ class Tolerances:
     static: float = 1e-9
     creeping: float = 1e-3
     wrench: float = 1e-7
+    contact: float = 1e-9
     facet: float = 1e-10
     impulse: float = 1e-4
     clearance: float = 1e-4
@@ -189,6 +204,11 @@ class Tolerances:
     scrape_share: float = 0.2
     scrape_way: float = 1e-3
     sole_gap: float = 1e-4
+    sole_face: float = 1e-3
+    sole_width: float = 0.02
+    foot_height: float = 0.03
+    touch_height: float = 5e-3
+    touch_speed: float = 1e-2
     nearer: float = 1e-9
     parallel: float = 1e-12
     spelled: float = 1e-12
@@ -203,6 +223,7 @@ class Tolerances:
     same_mode: float = 1e-6
     vanishing: float = 1e-14
     time_unit: float = 1e-5
+    mirror: float = 1e-9
     unbalanced: float = 1e-8
     determined: float = 1e-6
     explicit_rank: float = 1e-11

@@ -1,1 +1,1 @@
-"""Any sole on the floor: what it can carry, and where the load acts."""
+"""Feet on the floor: what they can carry, who carries what, whether a robot is balanced."""

@@ -28,10 +28,14 @@ from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import real
 from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.nonnegative import nonnegative
 
 FRICTION_EDGES = 8
 """Edges of the pyramid inside each corner's friction cone; it gives away at most
 1 − cos(π/8) = 7.6 % of the friction, on the safe side."""
+
+_ALONE = 250_000
+"""Multiplications of a matrix product that OpenBLAS leaves to one thread."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +105,9 @@ class Contact:
         """
         flat = self.scale(wrench).reshape(-1, 6)
         margin = np.empty(len(flat))
-        for part in blocks(len(flat), 1024):  # a row of the product is some hundred facets
+        # So few that BLAS doesn't share the product among threads: where another program has a
+        # core, they wait for each other and take ten times as long.
+        for part in blocks(len(flat), max(1, _ALONE // self.facets.size)):
             margin[part] = -(flat[part] @ self.facets.T).max(axis=-1)
         return margin.reshape(wrench.shape[:-1])
 
@@ -115,12 +121,10 @@ class Contact:
             Its size [N·m, forces scaled], zero if the wrench is admissible, and
             the wrench itself (unscaled), shape ``(6,)``.
         """
-        from scipy.optimize import nnls
-
         target = self.scale(vector("wrench", wrench, 6))
-        weights, size = nnls(self.rays.T, target)
+        weights, size = nonnegative(self.rays.T, target)
         missing = target - self.rays.T @ weights
-        return float(size), missing / np.repeat([self.length, 1.0], 3)
+        return size, missing / np.repeat([self.length, 1.0], 3)
 
     def friction_used(self, wrench: np.ndarray) -> np.ndarray:
         """Tangential over admissible force, ``(..., 6)`` → ``(...)``; NaN without load."""

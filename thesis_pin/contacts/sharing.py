@@ -10,6 +10,7 @@ import numpy as np
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.contacts.programme import ConeProgramme, Pair
 from thesis_pin.numeric.arrays import skew
+from thesis_pin.numeric.nonnegative import nonnegative
 
 
 def share_load(
@@ -179,8 +180,6 @@ def _unit(contacts: tuple[Contact, Contact]) -> np.ndarray:
 
 def _missing(total: np.ndarray, maps: Pair, contacts: tuple[Contact, Contact]) -> float:
     """Size of the least wrench [N·m, forces scaled] two feet can't supply together."""
-    from scipy.optimize import nnls
-
     reference = maps[0]  # distances are measured about the first sole
     rays = [contacts[0].rays, contacts[1].rays @ np.linalg.inv(maps[1]).T @ reference.T]
-    return float(nnls(np.concatenate(rays).T, reference @ total)[1])
+    return nonnegative(np.concatenate(rays).T, reference @ total)[1]

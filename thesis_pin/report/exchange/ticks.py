@@ -19,13 +19,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import TrajectoryError, UnknownName
-from thesis_pin.model.specification import Key, Positive, Strict, read_toml
+from thesis_pin.model.limits import Key
+from thesis_pin.model.strict import Positive, Strict
 
 Array = NDArray[np.float64]
 
@@ -69,11 +70,12 @@ class ServosFile(Strict):
         values = dict(_USUAL)
         for servo in (self.servos, self.joints.get(joint)):
             if servo is not None:
-                values |= {key: value for key, value in servo if value is not None}
+                said: dict[str, Any] = servo.model_dump()
+                values |= {key: value for key, value in said.items() if value is not None}
         return values
 
 
-USUAL = ServosFile(format=1)
+USUAL = ServosFile.made(format=1)
 """Pulses of 500 to 2500 µs for −90° to 90°."""
 
 
@@ -84,6 +86,8 @@ def read_servos(file: str | Path, joints: Sequence[str]) -> ServosFile:
         SpecificationError: It breaks the format; carries every problem.
         UnknownName: It speaks of a joint that isn't one of ``joints``.
     """
+    from thesis_pin.model.specification import read_toml
+
     found = read_toml("servo file", ServosFile, file)
     for name in found.joints:
         if name not in joints:

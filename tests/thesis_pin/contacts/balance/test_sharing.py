@@ -1,0 +1,142 @@
+"""Load sharing against an independent formulation: corner forces, by SciPy's SLSQP."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import minimize
+from standing_robots import random_pose, random_states, standing
+
+from thesis_pin.contacts.balance.dynamics import foot_dynamics
+from thesis_pin.contacts.balance.sharing import tolerance
+from thesis_pin.contacts.floor import Floor
+
+COS = np.cos(np.pi / 8)
+
+
+def corner_problem(found, sample, standing_feet):
+    """Corner forces in the world: what they sum to, what they take off the motors, their limits.
+
+    Friction pyramids of eight edges, written from corner forces, without wrenches or their cones.
+    """
+    robot, stance = found.robot, found.stance
+    columns, takes, limits = [], [], []
+    for k in standing_feet:
+        axes = stance.turn[sample, k]
+        for point in stance.corners[k][sample]:
+            arm = point - stance.frames[sample, k]
+            jacobian = stance.jacobian[sample, k]
+            moved = jacobian[:3] + np.array([np.cross(w, arm) for w in jacobian[3:].T]).T
+            takes.append(moved.T[robot.actuated])
+            cross = np.array([np.cross(point, axis) for axis in np.eye(3)]).T
+            columns.append(np.concatenate([np.eye(3), cross]))
+            angles = np.pi / 8 + np.pi / 4 * np.arange(8)
+            level = np.outer(np.cos(angles), axes[:, 0]) + np.outer(np.sin(angles), axes[:, 1])
+            limits.append(found.feet[k].friction * COS * axes[:, 2] - level)
+    wide = np.zeros((8 * len(limits), 3 * len(limits)))
+    for j, rows in enumerate(limits):
+        wide[8 * j : 8 * j + 8, 3 * j : 3 * j + 3] = rows
+    return np.concatenate(columns, axis=1), np.concatenate(takes, axis=1), wide
+
+
+def slsqp(found, sample, feet):
+    """Least sum of squared torques, and the torques, by another solver."""
+    sums, takes, limits = corner_problem(found, sample, feet)
+    without = found.loops.joint_force[sample][found.robot.actuated]
+    # joint_force is what the tree needs beside the contact forces that were found: undo these.
+    for k in range(len(found.feet)):
+        wrench, stance = found.wrench[sample, k], found.stance
+        arm = stance.origin[sample, k] - stance.frames[sample, k]
+        moment = wrench[3:] + np.cross(arm, wrench[:3])
+        push = np.concatenate([wrench[:3], moment])
+        without = without + (stance.jacobian[sample, k].T @ push)[found.robot.actuated]
+    weight = np.abs(found.required[sample, :3]).max()
+    total = found.required[sample] / weight
+    scaled = without / weight
+    start = np.linalg.lstsq(sums, total, rcond=None)[0]
+    done = minimize(
+        lambda f: float(((scaled - takes @ f) ** 2).sum()),
+        start,
+        jac=lambda f: -2 * takes.T @ (scaled - takes @ f),
+        constraints=[
+            {"type": "eq", "fun": lambda f: sums @ f - total, "jac": lambda f: sums},
+            {"type": "ineq", "fun": lambda f: limits @ f, "jac": lambda f: limits},
+        ],
+        method="SLSQP",
+        options={"ftol": 1e-16, "maxiter": 500},
+    )
+    return done.success, done.fun * weight**2, (scaled - takes @ done.x) * weight
+
+
+@pytest.mark.parametrize(
+    ("name", "feet"), [("anymal", (0, 1, 2, 3)), ("solo12", (0, 1, 2)), ("talos", (0, 1))]
+)
+def test_least_torques_are_those_another_solver_finds_from_corner_forces(name, feet):
+    robot, every, _ = standing(name)
+    rng = np.random.default_rng(11)
+    q = np.array([random_pose(name, rng, Floor(), 0.03) for _ in range(40)])
+    states = (q, *(0.1 * x for x in random_states(name, rng, 40, Floor())[1:]))
+    support = np.isin(np.arange(len(every)), feet)
+    found = foot_dynamics(robot, every, *states, support=support)
+    compared = 0
+    for k in np.flatnonzero(found.admissible)[:6]:
+        done, cost, torque = slsqp(found, k, feet)
+        if not done:
+            continue
+        compared += 1
+        ours = (found.torque[k] ** 2).sum()
+        assert ours == pytest.approx(cost, rel=1e-6)
+        assert np.allclose(found.torque[k], torque, rtol=0, atol=1e-4 * np.abs(torque).max())
+    assert compared >= 3
+
+
+def test_no_admissible_forces_need_less_torque_or_less_force_than_those_that_were_chosen():
+    robot, feet, _ = standing("anymal")
+    q, v, a = random_states("anymal", np.random.default_rng(12), 20, Floor())
+    by = {s: foot_dynamics(robot, feet, q, v, a, sharing=s) for s in ("torque", "force", "equal")}
+    fine = by["torque"].admissible
+    assert fine.any()
+    for found in by.values():
+        assert (found.admissible == fine).all()
+        assert (found.contact_margin[fine] > -1e-9 * found.scale).all()
+
+    def apart(found):
+        return found.normal_force.var(axis=1)[fine]
+
+    def torques(found):
+        return (found.torque**2).sum(axis=1)[fine]
+
+    def forces(found):
+        return (found.wrench[..., :3] ** 2).sum(axis=(1, 2))[fine]
+
+    for other in by.values():
+        assert (torques(by["torque"]) <= torques(other) * (1 + 1e-9)).all()
+        assert (forces(by["force"]) <= forces(other) * (1 + 1e-9)).all()
+        assert (apart(by["equal"]) <= apart(other) * (1 + 1e-4)).all()
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**31))
+def test_what_the_floor_can_give_it_gives_within_every_cone_and_what_it_cannot_is_told(seed):
+    rng = np.random.default_rng(seed)
+    robot, feet, _ = standing("solo12")
+    q, v, a = random_states("solo12", rng, 1, Floor())
+    support = np.array([rng.permuted([True, True, True, rng.random() < 0.5])])
+    found = foot_dynamics(robot, feet, q, v, 3 * a, support=support)
+    inside = np.nan_to_num(found.contact_margin[0], nan=0.0).min()
+    if found.admissible[0]:
+        assert inside >= -tolerance(found.scale)
+        assert np.abs(found.loops.base).max() < 1e-6 * found.scale
+    else:
+        assert inside < 0 or np.abs(found.loops.base).max() > tolerance(found.scale)
+
+
+def test_load_that_follows_from_the_motion_needs_no_choice():
+    robot, feet, pose = standing("talos")
+    one = foot_dynamics(robot, feet, pose, support=np.array([True, False]))
+    assert one.freedoms.tolist() == [0]
+    for sharing in ("force", "equal"):
+        other = foot_dynamics(robot, feet, pose, support=np.array([True, False]), sharing=sharing)
+        assert np.allclose(other.wrench, one.wrench, rtol=0, atol=1e-9 * one.scale)
+    both = foot_dynamics(robot, feet, pose)
+    assert both.freedoms.tolist() == [6]

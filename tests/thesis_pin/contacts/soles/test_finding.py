@@ -1,0 +1,105 @@
+"""Feet of robots that others made, and of shapes whose lowest part is known."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from standing_robots import standing
+
+import thesis_pin
+from thesis_pin.contacts.soles.finding import find_feet
+from thesis_pin.contacts.soles.lowest import lowest, sole
+from thesis_pin.contacts.soles.stated import stated_feet
+from thesis_pin.errors import BadInput, UnknownName
+from thesis_pin.loops.closures import ClosedRobot
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def shape(text, rpy="0 0 0", xyz="0 0 0"):
+    """One collision shape on a link below a hinge."""
+    urdf = (
+        '<robot name="r"><link name="a"><inertial><mass value="1"/><inertia ixx="1" ixy="0" '
+        'ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link><link name="b"><inertial><mass '
+        'value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+        f'<collision><origin xyz="{xyz}" rpy="{rpy}"/><geometry>{text}</geometry>'
+        "</collision></link>"
+        '<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 1 0"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>'
+    )
+    return ClosedRobot(urdf, root_joint=pin.JointModelFreeFlyer())
+
+
+def found(robot, how=lowest, angle=0.0):
+    q = robot.q0.copy()
+    q[7] = angle
+    data = robot.model.createData()
+    pin.forwardKinematics(robot.model, data, q)
+    return how(robot.collision_model.geometryObjects, data.oMi[2], UP)
+
+
+def test_talos_and_g1_stand_on_soles_of_the_size_their_makers_gave_them():
+    for name, size in (("talos", (0.21, 0.13)), ("g1", (0.17, 0.06))):
+        _, feet, _ = standing(name)
+        assert [foot.kind for foot in feet] == ["sole", "sole"]
+        for foot in feet:
+            assert np.ptp(foot.corners, axis=0) == pytest.approx(size, abs=1e-6)
+
+
+def test_quadrupeds_and_bolt_stand_on_points_of_the_right_number():
+    for name, count in (("anymal", 4), ("solo12", 4), ("bolt", 2)):
+        _, feet, _ = standing(name)
+        assert [foot.kind for foot in feet] == ["point"] * count
+    assert all(foot.radius == pytest.approx(0.03) for foot in standing("anymal")[1])
+
+
+def test_a_box_has_a_sole_also_where_the_pose_holds_it_tilted():
+    robot = shape('<box size="0.2 0.1 0.04"/>', xyz="0.03 0 -0.2")
+    level = found(robot)
+    assert len(level.corners) == 4
+    assert level.height == pytest.approx(-0.22)
+    assert len(found(robot, angle=0.1).corners) == 2  # its edge is lowest
+    tilted = found(robot, sole, angle=0.1)
+    assert len(tilted.corners) == 4
+    assert tilted.up @ UP == pytest.approx(np.cos(0.1))
+
+
+def test_a_ball_is_a_point_with_a_radius_a_bar_an_edge_and_a_disc_a_sole_of_eight_corners():
+    ball = found(shape('<sphere radius="0.03"/>', xyz="0 0 -0.3"))
+    assert (len(ball.corners), ball.radius) == (1, pytest.approx(0.03))
+    assert ball.corners[0] == pytest.approx([0, 0, -0.3])
+    bar = found(shape('<cylinder radius="0.01" length="0.2"/>', rpy="1.5707963267948966 0 0"))
+    assert len(bar.corners) == 2
+    assert np.ptp(bar.corners[:, 1]) == pytest.approx(0.2)
+    disc = found(shape('<cylinder radius="0.05" length="0.02"/>'))
+    assert len(disc.corners) == 8
+    assert 0 < disc.lost < 0.12
+
+
+def test_feet_are_found_by_name_and_what_has_no_shape_has_to_be_said():
+    robot = shape('<box size="0.2 0.1 0.04"/>')
+    (foot,) = find_feet(robot, ["b"])
+    assert foot.kind == "sole"
+    assert "collision" in foot.source
+    with pytest.raises(UnknownName, match="c"):
+        find_feet(robot, ["c"])
+    with pytest.raises(BadInput, match="has no shapes"):
+        find_feet(robot, ["a"])
+    with pytest.raises(BadInput, match="--feet"):
+        find_feet(thesis_pin.load("example:panda", root_joint=pin.JointModelFreeFlyer()))
+
+
+def test_stated_feet_are_points_balls_and_rectangles_about_their_frames():
+    robot = shape('<box size="0.2 0.1 0.04"/>')
+    point, ball = stated_feet(robot, ["a=point", "b=0.03"])
+    assert (point.kind, point.radius) == ("point", 0.0)
+    assert (ball.kind, ball.radius) == ("point", 0.03)
+    (sole_of_b,) = stated_feet(robot, ["b=0.3x0.1"])
+    assert np.ptp(sole_of_b.corners, axis=0) == pytest.approx([0.3, 0.1])
+    assert np.allclose(sole_of_b.placement, np.eye(4))
+    lying = robot.q0.copy()
+    lying[3:7] = pin.Quaternion(pin.exp3(np.array([np.pi / 2, 0, 0]))).coeffs()
+    (other,) = stated_feet(robot, ["b=0.3x0.1"], pose=lying)
+    assert other.placement[:3, 2] == pytest.approx([0, 1, 0], abs=1e-12)
+    for word in ("b=", "b=0", "b=1x2x3", "b=wide", "=0.1", "b=200x100"):
+        with pytest.raises(BadInput, match="foot"):
+            stated_feet(robot, [word])

@@ -1,0 +1,204 @@
+"""Which foot carries what: the least of a quadratic cost within the contacts' cones.
+
+Unknowns u, torques t − T u, the floor's wrench E u = e. With u = E⁺ e + N z, N the null space
+of E, what is left to choose is z. Where nothing is, the answer is exact and needs no solver;
+where the best z without the floor's limits keeps them, it is the answer; else a quadratic
+programme has it (DAQP, an active-set method: exact up to rounding), which starts from the
+limits that held the sample before.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+import daqp
+import numpy as np
+from numpy.typing import NDArray
+
+from thesis_pin.contacts.balance.grips import Grips
+from thesis_pin.contacts.cones import FRICTION_EDGES
+from thesis_pin.tolerances import TOLERANCES
+
+Array = NDArray[np.float64]
+
+Sharing = Literal["torque", "force", "equal"]
+SHARINGS: tuple[str, ...] = get_args(Sharing)
+
+_TIE = 1e-9  # Hessians that are flatter, relative to their steepest, get a tie-break
+_LEAST_FORCE = 1e-3  # weight of the force where load is spread equally and more is open
+_NONE = -1e30  # no lower bound
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """The problem of some samples that stand on the same feet.
+
+    Attributes:
+        grips: What carries load.
+        sums: E: from unknowns to their sum, and to what no motor or loop carries, ``(n, r, m)``.
+        total: e: what these have to be, shape ``(n, r)``.
+        torques: T: from unknowns to what they take off the motors, scaled, ``(n, motors, m)``.
+        target: t: the motors' torques without a floor, scaled, shape ``(n, motors)``.
+        scale: Size of the load [N·m]: what is small is small beside it.
+    """
+
+    grips: Grips
+    sums: Array
+    total: Array
+    torques: Array
+    target: Array
+    scale: float
+
+
+@dataclass(frozen=True, eq=False)
+class Shared:
+    """Who carries what.
+
+    Attributes:
+        unknowns: In the grips' axes, forces times length [N·m], shape ``(n, m)``.
+        violation: Least part of the load that no admissible forces give [N·m], ``(n,)``.
+        freedoms: How many components the floor's wrench left open, shape ``(n,)``.
+    """
+
+    unknowns: Array
+    violation: Array
+    freedoms: NDArray[np.intp]
+
+
+def share(problem: Problem, sharing: str) -> Shared:
+    """Choose the contact forces of each sample.
+
+    Where no admissible ones give the load, the same rule holds without the floor's limits, and
+    the violation says how much is missing.
+
+    Args:
+        problem: The problem.
+        sharing: ``torque``: least sum of squared torques; ``force``: least sum of squared
+            contact forces; ``equal``: normal forces as equal as can be, then least forces.
+    """
+    count, _, size = problem.sums.shape
+    freedoms = np.zeros(count, dtype=np.intp)
+    unknowns, violation = np.zeros((count, size)), np.zeros(count)
+    if not count or not size:
+        return Shared(unknowns, np.linalg.norm(problem.total, axis=1), freedoms)
+    left, values, right = np.linalg.svd(problem.sums, full_matrices=True)
+    ranks = (values > TOLERANCES.rank * values[:, :1]).sum(axis=1)
+    for rank in np.unique(ranks).tolist():
+        rows = np.flatnonzero(ranks == rank)
+        inverse = right[rows, :rank].swapaxes(1, 2) / values[rows, None, :rank]
+        along = left[rows, :, :rank].swapaxes(1, 2) @ problem.total[rows, :, None]
+        least = (inverse @ along)[..., 0]
+        free = right[rows, rank:].swapaxes(1, 2)
+        freedoms[rows] = size - rank
+        unknowns[rows] = _chosen(problem, sharing, rows, least, free)
+    beyond = (unknowns @ problem.grips.facets.T).max(axis=1, initial=0.0)
+    short = problem.total - (problem.sums @ unknowns[..., None])[..., 0]
+    border = tolerance(problem.scale)
+    doubtful = (beyond > border) | (np.abs(short).max(axis=1) > border)
+    rays = problem.grips.rays(FRICTION_EDGES)
+    for k in np.flatnonzero(doubtful).tolist():
+        violation[k] = missing(problem.sums[k], rays, problem.total[k])[0]
+    return Shared(unknowns, violation, freedoms)
+
+
+def tolerance(scale: float) -> float:
+    """What of a load [N·m] of some size still counts as nothing [N·m]."""
+    return max(TOLERANCES.wrench, TOLERANCES.contact * scale)
+
+
+def missing(sums: Array, rays: Array, total: Array) -> tuple[float, Array]:
+    """Least wrench that something other than the floor would have to add.
+
+    Args:
+        sums: From unknowns to what they have to make, shape ``(r, m)``.
+        rays: Unknowns of which any with non-negative weights may be added, ``(m, k)``.
+        total: What has to be made, shape ``(r,)``.
+
+    Returns:
+        Its size [N·m, forces scaled] and itself, shape ``(r,)``.
+    """
+    from scipy.optimize import nnls
+
+    made = sums @ rays
+    size = float(np.abs(total).max()) or 1.0
+    length = float(np.linalg.norm(made, axis=0).max(initial=0.0)) or 1.0
+    weights, rest = nnls(made / length, total / size)
+    return float(rest) * size, total - size / length * (made @ weights)
+
+
+def _chosen(
+    problem: Problem, sharing: str, rows: NDArray[np.intp], least: Array, free: Array
+) -> Array:
+    """Unknowns of samples whose null spaces ``(k, m, f)`` have one dimension."""
+    if not free.shape[2]:
+        return least
+    matrix, target = _cost(problem, sharing, rows, least, free)
+    size = problem.scale
+    target, start = target / size, least / size
+    best = (np.linalg.pinv(matrix, rcond=_TIE) @ target[..., None])[..., 0]
+    facets = problem.grips.facets
+    found = start + (free @ best[..., None])[..., 0]
+    normals = np.einsum("cm,kmf->kcf", facets, free)
+    bounds = -start @ facets.T
+    solver = _Solver()
+    for k in np.flatnonzero((found @ facets.T > 0).any(axis=1)).tolist():
+        z = solver.solve(matrix[k], target[k], normals[k], bounds[k])
+        if z is not None:
+            found[k] = start[k] + free[k] @ z
+    return found * size
+
+
+def _cost(
+    problem: Problem, sharing: str, rows: NDArray[np.intp], least: Array, free: Array
+) -> tuple[Array, Array]:
+    """|target − matrix z|² is what is to be least."""
+    if sharing == "torque":
+        torques = problem.torques[rows]
+        return torques @ free, problem.target[rows] - (torques @ least[..., None])[..., 0]
+    if sharing == "force":
+        return free, np.zeros_like(least)
+    normal = np.zeros((len(problem.grips.each), problem.grips.size))
+    for number, place in enumerate(problem.grips.places):
+        normal[number, place.start + 2] = 1.0
+    apart = normal - normal.mean(axis=0)
+    matrix = np.concatenate([apart @ free, _LEAST_FORCE * free], axis=1)
+    target = np.concatenate([-least @ apart.T, np.zeros_like(least)], axis=1)
+    return matrix, target
+
+
+class _Solver:
+    """Quadratic programmes of one size, one after the other: each starts from the last."""
+
+    def __init__(self) -> None:
+        self.model: Any = None
+
+    def solve(self, matrix: Array, target: Array, normals: Array, bounds: Array) -> Array | None:
+        """Least |target − matrix z|² with normals z ≤ bounds; None if there is no such z."""
+        hessian = matrix.T @ matrix
+        steep = np.linalg.eigvalsh(hessian)
+        if steep[0] < _TIE * steep[-1]:  # of what costs the same, the least force
+            hessian = hessian + _TIE * max(steep[-1], 1e-12) * np.eye(len(hessian))
+        normals = np.ascontiguousarray(normals)
+        if self.model is not None:
+            flag = self.model.update(H=hessian, f=-matrix.T @ target, A=normals, bupper=bounds)
+            if flag < 0:
+                self.model = None
+        if self.model is None:
+            self.model = daqp.Model()
+            self.model.settings = {"primal_tol": 1e-10, "dual_tol": 1e-10}
+            lower, sense = np.full(len(bounds), _NONE), np.zeros(len(bounds), dtype=np.int32)
+            self.model.setup(hessian, -matrix.T @ target, normals, bounds, lower, sense)
+        solution, _, flag, _ = self.model.solve()
+        if flag <= 0:  # start anew: what held the last sample may not hold this one
+            self.model = None
+            return self._cold(hessian, matrix.T @ target, normals, bounds)
+        return np.array(solution)
+
+    @staticmethod
+    def _cold(hessian: Array, pull: Array, normals: Array, bounds: Array) -> Array | None:
+        lower, sense = np.full(len(bounds), _NONE), np.zeros(len(bounds), dtype=np.int32)
+        solution, _, flag, _ = daqp.solve(
+            hessian, -pull, normals, bounds, lower, sense, primal_tol=1e-10, dual_tol=1e-10
+        )
+        return np.array(solution) if flag > 0 else None

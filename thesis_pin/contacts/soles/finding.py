@@ -1,0 +1,159 @@
+"""Feet of a robot: those that are named, or a guess; their soles from its shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import ArrayLike, NDArray
+
+from thesis_pin.contacts.soles.foot import FRICTION, Foot, by_name, check_free
+from thesis_pin.contacts.soles.lowest import Lowest, lowest, sole
+from thesis_pin.errors import BadInput, ModelError
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.model.loading import frame_id
+from thesis_pin.numeric.arrays import vector
+from thesis_pin.numeric.checks import instance
+from thesis_pin.tolerances import TOLERANCES
+
+Array = NDArray[np.float64]
+
+
+def find_feet(
+    robot: ClosedRobot,
+    names: Sequence[str] | None = None,
+    *,
+    pose: ArrayLike | None = None,
+    friction: float = FRICTION,
+) -> tuple[Foot, ...]:
+    """Feet of a robot, each with what of its collision shapes is lowest in a pose.
+
+    What lies within 1 mm of a link's lowest point is its sole, if that is 20 mm wide; else it is
+    an edge or a point, with the radius of a ball where it is one. Soles have at most eight
+    corners. Where nobody says which, feet are all links at the ends of limbs that end no higher
+    above the lowest than 3 % of the robot's height. Without collision shapes visual ones are taken.
+
+    Args:
+        robot: The robot, with a free root.
+        names: Frames or links; None for a guess.
+        pose: Configuration in which it stands upright, its feet level, shape ``(nq,)``; None
+            for the neutral one.
+        friction: Coefficient of friction of all.
+
+    Returns:
+        The feet, in the model's order if they are guessed; ``source`` says what each is from.
+
+    Raises:
+        UnknownName: There is no such frame.
+        BadInput: The root is tied to the world, a link has no shapes, or nothing looks like a foot.
+    """
+    instance("robot", robot, ClosedRobot, "thesis_pin.load()")
+    check_free(robot)
+    q = robot.q0 if pose is None else vector("pose", pose, robot.model.nq)
+    data = robot.model.createData()
+    pin.forwardKinematics(robot.model, data, q)
+    pin.updateFramePlacements(robot.model, data)
+    shapes = _Shapes(robot)
+    if names is None:
+        links = _guessed(robot, data, shapes)
+        feet = [_foot(robot, data, shapes, link, friction) for link in links]
+    else:
+        feet = [_foot(robot, data, shapes, name, friction) for name in names]
+    return tuple(by_name(feet).values())
+
+
+class _Shapes:
+    """Collision shapes of a robot by joint, else visual ones."""
+
+    def __init__(self, robot: ClosedRobot) -> None:
+        self.each: list[list[pin.GeometryObject]] = [[] for _ in range(robot.model.njoints)]
+        self.word, self.reason = "collision shapes", ""
+        for word in ("collision", "visual"):
+            try:
+                model = robot.collision_model if word == "collision" else robot.visual_model
+            except ModelError as error:  # a mesh is missing
+                self.reason = self.reason or error.what
+                continue
+            for shape in model.geometryObjects:
+                self.each[shape.parentJoint].append(shape)
+            if any(self.each):
+                self.word = f"{word} shapes"
+                return
+
+    def of(self, robot: ClosedRobot, frame: int) -> list[pin.GeometryObject]:
+        """A link's own shapes; of a frame without any those of its whole body."""
+        body = self.each[robot.model.frames[frame].parentJoint]
+        own = [shape for shape in body if shape.parentFrame == frame]
+        return own or body
+
+
+def _foot(robot: ClosedRobot, data: pin.Data, shapes: _Shapes, name: str, friction: float) -> Foot:
+    model, up = robot.model, np.array([0.0, 0.0, 1.0])
+    frame = frame_id(model, name, where="feet")
+    joint = model.frames[frame].parentJoint
+    found = sole(shapes.of(robot, frame), data.oMi[joint], up)
+    if found is None:
+        because = f" ({shapes.reason})" if shapes.reason else ""
+        raise BadInput(
+            f"foot {name!r} has no shapes from which its sole could be taken{because}",
+            where=robot.description.where,
+            remedy=f"Say what meets the floor: {name}=0.2x0.1 (a sole, in metres) or {name}=point",
+        )
+    return _in_frame(name, data.oMf[frame], found, friction, shapes.word)
+
+
+def _in_frame(name: str, place: pin.SE3, found: Lowest, friction: float, word: str) -> Foot:
+    """What is lowest, as a foot on a frame; its sole's origin is below that of the frame."""
+    up = found.up
+    ahead = place.rotation[:, 0] if abs(place.rotation[:, 0] @ up) < 0.9 else place.rotation[:, 1]
+    first = ahead - up * (ahead @ up)
+    first /= np.linalg.norm(first)
+    turn = np.column_stack([first, np.cross(up, first), up])
+    origin = place.translation + up * (found.corners[0] @ up - place.translation @ up)
+    if len(found.corners) < 3:
+        origin = found.corners.mean(axis=0)
+    axes = np.eye(4)
+    axes[:3, :3] = place.rotation.T @ turn
+    axes[:3, 3] = place.rotation.T @ (origin - place.translation)
+    corners = (found.corners - origin) @ turn[:, :2]
+    what = {1: "the lowest point", 2: "the lowest edge"}.get(len(corners), "the lowest face")
+    if found.radius:
+        what = f"a ball of {found.radius * 1e3:.3g} mm"
+    source = f"{what} of its {word}"
+    if found.lost > 0:
+        source += f", {len(corners)} corners of it ({found.lost:.1%} of the area left out)"
+    return Foot(name, name, axes, corners, float(friction), found.radius, source)
+
+
+def _guessed(robot: ClosedRobot, data: pin.Data, shapes: _Shapes) -> list[str]:
+    """Links at the ends of limbs that end about as low as the lowest."""
+    model, up = robot.model, np.array([0.0, 0.0, 1.0])
+    ends: dict[int, tuple[float, str]] = {}
+    for joint in range(1, model.njoints):
+        each = [
+            (found.height, model.frames[shape.parentFrame].name)
+            for shape in shapes.each[joint]
+            if (found := lowest([shape], data.oMi[joint], up)) is not None
+        ]
+        if each:
+            ends[joint] = min(each)
+    if not ends:
+        because = f" ({shapes.reason})" if shapes.reason else ""
+        raise BadInput(
+            f"nobody said which links are feet, and no shape says which are lowest{because}",
+            where=robot.description.where,
+            remedy="Name them: --feet left_foot=0.2x0.1,right_foot=0.2x0.1 (metres), or =point",
+        )
+    low = min(height for height, _ in ends.values())
+    tops = [float(place.translation @ up) for place in list(data.oMi)[1:]]
+    near = low + TOLERANCES.foot_height * (max(tops) - low)
+    feet = {joint: name for joint, (height, name) in ends.items() if height <= near}
+    if 1 in feet:
+        raise BadInput(
+            f"nobody said which links are feet, and {feet[1]!r} of the root is as low as any",
+            where=robot.description.where,
+            remedy="Name them: --feet NAME,NAME",
+        )
+    above = {parent for joint in feet for parent in list(model.supports[joint])[:-1]}
+    return [name for joint, name in feet.items() if joint not in above]

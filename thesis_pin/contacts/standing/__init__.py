@@ -1,0 +1,1 @@
+"""A robot put on the floor, and when its feet are on it."""
