@@ -130,10 +130,11 @@ def _tell(found: soundness.Soundness) -> list[Part]:
         for loop, gap in zip(robot.loops, found.assembly.gaps, strict=False)
     ]
     columns = ("loop", "type", "frame", "frame", "gap m", "gap rad")
+    motors = ", ".join(_named(motor) for motor in robot.motors)
     return [
         *([Table("", columns, rows)] if rows else []),
         f"{robot.model.name}: {robot.model.njoints - 1} joints, "
-        f"{len(robot.motors)} motors ({', '.join(_named(motor) for motor in robot.motors)}).",
+        f"{len(robot.motors)} motors{f' ({motors})' if motors else ''}.",
         *found.sentences(),
         *(f"Warning: {one}" for one in found.warnings),
         *(f"Not used: {one}" for one in robot.description.passed_over),
