@@ -34,6 +34,7 @@ step, and on the other side more, however far the step goes."""
 
 _NEAR = 1e-3  # what it may miss it by in any case [rad], or relative to the robot's size
 _FINER = (1, 4, 16)  # parts of the way between two cells, if need be
+_SEAM = 0.1  # what neighbours' joints may differ by beyond that [rad], or relative to the size
 _TRIED = 40  # cells that are looked for from the pose
 _STRIDE = 0.05  # steps of that way [rad], or relative to the robot's size
 _BLOCK = 2048  # cells at once, so that memory stays bounded
@@ -245,5 +246,6 @@ def _seams(led: Led, points: Array, q: Array, along: Array, state: NDArray[np.in
             ahead, back = along[k] @ way, along[j] @ way
             missed = ((went - (ahead + back) / 2) / columns)[passive]
             size = max(np.linalg.norm((x / columns)[passive]) for x in (ahead, back))
-            found += bool(np.linalg.norm(missed) > size + 0.1)
+            if np.linalg.norm(missed) > size + _SEAM:  # how far rods have spun says nothing
+                found += bool(np.linalg.norm(led.without_idle(q[k], missed)) > size + _SEAM)
     return found
