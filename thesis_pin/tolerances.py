@@ -135,6 +135,8 @@ class Tolerances:
             lengths, that is replaced before one divides by it [-], [m²].
         time_unit: Relative width of the interval in which the fastest time unit counts as
             found [-].
+        mirror: Relative difference of speeds, shares of a servo or jumps that counts as none:
+            of two legs that do the same only rounding would name one [-].
         unbalanced: Force or moment an explicit model may leave over: above rounding,
             below anything physical [N], [N·m].
         determined: Scaled singular value below which motors don't determine passive rates
@@ -224,6 +226,7 @@ class Tolerances:
     same_mode: float = 1e-6
     vanishing: float = 1e-14
     time_unit: float = 1e-5
+    mirror: float = 1e-9
     unbalanced: float = 1e-8
     determined: float = 1e-6
     explicit_rank: float = 1e-11

@@ -147,7 +147,8 @@ def _fill(
             continue
         force, moment = shares[k][:3, standing], shares[k][3:, standing]
         screws = LegScrews(robot.legs[side], joints.q[standing, mine])
-        torque[standing, mine] -= screws.torques(force, moment).T
+        for joint, taken in zip(range(12)[mine], screws.torques(force, moment), strict=True):
+            torque[standing, joint] -= taken
         # From the torso's axes to the world's, and from its origin to the sole's.
         force, moment = into(back[:, :, standing], force), into(back[:, :, standing], moment)
         arm = rows(foot.position[standing] - motion.torso.position[standing])

@@ -20,6 +20,7 @@ from scout_pin.dynamics.load_sharing import sharing_problem
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from thesis_pin.contacts.sharing import LoadSharing
+from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.numeric.inequalities import where_lines_hold
 from thesis_pin.numeric.trajectory import JointTrajectory
 
@@ -42,6 +43,10 @@ class Torques:
     square: np.ndarray
     low: np.ndarray
     high: np.ndarray
+
+    def part(self, some: Samples) -> Torques:
+        """Some of the samples."""
+        return Torques(**{name: values[some] for name, values in vars(self).items()})
 
     def at(self, some: np.ndarray, s: float) -> np.ndarray:
         """Torques of some of the samples at a speed, ``(k, 12)``."""

@@ -14,13 +14,13 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.kinematics.screws import LegScrews
+from scout_pin.kinematics.screws import Joints, LegScrews
 from thesis_pin.errors import WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.trajectory import BodyMotion
-from thesis_pin.numeric.vectors import cross, rows
+from thesis_pin.numeric.vectors import cross, into, rows
 
 
 def leg_rates(
@@ -51,30 +51,53 @@ def leg_rates(
         raise WrongShape("theta", theta.shape, f"({foot.count}, 6), as foot")
     rate, second = np.empty(theta.shape), np.empty(theta.shape)
     for part in blocks(len(theta)):
-        motion = foot.part(part)
-        if torso is not None:
-            motion = motion.seen_from(torso.part(part))
         screws = LegScrews(leg, theta[part])
         screws.refuse_singular(part.start)
-        rate[part], second[part] = _solve(screws, motion)
+        seen = None if torso is None else torso.part(part)
+        for out, found in zip((rate, second), solve(screws, foot.part(part), seen), strict=True):
+            for k in range(6):
+                out[part, k] = found[k]
     return rate, second
 
 
-def _solve(screws: LegScrews, foot: BodyMotion) -> tuple[np.ndarray, np.ndarray]:
-    """Rates and accelerations of one block, each ``(n, 6)``."""
-    leg, turn = screws.leg, rows(foot.rotation)
-    # The point the equations speak of is p5, not the sole; both are fixed in the foot.
-    x, y, z = (leg.foot[1] * leg.y_6 + leg.foot[0] * leg.x_5).tolist()
-    arm = turn[:, 0] * x + turn[:, 1] * y + turn[:, 2] * z
-    omega, alpha = rows(foot.omega), rows(foot.alpha)
-    spin = cross(omega, arm)
-    velocity = rows(foot.velocity) - spin
+def solve(
+    screws: LegScrews, foot: BodyMotion, torso: BodyMotion | None = None
+) -> tuple[Joints, Joints]:
+    """Rates and accelerations of one block of samples that :func:`leg_rates` has checked."""
+    velocity, omega, acceleration, alpha = _ankle(screws.leg, foot, torso)
     rate = screws.solve(screws.components(velocity), screws.components(omega))
-    acceleration = rows(foot.acceleration) - cross(alpha, arm) - cross(omega, spin)
     linear, angular = screws.bias(rate)
     p, w = screws.components(acceleration), screws.components(alpha)
     second = screws.solve(
         (p[0] - linear[0], p[1] - linear[1], p[2] - linear[2]),
         (w[0] - angular[0], w[1] - angular[1], w[2] - angular[2]),
     )
-    return rate.T, second.T
+    return rate, second
+
+
+def _ankle(
+    leg: LegGeometry, foot: BodyMotion, torso: BodyMotion | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Velocity of p5, ω, acceleration of p5, α, seen from the torso in its axes, ``(3, n)`` each.
+
+    The equations speak of p5, not of the sole; both are fixed in the foot.
+    """
+    arm = np.einsum("ijn,j->in", rows(foot.rotation), leg.foot[1] * leg.y_6 + leg.foot[0] * leg.x_5)
+    omega, alpha = rows(foot.omega), rows(foot.alpha)
+    spin = cross(omega, arm)
+    velocity = rows(foot.velocity) - spin
+    acceleration = rows(foot.acceleration) - cross(alpha, arm) - cross(omega, spin)
+    if torso is None:
+        return velocity, omega, acceleration, alpha
+    turn, offset = rows(torso.rotation), rows(foot.position) - rows(torso.position) - arm
+    omega_0, alpha_0 = rows(torso.omega), rows(torso.alpha)
+    spin = cross(omega_0, offset)
+    velocity -= rows(torso.velocity)
+    velocity -= spin
+    # The frame's own, centrifugal and Coriolis accelerations, as in BodyMotion.seen_from().
+    acceleration -= rows(torso.acceleration)
+    acceleration -= cross(alpha_0, offset)
+    acceleration -= cross(omega_0, spin + 2.0 * velocity)
+    omega = omega - omega_0
+    alpha = alpha - alpha_0 - cross(omega_0, omega)
+    return into(turn, velocity), into(turn, omega), into(turn, acceleration), into(turn, alpha)

@@ -32,7 +32,7 @@ def leg_conditioning(leg: LegGeometry, theta: ArrayLike) -> np.ndarray:
     # A row of the Jacobian is the torques of a unit force or moment on the sole.
     for axis in np.eye(3):
         unit = still + axis[:, None]
-        forced = screws.torques(unit, np.cross(sole, unit, axis=0)) / (leg.x_3 + leg.x_4)
-        rows += [forced, screws.torques(still, unit)]
+        forced = np.array(screws.torques(unit, np.cross(sole, unit, axis=0)))
+        rows += [forced / (leg.x_3 + leg.x_4), np.array(screws.torques(still, unit))]
     values = np.linalg.svd(np.array(rows).transpose(2, 0, 1), compute_uv=False)
     return np.asarray(values[:, -1] / values[:, 0])

@@ -247,7 +247,7 @@ def _refuse_jumps(curve: Piecewise, where: str) -> None:
     """Segments must meet; the thesis's own rounding leaves gaps below 0.06 mm."""
     sizes = np.abs(jumps(curve))
     if (sizes > TOLERANCES.seam).any():
-        k = int(np.argmax(sizes >= sizes.max() * (1 - 1e-9)))  # of equal ones the first
+        k = int(np.argmax(sizes >= sizes.max() * (1 - TOLERANCES.mirror)))  # of equals the first
         raise TrajectoryError(
             f"its value jumps by {sizes[k]:.3g}",
             where=f"{where} at t = {curve.x[k + 1]:g}",

@@ -113,6 +113,12 @@ class MotionContactDynamics(ContactDynamics):
         feet: Motions of both soles.
     """
 
+    def __new__(cls, **values: np.ndarray) -> ContactDynamics:  # type: ignore[misc]
+        """What ``dataclasses.replace`` makes of it: all is given, and nothing left to work out."""
+        if "sole_wrench" in values:
+            return ContactDynamics(**values)  # type: ignore[arg-type]
+        return super().__new__(cls)
+
     def __init__(
         self,
         *,

@@ -46,10 +46,13 @@ def support_polygons(
     firsts: list[np.ndarray] = []
     for part in blocks(len(support)):
         some = _stances(support[part], [foot.part(part).placement for foot in feet])
-        key, first, inverse = np.unique(some, axis=0, return_index=True, return_inverse=True)
-        number[part] = inverse.ravel() + sum(len(key) for key in keys)
+        # Neighbours are alike as a rule: that leaves a row a stance to sort, of some thousand.
+        begins = np.concatenate([[True], (some[1:] != some[:-1]).any(axis=1)])
+        runs = np.flatnonzero(begins)
+        key, first, inverse = np.unique(some[runs], axis=0, return_index=True, return_inverse=True)
+        number[part] = inverse.ravel()[np.cumsum(begins) - 1] + sum(len(key) for key in keys)
         keys.append(key)
-        firsts.append(first + part.start)
+        firsts.append(runs[first] + part.start)
     _, first, inverse = np.unique(
         np.concatenate(keys), axis=0, return_index=True, return_inverse=True
     )

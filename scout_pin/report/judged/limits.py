@@ -9,7 +9,8 @@ import numpy as np
 from scout_pin.motion.cycles import Gap, closure
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.variants import RateJump
-from scout_pin.report.judged.speeds import CAUSES, Cause, Speeds, stretches
+from scout_pin.report.judged.causes import CAUSES, Cause
+from scout_pin.report.judged.speeds import Speeds, stretches
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.inequalities import Intervals

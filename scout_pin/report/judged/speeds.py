@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
-from typing import Literal
+from functools import cached_property
 
 import numpy as np
 
@@ -19,6 +18,8 @@ from scout_pin.dynamics.scaling import DoubleSupport, Torques, single_support
 from scout_pin.dynamics.stability import polygons
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
+from scout_pin.report.judged.causes import CAUSES, Cause
+from scout_pin.report.judged.trial import Trial, beyond
 from thesis_pin.contacts.cones import in_sole_axes
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.elementwise import blocks
@@ -32,14 +33,9 @@ from thesis_pin.numeric.inequalities import (
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
-Cause = Literal["zmp", "contact", "stall torque", "servo", "rate jump", "gap"]
-CAUSES: tuple[Cause, ...] = ("zmp", "contact", "stall torque", "servo", "rate jump", "gap")
-
 _MOST = 2048  # samples of double support looked at
-_TRIED = 12  # of these, how many at each speed tried
 _SPEEDS = 7  # speeds tried on a stretch
-_CHECKED = 32  # and how many hold a limit found
-_BISECTED = 4  # samples a limit is bisected on
+_FEW = 64  # samples of a block that are looked at before the others
 _CONES = 128  # samples held against some hundred facets at a time
 
 
@@ -78,13 +74,40 @@ class Speeds:
 
         In double support only while the floor's limits are out of play.
         """
-        found: dict[Cause, list[Intervals]] = {"stall torque": [], "servo": []}
+        taken: dict[Cause, Intervals] = {
+            cause: Intervals.joined([], 3) for cause in ("stall torque", "servo")
+        }
         for torques in self._torques():
-            speed = np.abs(self.joints.part(torques.samples).v) / self.robot.no_load_speed
-            growths: dict[Cause, np.ndarray] = {"stall torque": 0.0 * speed, "servo": speed}
-            for cause, growth in growths.items():
-                found[cause].append(pruned(self._passed(torques, growth, cause)))
-        return {cause: pruned(Intervals.joined(parts, 3)) for cause, parts in found.items()}
+            for cause in taken:
+                growth = self._growth(torques.samples, cause)
+                # What a few samples forbid needs no telling of the others.
+                for some in (slice(None, None, 1 + len(growth) // _FEW), slice(None)):
+                    few, more = torques.part(some), growth[some]
+                    passing = self._passing(few, more, taken[cause])
+                    if passing.size:
+                        found = self._passed(few.part(passing), more[passing], cause)
+                        taken[cause] = pruned(Intervals.joined([taken[cause], found], 3))
+        return taken
+
+    def _passing(self, torques: Torques, growth: np.ndarray, taken: Intervals) -> np.ndarray:
+        """Samples that may pass their servos' limit at a speed that isn't taken."""
+        parts = torques.constant, torques.linear, torques.square
+        constant, linear, square = (part / self.robot.stall_torque for part in parts)
+        passing = np.zeros(len(growth), dtype=bool)
+        for rest in rest_of(taken, self.low, self.high):
+            low, high = rest.low, rest.high
+            # A quadratic lies in the hull of its control points: both ends, and this between.
+            between = ((low + high) / 2, low * high)
+            for first, second in ((low, low**2), between, (high, high**2)):
+                size = np.abs(constant + first * linear + second * square) + first * growth
+                passing |= (size > 1.0 - 10 * TOLERANCES.mirror).any(axis=1)
+        return np.flatnonzero(passing)
+
+    def _growth(self, samples: np.ndarray, cause: Cause) -> np.ndarray:
+        """What speed adds to a servo's share at s = 1, ``(m, 12)``: nothing to stall torque's."""
+        if cause == "stall torque":
+            return np.zeros((len(samples), 12))
+        return np.asarray(np.abs(self.joints.part(samples).v) / self.robot.no_load_speed)
 
     def _torques(self) -> Iterator[Torques]:
         for part in blocks(len(self._single)):
@@ -95,22 +118,19 @@ class Speeds:
 
     def _passed(self, torques: Torques, growth: np.ndarray, cause: Cause) -> Intervals:
         """Where |torque| / stall + growth s > 1, with cause, sample and joint."""
-        parts = []
-        for sign in (1.0, -1.0):
-            constant, linear, square = (
-                (sign * part / self.robot.stall_torque).ravel()
-                for part in (torques.constant, torques.linear, torques.square)
-            )
-            start, end, which = where_positive(
-                (square, linear + growth.ravel(), constant - 1.0), self.low, self.high
-            )
-            sample, joint = np.divmod(which, 12)
-            source = np.stack(
-                [np.full(len(which), CAUSES.index(cause)), torques.samples[sample], joint], axis=1
-            )
-            bounds = (np.sqrt(np.maximum(x[sample], 0.0)) for x in (torques.low, torques.high))
-            parts.append(Intervals(start, end, source).within(*bounds))
-        return Intervals.joined(parts, 3)
+        sign = np.array([[1.0], [-1.0]])
+        constant, linear, square = (
+            (sign * (part / self.robot.stall_torque).ravel()).ravel()
+            for part in (torques.constant, torques.linear, torques.square)
+        )
+        faster = linear + np.tile(growth.ravel(), 2)
+        start, end, which = where_positive((square, faster, constant - 1.0), self.low, self.high)
+        sample, joint = np.divmod(which % growth.size, 12)
+        source = np.stack(
+            [np.full(len(which), CAUSES.index(cause)), torques.samples[sample], joint], axis=1
+        )
+        bounds = (np.sqrt(np.maximum(x[sample], 0.0)) for x in (torques.low, torques.high))
+        return Intervals(_even(start), _even(end), source).within(*bounds)
 
     def balance(self, com: np.ndarray) -> Intervals:
         """Speeds at which the ZMP leaves the support polygon, or a single sole can't hold.
@@ -118,29 +138,20 @@ class Speeds:
         Args:
             com: Centre of mass at each sample [m], shape ``(n, 3)``.
         """
-        # Of each block only the samples that bind: there may be a million in all.
-        slowest: dict[Cause, list[tuple[float, int]]] = {"zmp": [], "contact": []}
-        fastest: dict[Cause, list[tuple[float, int]]] = {"zmp": [], "contact": []}
-
-        def bind(cause: Cause, some: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
-            slow, fast = int(np.argmax(low)), int(np.argmin(high))
-            slowest[cause].append((float(low[slow]), int(some[slow])))
-            fastest[cause].append((float(high[fast]), int(some[fast])))
-
+        bounds: dict[Cause, _Bound] = {"zmp": _Bound(), "contact": _Bound()}
         for samples, corners in polygons(self.robot, self.motion):
             for part in blocks(len(samples)):
-                edges = _edges(corners, *self._floor(com, samples[part]))
-                bind("zmp", samples[part], *where_lines_hold(*edges))
-        for part in blocks(len(self._single), _CONES):
-            bind("contact", self._single[part], *self._cone(com, self._single[part]))
+                some = samples[part]
+                static, added = self._floor(com, some)
+                bounds["zmp"].take(some, *where_lines_hold(*_edges(corners, static, added)))
+                standing = np.flatnonzero(self.motion.support[some[0]])
+                if len(standing) == 1:
+                    self._press(int(standing[0]), some, (static, added), bounds["contact"])
         found = []
-        for cause in slowest:
-            if not slowest[cause]:
-                continue
-            low, slow = max(slowest[cause], key=lambda one: one[0])
-            high, fast = min(fastest[cause], key=lambda one: one[0])
-            start, end = np.array([self.low, _root(high)]), np.array([_root(low), self.high])
-            source = np.array([[CAUSES.index(cause), sample, -1] for sample in (slow, fast)])
+        for cause, bound in bounds.items():
+            start = np.array([self.low, _root(bound.high)])
+            end = np.array([_root(bound.low), self.high])
+            source = np.array([[CAUSES.index(cause), k, -1] for k in (bound.slow, bound.fast)])
             taken = Intervals(start, end, source)
             found.append(taken.within(np.full(2, self.low), np.full(2, self.high)))
         return Intervals.joined(found, 3)
@@ -157,22 +168,36 @@ class Speeds:
         static[:, 3], static[:, 4] = weight * com[some, 1], -weight * com[some, 0]
         return static, np.concatenate([force, moment], axis=1) - static
 
-    def _cone(self, com: np.ndarray, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The s² between which the standing sole's wrench is in its cone, ``(m,)`` each."""
-        low, high = np.empty((2, len(some)))
-        wrenches = self._floor(com, some)
-        feet = (self.motion.left_foot, self.motion.right_foot)
-        for k, contact in enumerate(self.robot.contacts):
-            mine = self.motion.support[some, k]
-            foot = feet[k].part(some[mine])
-            lines = []
-            for wrench in wrenches:
-                moved = wrench[mine].copy()
-                moved[:, 3:] -= np.cross(foot.position, moved[:, :3])
-                scaled = contact.scale(in_sole_axes(foot.rotation, moved))
-                lines.append(scaled @ contact.facets.T)
-            low[mine], high[mine] = where_lines_hold(lines[0] - TOLERANCES.wrench, lines[1])
-        return low, high
+    def _press(
+        self, k: int, some: np.ndarray, wrenches: tuple[np.ndarray, np.ndarray], bound: _Bound
+    ) -> None:
+        """The s² between which the only sole that stands holds, of samples that may bind.
+
+        Args:
+            k: Which sole.
+            some: The samples, shape ``(m,)``.
+            wrenches: Of :meth:`_floor`, which are turned into the sole's axes.
+            bound: What is known.
+        """
+        contact = self.robot.contacts[k]
+        foot = (self.motion.left_foot, self.motion.right_foot)[k].part(some)
+        for wrench in wrenches:
+            wrench[:, 3:] -= np.cross(foot.position, wrench[:, :3])
+            wrench[:] = in_sole_axes(foot.rotation, wrench)
+        static, added = wrenches
+        every = np.arange(len(some))
+        for tried in (every[:: 1 + len(every) // _FEW], *np.split(every, every[_CONES::_CONES])):
+            # Cones are convex: what holds at both ends known so far binds at neither.
+            ends = (
+                static[tried] + np.clip(square, self.low**2, self.high**2) * added[tried]
+                for square in (bound.low, bound.high)
+            )
+            margin = np.minimum(*(contact.margin(end) for end in ends))
+            left = tried[margin < -TOLERANCES.wrench]
+            if left.size:
+                lines = [contact.scale(x[left]) @ contact.facets.T for x in wrenches]
+                low, high = where_lines_hold(lines[0] - TOLERANCES.wrench, lines[1])
+                bound.take(some[left], low, high)
 
     # -- where double support asks for a quadratic programme -----------------------
 
@@ -185,9 +210,15 @@ class Speeds:
             stands: Whether wrenches that no pair of soles can give are forbidden too.
         """
         double, found = self._double, Intervals.joined([], 3)
-        if double is None or not _beyond(double, rest.low, rest.high).size:
+        if double is None or not beyond(double, rest.low, rest.high).size:
             return found
-        trial = _Trial(self, double, cause, stands)
+        trial = Trial(
+            double,
+            self._growth(double.samples, cause),
+            self.robot.stall_torque,
+            cause,
+            stands=stands,
+        )
         inset = TOLERANCES.time_unit * (1 - 1e-9)
         speeds = np.geomspace(rest.low * (1 + inset), rest.high * (1 - inset), _SPEEDS)
         verdicts: list[list[int] | None] = []
@@ -213,94 +244,45 @@ class Speeds:
         return Intervals.joined(parts, 3)
 
 
-class _Trial:
-    """Tries speeds on samples of double support, and remembers which mattered."""
+@dataclass
+class _Bound:
+    """Which samples bind the square of the speed, from below and from above.
 
-    def __init__(self, speeds: Speeds, double: DoubleSupport, cause: Cause, stands: bool) -> None:
-        self.double, self.cause, self.stands = double, cause, stands
-        self.stall = speeds.robot.stall_torque
-        use = np.abs(speeds.joints.part(double.samples).v) / speeds.robot.no_load_speed
-        self.growth = use if cause == "servo" else 0.0 * use
+    Of all samples only these are kept: there may be a million.
+    """
 
-    def worst(self, s: float) -> list[int] | None:
-        """Cause, sample and joint of what is passed most at a speed; None if nothing is."""
-        some, use, joint = self._uses(s, self._few(s))
-        return self._source(some, use, joint) if use.max(initial=0.0) > 1.0 else None
+    low: float = -np.inf
+    slow: int = -1
+    high: float = np.inf
+    fast: int = -1
 
-    def bisected(self, fine: float, bad: float) -> tuple[float, list[int]]:
-        """Where between a fine and a bad speed the limit is, and what it is."""
-        known = np.empty(0, dtype=np.intp)
-        some, use, joint = self._uses(bad, self._checked(bad, known))
-        while True:
-            top = some[np.argsort(use)[-_BISECTED:]]
-            known, source = np.union1d(known, top), self._source(some, use, joint)
-            root = self._root(known, fine, bad)
-            # A little to the fine side of it, and never beyond.
-            step = 1.0 + TOLERANCES.time_unit
-            bad = max(root / step, fine) if fine < bad else min(root * step, fine)
-            some, use, joint = self._uses(bad, self._checked(bad, known))
-            if use.max(initial=0.0) <= 1.0 or bad == fine:
-                return bad, source
-
-    def _root(self, known: np.ndarray, fine: float, bad: float) -> float:
-        """Speed between a fine and a bad one at which one of some samples meets its limit."""
-        from scipy.optimize import brentq
-
-        @cache  # both ends are asked for twice
-        def passed(s: float) -> float:
-            use = self._uses(s, known)[1]
-            return min(float(use.max(initial=0.0)) - 1.0, 1.0)
-
-        if passed(fine) >= 0.0 or passed(bad) <= 0.0:
-            return fine
-        return float(brentq(passed, fine, bad, rtol=TOLERANCES.time_unit / 4))
-
-    def _few(self, s: float) -> np.ndarray:
-        some = _beyond(self.double, s, s)
-        return some[:: 1 + len(some) // _TRIED]
-
-    def _checked(self, s: float, known: np.ndarray) -> np.ndarray:
-        """Samples on which a limit found is held: many, and the neighbours of what decides."""
-        some, few = _beyond(self.double, s, s), self._few(s)
-        near = np.add.outer(known, [-2, -1, 0, 1, 2]).ravel()
-        many = np.union1d(some[:: 1 + len(some) // _CHECKED], few)
-        return np.union1d(many, some[np.isin(some, near)])
-
-    def _uses(self, s: float, some: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The samples, the most each uses of a servo (infinite if it can't stand), and which."""
-        torque, broken = self.double.at(some, s)
-        share = np.abs(torque) / self.stall + self.growth[some] * s
-        use = share.max(axis=1, initial=0.0)
-        if self.stands:
-            use = np.where(broken, np.inf, use)
-        return some, use, share.argmax(axis=1) if len(some) else np.empty(0, dtype=np.intp)
-
-    def _source(self, some: np.ndarray, use: np.ndarray, joint: np.ndarray) -> list[int]:
-        k = int(np.argmax(use))
-        stands = bool(np.isfinite(use[k]))
-        cause: Cause = self.cause if stands else "contact"
-        sample = int(self.double.samples[some[k]])
-        return [CAUSES.index(cause), sample, int(joint[k]) if stands else -1]
+    def take(self, some: np.ndarray, low: np.ndarray, high: np.ndarray) -> None:
+        """Some samples more, and between which squares each holds."""
+        low, high = _even(low), _even(high)
+        slow, fast = int(np.argmax(low)), int(np.argmin(high))
+        if low[slow] > self.low:
+            self.low, self.slow = float(low[slow]), int(some[slow])
+        if high[fast] < self.high:
+            self.high, self.fast = float(high[fast]), int(some[fast])
 
 
 def pruned(taken: Intervals) -> Intervals:
     """Without intervals that lie in one that starts before them."""
-    order = np.argsort(taken.start, kind="stable")
+    order = np.lexsort((*taken.source[:, :0:-1].T, taken.start))  # alike: the first sample
     reach = np.maximum.accumulate(taken.end[order])
     keep = order[np.concatenate([[True], reach[1:] > reach[:-1]])[: len(order)]]
     return Intervals(taken.start[keep], taken.end[keep], taken.source[keep])
+
+
+def _even(speeds: np.ndarray) -> np.ndarray:
+    """Without what only rounding tells apart, so that it doesn't choose what is named."""
+    return np.round(speeds / TOLERANCES.mirror) * TOLERANCES.mirror
 
 
 def stretches(taken: Intervals, low: float, high: float) -> list[Rest]:
     """What is left of a range, slivers left out."""
     left = rest_of(taken, low, high)
     return [rest for rest in left if rest.high > rest.low * (1 + 2 * TOLERANCES.time_unit)]
-
-
-def _beyond(double: DoubleSupport, low: float, high: float) -> np.ndarray:
-    """Samples that some speed in a range takes to the border of a cone."""
-    free = double.free
-    return np.flatnonzero((free.low > low**2) | (free.high < high**2))
 
 
 def _edges(

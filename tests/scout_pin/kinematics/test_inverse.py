@@ -442,7 +442,7 @@ def test_torques_of_a_wrench_on_the_foot_are_pinocchios_transposed_jacobian(scou
     data = scout.model.createData()
     for k, side in enumerate(SIDES):
         mine = slice(6 * k, 6 * k + 6)
-        torques = LegScrews(scout.legs[side], theta[:, mine]).torques(force, moment)
+        torques = np.array(LegScrews(scout.legs[side], theta[:, mine]).torques(force, moment))
         frame = scout.sole_frames[side]
         for n in range(20):
             q = pin.neutral(scout.model)

@@ -18,7 +18,8 @@ from scout_pin.report.judged.limits import (
     fastest_time_unit,
     headline,
 )
-from scout_pin.report.judged.speeds import Speeds, _Trial
+from scout_pin.report.judged.speeds import Speeds
+from scout_pin.report.judged.trial import Trial
 from scout_pin.specification import Specification
 from thesis_pin.errors import NoSupportForce
 from thesis_pin.numeric.interpolation import linear, polynomial
@@ -250,6 +251,20 @@ def test_a_rate_that_jumps_by_little_sets_a_unit_from_which_it_is_none(scout, cy
     check_ends(scout, bent, gait.time_unit)
 
 
+@pytest.mark.parametrize("unit", [0.3, 0.7, 1.0, 1.6])
+def test_of_legs_and_times_that_mirror_each_other_the_left_and_the_first_are_named(scout, unit):
+    """A squat goes down and up alike; rounding named any of four servos and times."""
+    gait = load_gait(EXAMPLES / "squat.toml")
+    for samples in (61, 401):
+        found = scout_pin.gait_report(
+            scout, gait, samples=samples, time_unit=unit * gait.time_unit
+        ).time_units
+        limits = {one.below for one in found} | {one.above for one in found}
+        (servo,) = {limit for limit in limits if limit.cause == "servo"}
+        assert servo.joint == "left_knee_pitch"
+        assert servo.t < (gait.start + gait.end) / 2
+
+
 def test_what_happens_at_any_speed_leaves_no_interval(scout):
     report = scout_pin.gait_report(scout, load_gait(EXAMPLES / "walk.toml"), samples=41)
     lowered = report.motion.left_foot.position - (0.0, 0.0, 1e-3)
@@ -265,11 +280,12 @@ def test_double_support_uses_its_servos_at_any_speed_as_inverse_dynamics_says(ru
     t, unit = gait.sample_times(101), 0.2
     motion = gait.sample(t, unit)
     joints = joint_trajectory(rubbing, motion)
-    speeds = Speeds(rubbing, motion, joints, inverse_dynamics(rubbing, motion, joints))
     some = np.flatnonzero(motion.support.all(axis=1))
     double = DoubleSupport.of(rubbing, motion, joints, some)
     every = np.arange(len(some))
-    _, found, joint = _Trial(speeds, double, "servo", stands=True)._uses(s, every)
+    speed = np.abs(joints.part(some).v) / rubbing.no_load_speed
+    trial = Trial(double, speed, rubbing.stall_torque, "servo", stands=True)
+    _, found, joint = trial.uses(s, every)
     faster = gait.sample(t, unit / s)
     moving = joint_trajectory(rubbing, faster)
     torque = np.abs(inverse_dynamics(rubbing, faster, moving).torque) / rubbing.stall_torque
