@@ -24,6 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import real
@@ -115,12 +116,8 @@ class Contact:
             Its size [N·m, forces scaled], zero if the wrench is admissible, and
             the wrench itself (unscaled), shape ``(6,)``.
         """
-        from scipy.optimize import nnls
-
-        target = self.scale(vector("wrench", wrench, 6))
-        weights, size = nnls(self.rays.T, target)
-        missing = target - self.rays.T @ weights
-        return float(size), missing / np.repeat([self.length, 1.0], 3)
+        missing = beyond_cone(self.rays.T, self.scale(vector("wrench", wrench, 6)))
+        return float(np.linalg.norm(missing)), missing / np.repeat([self.length, 1.0], 3)
 
     def friction_used(self, wrench: np.ndarray) -> np.ndarray:
         """Tangential over admissible force, ``(..., 6)`` → ``(...)``; NaN without load."""

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from thesis_pin.contacts.cones import Contact
+from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.contacts.programme import ConeProgramme, Pair
 from thesis_pin.numeric.arrays import skew
 
@@ -179,8 +180,6 @@ def _unit(contacts: tuple[Contact, Contact]) -> np.ndarray:
 
 def _missing(total: np.ndarray, maps: Pair, contacts: tuple[Contact, Contact]) -> float:
     """Size of the least wrench [N·m, forces scaled] two feet can't supply together."""
-    from scipy.optimize import nnls
-
     reference = maps[0]  # distances are measured about the first sole
     rays = [contacts[0].rays, contacts[1].rays @ np.linalg.inv(maps[1]).T @ reference.T]
-    return float(nnls(np.concatenate(rays).T, reference @ total)[1])
+    return float(np.linalg.norm(beyond_cone(np.concatenate(rays).T, reference @ total)))

@@ -41,7 +41,7 @@ def balance_page(report: BalanceReport) -> bytes:
 
 def _tiles(report: BalanceReport) -> list[Tile]:
     found, least = report.found, report.least_margin.value
-    tiles = [Tile("the floor can give it", f"{found.admissible.mean():.0%}", report.balanced)]
+    tiles = [Tile("the floor can give it", f"{report.given.mean():.0%}", report.balanced)]
     if np.isfinite(least) and report.level:
         tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", least > 0))
     most = max(report.peak_friction)

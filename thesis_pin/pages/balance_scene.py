@@ -49,7 +49,7 @@ def scene(report: BalanceReport) -> Scene:
     )
     return replace(
         shown,
-        description=f"{report.robot.model.name} on {len(found.feet)} feet, with the forces on them.",
+        description=f"{report.robot.model.name} on {len(found.feet)} feet, and the forces on them.",
         groups=(*shown.groups, *extra),
         items=(*shown.items, *items),
         readouts=(*_readouts(report, keep), *shown.readouts),
@@ -72,7 +72,7 @@ def _forces(report: BalanceReport, keep: Samples, scale: float, size: float) -> 
 def _polygons(report: BalanceReport, keep: Samples, size: float) -> Iterator[Item]:
     found, floor = report.found, report.found.floor
     which = np.full(len(report.time), -1.0)
-    outlines = []
+    outlines: list[Array] = []
     for rows, polygon in found.support_polygons:
         if len(polygon) > 2:
             which[rows] = len(outlines)

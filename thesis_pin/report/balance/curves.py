@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -40,7 +42,7 @@ def ground(report: BalanceReport, keep: Samples) -> Plot:
                 areas.append(Area("soles", corners, BLUE, filled=False))
     zmp = floor.flat(found.zero_moment_point[keep])
     com = floor.flat(found.stance.com[keep])
-    points = "dot" if report.held else None
+    points: Literal["dot"] | None = "dot" if report.held else None
     curves_ = [
         Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=points, x=zmp[:, 0]),
         Curve("centre of mass, from above", com[:, 1], ORANGE, "dash", points, com[:, 0]),

@@ -113,7 +113,7 @@ class BalanceReport(BalanceNumbers):
             "zero_moment_point": _nulls(found.zero_moment_point),
             "centre_of_pressure": _nulls(found.centre_of_pressure),
             "margin": _nulls(found.margin),
-            "admissible": found.admissible,
+            "given": self.given,
             "violation": found.violation,
             "freedoms": found.freedoms,
             "parameters": self.parameters,
@@ -139,7 +139,8 @@ class BalanceReport(BalanceNumbers):
             "warnings": self.warnings(),
             "least_margin": _ends(self.least_margin),
             "worst_time": float(self.time[self.worst]),
-            "admissible_share": float(found.admissible.mean()),
+            "given_share": float(self.given.mean()),
+            "border": self.border,
             "largest_violation": float(found.violation.max()),
             "cause": None
             if why is None
@@ -147,6 +148,7 @@ class BalanceReport(BalanceNumbers):
                 "needed_friction": why.friction,
                 "tip": why.tip,
                 "turn": why.turn,
+                "push": why.push,
                 "pull": why.pull,
                 "outside": why.outside,
             },

@@ -10,13 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.contacts.balance.result import FootDynamics
+from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.errors import ThesisPinError
 from thesis_pin.loops.motion.near import near_motions
 from thesis_pin.loops.motion.smoothing import itself
 from thesis_pin.report.torque.drawn import SAMPLES, Drawn, Judged, Way
 from thesis_pin.smoothing.rates import resting
+from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
+
+
+def border(found: FootDynamics) -> float:
+    """What may be missing of the floor's wrench in a verdict [N·m]."""
+    return max(tolerance(found.scale), TOLERANCES.balance * found.scale / found.length)
+
 
 Judge = Callable[[Array, Array, Array, Array | None, NDArray[np.intp]], FootDynamics]
 """Configurations, rates, accelerations, directions of friction, samples → contact forces."""
@@ -107,7 +115,9 @@ def drawn(way: Way, extremes: list[int], judge: Judge) -> DrawnBalance | None:
 def _judged(dynamics: FootDynamics, speed: Array) -> JudgedBalance:
     force = np.linalg.norm(dynamics.loops.force, axis=-1)
     motors = Judged(dynamics.torque[None], speed[None], force[None])
-    return JudgedBalance(dynamics.margin, bool(dynamics.admissible.all()), motors)
+    return JudgedBalance(
+        dynamics.margin, bool((dynamics.violation <= border(dynamics)).all()), motors
+    )
 
 
 def _unknown(

@@ -13,7 +13,7 @@ from thesis_pin.contacts.balance.result import FootDynamics
 from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.contacts.standing.phases import HIGHER, touch_speed
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.report.balance.drawn import DrawnBalance
+from thesis_pin.report.balance.drawn import DrawnBalance, border
 from thesis_pin.report.torque.document import TorqueReport
 from thesis_pin.smoothing.intervals import Interval, least_value
 from thesis_pin.tolerances import TOLERANCES
@@ -55,9 +55,19 @@ class BalanceNumbers:
         return tuple(foot.name for foot in self.found.feet)
 
     @property
+    def border(self) -> float:
+        """What may be missing of the floor's wrench [N·m]."""
+        return border(self.found)
+
+    @property
+    def given(self) -> NDArray[np.bool_]:
+        """Whether the floor gives all that is needed, but for :attr:`border`, ``(n,)``."""
+        return np.asarray(self.found.violation <= self.border)
+
+    @property
     def balanced(self) -> bool | None:
-        """Whether the floor can give all that the motion needs; None if its samples can't say."""
-        own = bool(self.found.admissible.all())
+        """Whether the floor gives all that the motion needs; None if its samples can't say."""
+        own = bool(self.given.all())
         if self.drawn is None:
             return own
         return own if self.drawn.agrees(own) else None
@@ -71,14 +81,14 @@ class BalanceNumbers:
     def worst(self) -> int:
         """The sample at which most is missing; if nothing is, that of the least margin."""
         missing = self.found.violation
-        if not self.found.admissible.all():
+        if not self.given.all():
             return int(missing.argmax())
         return int(self.found.margin.argmin())
 
     @cached_property
     def cause(self) -> Cause | None:
-        """What is missing at the worst sample; None if the floor can give all."""
-        return None if self.found.admissible.all() else cause(self.found, self.worst)
+        """What is missing at the worst sample; None if the floor gives all."""
+        return None if self.given.all() else cause(self.found, self.worst, self.border)
 
     @cached_property
     def least_margin(self) -> Interval:

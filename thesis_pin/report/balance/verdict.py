@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.report.balance.numbers import BalanceNumbers
 from thesis_pin.report.resolution import millimetres
 from thesis_pin.report.torque import verdict
 from thesis_pin.smoothing.intervals import Interval
+from thesis_pin.tolerances import TOLERANCES
 
 _SHARED = {
     "torque": "the least sum of squared torques",
@@ -36,7 +38,7 @@ def why_not(report: BalanceNumbers) -> str | None:
     drawn = report.drawn
     if drawn is None or report.balanced is not None:
         return None
-    own = bool(report.found.admissible.all())
+    own = bool(report.given.all())
     other = sum(one.balanced != own for one in drawn.draws)
     if len(drawn.draws) <= drawn.lost:
         return (
@@ -51,14 +53,13 @@ def why_not(report: BalanceNumbers) -> str | None:
 
 
 def _balance(report: BalanceNumbers) -> list[str]:
-    found = report.found
     if report.cause is None:
         if report.held:
             said = f"The robot stands on {_listed(report)}"
         else:
             said = "The robot keeps its balance"
         return [f"{said}{_margin(report)}."]
-    share = 1.0 - float(found.admissible.mean())
+    share = 1.0 - float(report.given.mean())
     when = "" if report.held else f" at t = {report.time[report.worst]:.4g} s"
     often = "" if report.held or share >= 1 else f", {share:.0%} of the samples"
     return [f"The robot falls{when}{often}: {why}." for why in _causes(report)[:1]] + [
@@ -78,7 +79,7 @@ def _causes(report: BalanceNumbers) -> list[str]:
         ]
     if why.pull > _TELLING * weight:
         said.append(f"the floor would have to pull with {_newtons(why.pull)}")
-    if why.tip > _TELLING * moment or (why.outside and not said and not why.slips):
+    if why.tip > _TELLING * moment:
         outside = ""
         if why.outside and report.level:
             outside = (
@@ -89,6 +90,8 @@ def _causes(report: BalanceNumbers) -> list[str]:
         said.append(
             f"it turns on its feet; {why.turn:.3g} N·m about the floor's normal are missing"
         )
+    if why.push > _TELLING * weight:
+        said.append(f"it slips on any floor; {_newtons(why.push)} along it are missing")
     if why.friction is not None:
         there = [foot.friction for k, foot in enumerate(found.feet) if found.support[why.sample, k]]
         needed = f"{why.friction * max(there):.3g}"
@@ -104,7 +107,7 @@ def _causes(report: BalanceNumbers) -> list[str]:
 
 def _margin(report: BalanceNumbers) -> str:
     held = report.least_margin
-    if not report.level or not np.isfinite(held.value):
+    if held.value < 0 or not report.level or not np.isfinite(held.value):
         return ""
     where = "" if report.held else f" (t = {report.time[report.found.margin.argmin()]:.4g} s)"
     return f", its zero-moment point {_millimetres(held)} inside its support polygon{where}"
@@ -112,7 +115,7 @@ def _margin(report: BalanceNumbers) -> str:
 
 def _friction(report: BalanceNumbers) -> list[str]:
     used = report.peak_friction
-    if not any(used):
+    if report.cause is not None or not any(used):
         return []
     k = int(np.argmax(used))
     foot = report.found.feet[k]
@@ -121,6 +124,12 @@ def _friction(report: BalanceNumbers) -> list[str]:
 
 def _contacts(report: BalanceNumbers) -> list[str]:
     said = []
+    missing = float(report.found.violation.max())
+    if report.cause is None and missing > tolerance(report.found.scale):
+        said.append(
+            f"Up to {missing:.2g} N·m are missing, less than {report.border:.2g} N·m that count as "
+            f"none: {TOLERANCES.balance * 1e3:g} mm of the zero-moment point."
+        )
     if not report.level:
         said.append(
             f"Feet stand up to {report.found.level.max() * 1e3:.3g} mm from one plane: their cones "
