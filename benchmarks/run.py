@@ -1,55 +1,110 @@
 """One table of ratios against peers, all measured in the same run.
 
-Run ``python benchmarks/run.py``. Ours and the peer's are measured in turns; times
-are medians on this machine, and only the ratios mean anything elsewhere.
+Run ``python benchmarks/run.py``. Answers are compared first; then ours and the peer's are measured
+in turns. Times are medians on this machine, and only the ratios mean anything elsewhere.
+``--json docs/speed.json``, then ``python docs/speed.py``, renews docs/speed.md.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+import datetime
+import importlib
+import json
+import os
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
-import pollard
-import processes
-import scout
-from timing import Comparison
+os.environ.update({f"{name}_NUM_THREADS": "1" for name in ("OPENBLAS", "OMP", "MKL")})
+# Before NumPy is imported: threads that wait for work cost time, too.
 
-from thesis_pin.command.output import print_table
+from machine import PEERS, machine, versions
+from measuring import FULL, QUICK, Json, Row, Scale, Unequal
+from tables import printed, spaced
 
-SUITES: dict[str, Callable[[], list[Comparison]]] = {
-    "scout": lambda: scout.kinematics() + scout.dynamics(),
-    "pollard": lambda: pollard.kinematics() + pollard.dynamics(),
-    "commands": processes.commands,
+SUITES = {
+    "scout": ("scout_kinematics", "scout_dynamics"),
+    "pollard": ("pollard_kinematics", "pollard_dynamics"),
+    "loading": ("loading",),
+    "commands": ("commands",),
+    "streams": ("streams",),
+    "threads": ("threads",),
 }
+"""Suite → modules whose ``rows`` are measured."""
+
+SCHEMA, VERSION = "thesis-pin/benchmark", 1
 
 
-def main() -> None:
-    """Run the suites asked for, all by default, and print their tables."""
-    names = [*SUITES, "streams"]
+def main(words: Sequence[str] | None = None) -> int:
+    """Run the suites asked for, all by default; 1 if answers differ."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("suite", nargs="*", help=f"which: {', '.join(names)} (default: all)")
-    asked = parser.parse_args().suite or names
-    for name in asked:
-        if name not in names:
-            parser.error(f"no suite {name!r}; there are {', '.join(names)}")
-    for name in asked:
-        if name == "streams":
-            title = f"{processes.MILLION} samples to torques"
-            print_table(("robot", "s", "peak MB", "added MB"), processes.streams(), title=title)
-        else:
-            print_comparisons(name, SUITES[name]())
+    parser.add_argument("suite", nargs="*", help=f"which: {', '.join(SUITES)} (default: all)")
+    parser.add_argument("--quick", action="store_true", help="a smoke run of a few samples")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write what was measured")
+    arguments = parser.parse_args(words)
+    for name in arguments.suite:
+        if name not in SUITES:
+            parser.error(f"no suite {name!r}; there are {', '.join(SUITES)}")
+    if arguments.json and not arguments.json.parent.is_dir():
+        parser.error(f"--json: there is no folder {str(arguments.json.parent)!r}")
+    scale, begun = QUICK if arguments.quick else FULL, time.perf_counter()
+    document = header(scale)
+    for name, version in versions().items():
+        if version is None:
+            print(f"{name} isn't installed: rows against it have no ratio", file=sys.stderr)
+    found: list[Json] = []
+    try:
+        for name in arguments.suite or SUITES:
+            mine = [measured(name, row, scale) for row in rows(name, scale)]
+            printed(name, mine)
+            found += mine
+    except Unequal as error:
+        print(f"run.py: error: {error}", file=sys.stderr)
+        return 1
+    document |= {"seconds": round(time.perf_counter() - begun), "rows": found}
+    if arguments.json:
+        text = json.dumps(shorter(document), indent=1, ensure_ascii=False, allow_nan=False)
+        arguments.json.write_text(text + "\n", encoding="utf-8")
+    return 0
 
 
-def print_comparisons(name: str, comparisons: list[Comparison]) -> None:
-    """Measure and print one suite."""
-    unit, scale = ("ms", 1e3) if name == "commands" else ("µs", 1e6)
-    rows = []
-    for row in comparisons:
-        ours, theirs, ratio = row.measure()
-        times = (f"{ours * scale:.2f}", row.peer, f"{theirs * scale:.2f}")
-        rows.append((row.work, *times, f"{ratio:.3g}"))
-    print_table(("work", unit, "against", unit, "ratio"), rows, title=f"{name}: time per item")
+def rows(suite: str, scale: Scale) -> Iterator[Row]:
+    """The rows of a suite, each once its data are made."""
+    for module in SUITES[suite]:
+        yield from importlib.import_module(f"suites.{module}").rows(scale)
+
+
+def measured(suite: str, row: Row, scale: Scale) -> Json:
+    """A row's result; says on standard error which it is."""
+    shown = f"{suite}: {row.work}, {spaced(row.size)}, against {row.peer.name}"
+    print(shown, file=sys.stderr, flush=True)
+    return {"suite": suite} | row.measure(scale)
+
+
+def header(scale: Scale) -> Json:
+    """What ran where."""
+    found = versions()
+    return {
+        "schema": SCHEMA,
+        "version": VERSION,
+        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
+        "quick": scale.quick,
+        "machine": machine(),
+        "versions": found,
+        "missing": [name for name in PEERS if found[name] is None],
+    }
+
+
+def shorter(value: object) -> object:
+    """The same document with six digits of its numbers: more say nothing of a time."""
+    if isinstance(value, dict):
+        return {key: shorter(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [shorter(item) for item in value]
+    return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

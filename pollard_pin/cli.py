@@ -7,7 +7,15 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
-from thesis_pin.command.options import add_branch, add_json, add_robot, add_smooth, count, number
+from thesis_pin.command.options import (
+    add_branch,
+    add_euler,
+    add_json,
+    add_robot,
+    add_smooth,
+    count,
+    number,
+)
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 
@@ -29,13 +37,7 @@ def _which_path(words: argparse.ArgumentParser) -> None:
         help="timing of appendix B's curve (default: the specification's), or of a path whose "
         "times a tool speed gives (default: ramped)",
     )
-    words.add_argument(
-        "--euler",
-        metavar="ORDER",
-        help="order of the angles in columns a, b, c (or about rx, ry, rz) of a path: ZYX turns "
-        "about z, then the turned y, then the turned x; zyx about the fixed axes. Columns psi, "
-        "theta, phi are Rx(θ) Ry(ψ) Rz(φ)",
-    )
+    add_euler(words)
     words.add_argument(
         "--feed",
         type=number("--feed", positive=True),

@@ -13,7 +13,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
-from pollard_pin.closure import closures
+from pollard_pin.closure import supplement
 from pollard_pin.coordinates import pose_from_placement, tool_motion
 from pollard_pin.implausible import implausible
 from pollard_pin.kinematics import forward, rates, singularity
@@ -35,12 +35,18 @@ from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.model.loading import model_folder
 from thesis_pin.model.mechanism.inertia import Reading
+from thesis_pin.model.shipped import is_shipped
 from thesis_pin.numeric.arrays import finite_array, spread, together, vector
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 PACKAGE_PATH = str(model_folder("pollard"))
 URDF_PATH = str(Path(PACKAGE_PATH) / "pollard.urdf")
+SHIPPED: dict[Reading, str] = {
+    "physical": URDF_PATH,
+    "printed": str(Path(PACKAGE_PATH) / "pollard_printed.urdf"),
+}
+"""The thesis's robot, by the reading of its inertias."""
 
 Branches = Branch | Literal["all", "useful"] | Sequence[Branch]
 
@@ -85,12 +91,14 @@ class Pollard(ClosedRobot):
     """
 
     def __init__(self, specification: Specification, inertia: Reading) -> None:
-        super().__init__(urdf(specification, inertia), closures(specification))
+        text = urdf(specification, inertia)
+        shipped = is_shipped(text, SHIPPED[inertia])
+        super().__init__(text, supplement(specification), ships=shipped)
         self.specification, self.inertia = specification, inertia
         self.geometry = Geometry.of(specification)
         self.lower, self.upper = self.geometry.lower, self.geometry.upper
         order = tuple(list(self.model.names)[1:])
-        if order != JOINT_NAMES or tuple(self.passive) != PASSIVE:
+        if order != JOINT_NAMES or tuple(self.passive.tolist()) != PASSIVE:
             raise RuntimeError(f"Pinocchio reordered the joints: {order}")
         if tuple(self.actuated) != ACTUATORS:
             raise RuntimeError(f"the closure file reordered the motors: {self.actuated}")

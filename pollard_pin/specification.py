@@ -15,24 +15,24 @@ from pathlib import Path
 from typing import Annotated, Literal, TypeVar
 
 import numpy as np
-from pydantic import Field
 
 from thesis_pin.errors import NonPhysicalInertia
+from thesis_pin.model.limits import Key
 from thesis_pin.model.mechanism.inertia import (
     Convention,
     Reading,
     centroidal_inertia,
     check_physical,
 )
-from thesis_pin.model.specification import (
+from thesis_pin.model.shipped import read_shipped
+from thesis_pin.model.strict import (
     Assumption,
-    Key,
+    Held,
     NotNegative,
     Positive,
     Strict,
     SymmetricMatrix,
     Vector3,
-    read_toml,
 )
 
 SPECIFICATIONS = Path(__file__).parent / "specifications"
@@ -157,8 +157,8 @@ class JointLimits(Assumption):
     The six are the motors', in the order of :data:`ACTUATOR_NAMES`.
     """
 
-    lower_deg: float | Annotated[tuple[float, ...], Field(min_length=12, max_length=12)]
-    upper_deg: float | Annotated[tuple[float, ...], Field(min_length=12, max_length=12)]
+    lower_deg: float | Annotated[tuple[float, ...], Held(min_length=12, max_length=12)]
+    upper_deg: float | Annotated[tuple[float, ...], Held(min_length=12, max_length=12)]
     effort: Positive | Six[Positive]
     velocity: Positive | Six[Positive]
 
@@ -234,7 +234,7 @@ class Specification(Strict):
     """A Pollard-like robot. ``Specification.read(path)`` reads and validates a file."""
 
     format: Literal[1]
-    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_\-]*$")]
+    name: Annotated[str, Held(pattern=r"^[A-Za-z][A-Za-z0-9_\-]*$")]
     source: str
     chain_0: Chain0
     chain_1: SideChain
@@ -250,7 +250,11 @@ class Specification(Strict):
             BadInput: The file can't be read.
             SpecificationError: It is invalid; carries every problem with its key.
         """
-        return read_toml("specification", cls, POLLARD_PATH if path is None else path)
+        if path is None:
+            return read_shipped("specification", cls, POLLARD_PATH)
+        from thesis_pin.model.specification import read_toml
+
+        return read_toml("specification", cls, path)
 
     @property
     def side_chains(self) -> tuple[SideChain, SideChain]:

@@ -32,6 +32,9 @@ ANCHOR_FRAMES = ("forearm_anchor_1", "forearm_anchor_2")
 ROD_TIP_FRAMES = ("chain1_rod_tip", "chain2_rod_tip")
 """Ball joints as the rods see them, thesis frames 8i."""
 
+LOOP_NAMES = ("ball joint 1", "ball joint 2")
+"""Of the loops, in reports."""
+
 TOOL_FRAME = "tool_tip"
 """The spray tip, thesis frame 19."""
 
@@ -78,7 +81,7 @@ def closure_file(specification: Specification) -> str:
         "thesis_pin:\n"
         "  format: 1\n"
         f"  robot: {specification.name}\n"
-        "  names: ['ball joint 1', 'ball joint 2']\n"
+        f"  names: {list(LOOP_NAMES)}\n"
         f"{rotors}"
     )
 

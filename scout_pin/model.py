@@ -25,6 +25,7 @@ from thesis_pin.contacts.feet import sole_corners
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.model.mechanism.inertia import Reading
+from thesis_pin.model.shipped import is_shipped
 from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.rotations import invert, quaternions
@@ -32,6 +33,11 @@ from thesis_pin.numeric.trajectory import BodyMotion
 
 PACKAGE_PATH = str(model_folder("scout"))
 URDF_PATH = str(Path(PACKAGE_PATH) / "scout.urdf")
+SHIPPED: dict[Reading, str] = {
+    "physical": URDF_PATH,
+    "printed": str(Path(PACKAGE_PATH) / "scout_printed.urdf"),
+}
+"""The thesis's robot, by the reading of its inertias."""
 
 Root = Literal["free_flyer", "thesis"]
 
@@ -103,7 +109,9 @@ class Scout(LoadedRobot):
 
     def __init__(self, specification: Specification, root: Root, inertia: Reading) -> None:
         joint = pin.JointModelFreeFlyer() if root == "free_flyer" else _thesis_root()
-        super().__init__(urdf(specification, inertia), meshes(specification), joint)
+        text = urdf(specification, inertia)
+        shipped = is_shipped(text, SHIPPED[inertia])
+        super().__init__(text, meshes(specification), joint, ships=shipped)
         self.specification, self.root, self.inertia = specification, root, inertia
         self.legs = {side: LegGeometry.of(specification, side) for side in SIDES}
         self.sole_frames = {side: frame_id(self.model, f"{side}_sole") for side in SIDES}

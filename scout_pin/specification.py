@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import AfterValidator, Field, field_validator
 
 from thesis_pin.errors import NonPhysicalInertia
+from thesis_pin.model.limits import Key
 from thesis_pin.model.mechanism.inertia import (
     Convention,
     Reading,
@@ -22,16 +22,17 @@ from thesis_pin.model.mechanism.inertia import (
     check_physical,
 )
 from thesis_pin.model.shapes import Shape
-from thesis_pin.model.specification import (
+from thesis_pin.model.shipped import read_shipped
+from thesis_pin.model.strict import (
+    After,
     Assumption,
-    Key,
+    Held,
     NotNegative,
     Positive,
     Strict,
     SymmetricMatrix,
     Vector2,
     Vector3,
-    read_toml,
 )
 from thesis_pin.numeric.checks import choice
 from thesis_pin.sizing.actuator import Actuator
@@ -60,7 +61,7 @@ LINK_NAMES = ("hip", "pelvis", "thigh", "shank", "ankle", "foot")
 
 Six = tuple[float, float, float, float, float, float]
 SixNames = tuple[str, str, str, str, str, str]
-Twelve = Annotated[tuple[float, ...], Field(min_length=12, max_length=12)]
+Twelve = Annotated[tuple[float, ...], Held(min_length=12, max_length=12)]
 
 
 def _branch(text: str) -> str:
@@ -82,7 +83,7 @@ class BranchKeys(Strict):
     """
 
     knee: Literal["forward", "backward"] | None = None
-    branch: Annotated[str, AfterValidator(_branch)] | None = None
+    branch: Annotated[str, After(_branch)] | None = None
 
     @property
     def branch_asked(self) -> str | None:
@@ -128,6 +129,15 @@ class Link(Strict):
         )
 
 
+def _simple(sole: tuple[Vector2, ...]) -> tuple[Vector2, ...]:
+    from shapely import Polygon
+
+    polygon = Polygon(sole)
+    if not polygon.is_valid or polygon.area == 0:
+        raise ValueError("must be the corners of a polygon that doesn't cross itself")
+    return sole
+
+
 class Leg(Strict):
     """Lengths [m] and angles of one leg (B.2, B.3), its sole (B.4) and its six links."""
 
@@ -142,18 +152,8 @@ class Leg(Strict):
     beta_7_deg: float
     beta_8_deg: float
     servo: str | SixNames
-    sole: Annotated[tuple[Vector2, ...], Field(min_length=3)]
+    sole: Annotated[tuple[Vector2, ...], Held(min_length=3), After(_simple)]
     links: tuple[Link, Link, Link, Link, Link, Link]
-
-    @field_validator("sole")
-    @classmethod
-    def _simple(cls, sole: tuple[Vector2, ...]) -> tuple[Vector2, ...]:
-        from shapely import Polygon
-
-        polygon = Polygon(sole)
-        if not polygon.is_valid or polygon.area == 0:
-            raise ValueError("must be the corners of a polygon that doesn't cross itself")
-        return sole
 
     @property
     def servos(self) -> SixNames:
@@ -214,7 +214,7 @@ class Specification(BranchKeys):
     """
 
     format: Literal[1]
-    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_\-]*$")]
+    name: Annotated[str, Held(pattern=r"^[A-Za-z][A-Za-z0-9_\-]*$")]
     source: str
     inertia_convention: Convention
     servos: dict[str, Servo]
@@ -231,7 +231,11 @@ class Specification(BranchKeys):
             BadInput: The file can't be read.
             SpecificationError: It is invalid; carries every problem with its key.
         """
-        return read_toml("specification", cls, SCOUT_PATH if path is None else path)
+        if path is None:
+            return read_shipped("specification", cls, SCOUT_PATH)
+        from thesis_pin.model.specification import read_toml
+
+        return read_toml("specification", cls, path)
 
     def leg(self, side: str) -> Leg:
         """The leg of one side.

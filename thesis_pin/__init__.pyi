@@ -13,6 +13,12 @@ from .loops.dynamics import (
     simulate as simulate,
 )
 
+# Where any robot can go
+from .loops.workspace.mapped import (
+    Workspace as Workspace,
+    evaluate_workspace as evaluate_workspace,
+)
+
 # Robots with feet
 from .contacts.balance.dynamics import foot_dynamics as foot_dynamics
 from .contacts.balance.result import FootDynamics as FootDynamics
@@ -23,6 +29,8 @@ from .contacts.standing.placing import (
     Placed as Placed,
     stand as stand,
 )
+from .report.balance.document import BalanceReport as BalanceReport
+from .report.balance.making import balance_report as balance_report
 
 # Motions of any robot
 from .loops.motion.files import read_motion as read_motion

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from pollard_pin.closure import gruebler
@@ -18,7 +20,6 @@ from pollard_pin.specification import (
     Specification,
 )
 from pollard_pin.urdf import JOINT_AXES
-from thesis_pin.pages.info import info_page
 from thesis_pin.report import info
 
 
@@ -72,6 +73,8 @@ def document(robot: Pollard) -> info.Info:
 
 def page(robot: Pollard) -> bytes:
     """The same as a page."""
+    from thesis_pin.pages.info import info_page
+
     return info_page(document(robot))
 
 
@@ -81,7 +84,7 @@ def _chains(spec: Specification) -> dict[str, Chain0 | SideChain]:
 
 def _numbers(part: Chain0 | SideChain, unit: str) -> dict[str, float]:
     """Lengths [m], or with ``_deg`` angles [rad], by their symbol."""
-    values = {name: getattr(part, name) for name in type(part).model_fields if name != "links"}
+    values: dict[str, Any] = {name: value for name, value in part if name != "links"}
     if unit:
         return {
             name.removesuffix(unit).replace("beta", "β"): float(np.radians(value))

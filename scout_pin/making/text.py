@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from scout_pin.specification import LINK_NAMES, SIDES, Leg, Link, Specification
 
@@ -47,7 +48,8 @@ def _lines(spec: Specification, notes: Sequence[str]) -> Iterator[str]:
         if servo.rotor_inertia:
             yield f"rotor_inertia = {servo.rotor_inertia!r} # kg·m², about the motor's axis"
             yield f"gear_ratio = {servo.gear_ratio!r}"
-    for name, one in spec.assumptions.model_dump().items():
+    assumptions: dict[str, Any] = spec.assumptions.model_dump()
+    for name, one in assumptions.items():
         yield ""
         yield f"[assumptions.{name}]"
         yield from (f"{key} = {_value(value)}" for key, value in one.items())

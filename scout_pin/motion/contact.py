@@ -15,7 +15,7 @@ import numpy as np
 
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError
-from thesis_pin.model.specification import Strict
+from thesis_pin.model.strict import Strict
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.tolerances import TOLERANCES
 

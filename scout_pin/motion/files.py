@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.model import Scout
@@ -18,8 +17,9 @@ from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
-from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.specification import Key, Positive, Strict, read_toml
+from thesis_pin.model.limits import LIMITS, Key
+from thesis_pin.model.shipped import read_shipped
+from thesis_pin.model.strict import Held, Positive, Strict
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
 from thesis_pin.numeric.piecewise import Piecewise
@@ -41,9 +41,9 @@ class Segment(Strict):
     pass through the start of the next segment instead.
     """
 
-    t: Annotated[tuple[float, ...], Field(min_length=2)]
-    value: Annotated[tuple[float, ...], Field(min_length=1)] | None = None
-    polynomial: Annotated[tuple[float, ...], Field(min_length=1)] | None = None
+    t: Annotated[tuple[float, ...], Held(min_length=2)]
+    value: Annotated[tuple[float, ...], Held(min_length=1)] | None = None
+    polynomial: Annotated[tuple[float, ...], Held(min_length=1)] | None = None
     interpolation: Method | None = None
     until: float | None = None
 
@@ -82,7 +82,7 @@ class GaitFile(BranchKeys):
     torso: BodyCurves
     left_foot: BodyCurves
     right_foot: BodyCurves
-    phases: Annotated[tuple[Phase, ...], Field(min_length=1, max_length=LIMITS.phases)]
+    phases: Annotated[tuple[Phase, ...], Held(min_length=1, max_length=LIMITS.phases)]
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Phases follow each other; segments do, with as many values as nodes."""
@@ -187,7 +187,8 @@ def load_gait(
     if not isinstance(source, str | Path):
         raise BadInput(f"{source!r} isn't a gait", allowed=f"{', '.join(PRESETS)} or a path")
     if str(source) in PRESETS:
-        source = GAITS / f"{source}.toml"
+        file = read_shipped("gait", GaitFile, GAITS / f"{source}.toml")
+        return gait_of(file, interpolation)
     path = Path(source)
     if path.suffix.lower() in TABLES:
         # With SciPy's splines, which no other gait needs.
@@ -198,6 +199,8 @@ def load_gait(
         return gait_from_samples(samples, how, interpolation, time_unit or 1.0)
     if path.suffix.lower() != ".toml":
         raise UnknownName("gait", str(source), (*PRESETS, "a .toml file", "a .csv file"))
+    from thesis_pin.model.specification import read_toml
+
     return gait_of(read_toml("gait", GaitFile, path), interpolation)
 
 

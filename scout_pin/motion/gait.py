@@ -27,7 +27,8 @@ from thesis_pin.numeric.elementwise import LONG, Samples
 from thesis_pin.numeric.interpolation import jumps
 from thesis_pin.numeric.long import LongBody
 from thesis_pin.numeric.piecewise import Piecewise
-from thesis_pin.numeric.rotations import euler_placement
+from thesis_pin.numeric.rotations import euler_parts
+from thesis_pin.numeric.sparing import spread, times
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
@@ -205,15 +206,16 @@ class Gait:
         self, name: str, t: np.ndarray, unit: float, samples: Samples = slice(None)
     ) -> BodyMotion:
         t = t[samples]
-        # Derivatives beyond a curve's degree vanish; most curves are constant.
-        values, rates, second = found = np.zeros((3, 6, len(t)))
-        for k, curve in enumerate(self.curves[name]):
-            for order in range(min(3, len(curve.c))):
-                found[order, k] = curve(t, order) / unit**order
-        rotation, omega, alpha = euler_placement("xyz", values[3:].T, rates[3:].T, second[3:].T)
-        # Copied: views would keep the angles alive as well.
-        place, velocity, acceleration = (part[:3].copy().T for part in found)
-        return BodyMotion(rotation, place, velocity, acceleration, omega, alpha)
+        jets = [curve.jet(t) for curve in self.curves[name]]
+        value = [jet[0] for jet in jets]
+        rate = [times(jet[1], 1.0 / unit) for jet in jets]
+        second = [times(jet[2], 1.0 / unit**2) for jet in jets]
+        rotation, omega, alpha = euler_parts("xyz", value[3:], rate[3:], second[3:])
+        parts = (value[:3], rate[:3], second[:3], omega, alpha)
+        return BodyMotion(
+            spread(rotation, t.shape).reshape(3, 3, -1).transpose(2, 0, 1),
+            *(spread(one, t.shape).T for one in parts),
+        )
 
     def sample(self, t: np.ndarray, time_unit: float | None = None) -> GaitMotion:
         """Sample the gait and check that it can be meant.
@@ -236,8 +238,13 @@ class Gait:
             )
         bodies = {name: self.body(name, t, unit) for name in BODIES}
         if self.variants is None:  # else the samples were judged when they were read
-            check_stance(self.name, self.curves, self.phases)
+            _ = self._stances
         return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies, branch=self.branch)
+
+    @cached_property
+    def _stances(self) -> None:
+        """Refuses feet that bear load and move; looked at once, for curves don't change."""
+        check_stance(self.name, self.curves, self.phases)
 
     def _unit(self, time_unit: float | None) -> float:
         """Seconds in a unit of t: what was given, or the gait's own."""

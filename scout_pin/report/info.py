@@ -7,12 +7,9 @@ import numpy as np
 from scout_pin.implausible import implausible
 from scout_pin.kinematics.neutral import Tilt, tilts
 from scout_pin.model import Scout
-from scout_pin.report.drawn.drawing import leg_drawing
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES, Leg
 from scout_pin.urdf import JOINT_AXES
 from thesis_pin.errors import Problem, SpecificationError
-from thesis_pin.pages.info import info_page
-from thesis_pin.pages.page import Drawing
 from thesis_pin.report import info
 
 LENGTHS = ("x_0", "z_1", "x_2", "x_3", "x_4", "x_5", "y_6")
@@ -78,6 +75,10 @@ def page(robot: Scout) -> bytes:
         SpecificationError: See :func:`document`.
     """
     found = document(robot)
+    from scout_pin.report.drawn.drawing import leg_drawing
+    from thesis_pin.pages.info import info_page
+    from thesis_pin.pages.page import Drawing
+
     drawings = [
         Drawing(
             f"The {side} leg in the neutral pose",

@@ -76,6 +76,7 @@ NUMBERS = {
     "--factor": {"2.5"},
     "--precision": {"0"},
     "--points": set(),
+    "--length": {"2.5"},
     "--jobs": set(),
     "--port": {"0"},
     "--position": {"0", "-1", "2.5"},
@@ -145,7 +146,23 @@ CONTRADICTIONS = {
     "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
     "thesis-pin check": [],
     "thesis-pin formats": [],
-    "thesis-pin torque": [["--json", "-", "--html", "-"]],
+    "thesis-pin torque": [
+        ["--json", "-", "--html", "-"],
+        ["--frame", "tool_tip"],
+        ["--euler", "ZYX"],
+    ],
+    "thesis-pin workspace": [
+        ["--along", "x", "0", "1"],
+        ["--along", "z_mm", "3", "-3"],
+        ["--along", "nowhere", "0", "1"],
+        ["--along", "pitch", "0", "nan"],
+        ["--at", "x", "0"],
+        ["--at", "y", "0"],
+        ["--at", "y", "eleven"],
+        ["--frame", "nowhere"],
+        ["--pose", "nowhere"],
+        ["--json", "-", "--html", "-"],
+    ],
 }
 """Flags that contradict a verb's example, its outputs, or each other."""
 

@@ -237,3 +237,60 @@ def test_what_check_writes_reads_back_as_the_same_robot(capfd, tmp_path):
         assert code == 0
         found.append(json.loads(out)["torque"])
     assert found[0] == found[1]
+
+
+GRID = ("--frame", "left_tip", "--along", "x", "-0.2", "0.4", "--along", "z_mm", "200", "500")
+
+
+def workspace(capfd, *words):
+    return run("thesis-pin workspace", ["workspace", *map(str, words)], capfd)
+
+
+def test_a_workspace_is_told_written_and_drawn(capfd, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    code, out, err = workspace(capfd, BAR, LOOPS, *GRID, "--points", 5)
+    assert (code, err) == (0, "")
+    assert "cells are reachable" in " ".join(out.split())
+    assert max(map(len, out.splitlines())) <= 80
+    outputs = ("--out", tmp_path / "space", "--html", tmp_path / "page.html", "--json", "-")
+    code, out, _ = workspace(capfd, BAR, LOOPS, *GRID, "--points", 5, *outputs)
+    assert code == 0
+    document = json.loads(out)
+    assert document["axes"][1]["values"] == pytest.approx([0.2, 0.275, 0.35, 0.425, 0.5])
+    assert (tmp_path / "space" / "workspace.json").read_text() == out
+    assert {path.suffix for path in (tmp_path / "space").iterdir()} == {
+        ".json",
+        ".csv",
+        ".png",
+        ".svg",
+        ".sha256",
+    }
+    assert (tmp_path / "page.html").stat().st_size > 10_000
+
+
+def test_a_workspace_without_a_reachable_cell_is_answered_by_no(capfd):
+    words = (*GRID[:2], "--along", "x", "2", "3", "--at", "z", "0.3", "--points", 3)
+    code, out, _ = workspace(capfd, BAR, LOOPS, *words, "--json", "-")
+    assert code == 1
+    assert json.loads(out)["summary"]["reachable"] == 0
+
+
+def test_motors_without_ranges_have_to_be_named(capfd):
+    code, out, err = workspace(capfd, "example:panda")
+    assert (code, out) == (2, "")
+    assert "no axes are named" in err
+
+
+def test_a_table_leads_a_frame(capfd, tmp_path):
+    time = np.arange(0, 3, 0.05)
+    path = np.column_stack([time, 0.1 + 0.05 * np.sin(time), 0.35 + 0.03 * np.cos(time)])
+    np.savetxt(tmp_path / "path.csv", path, delimiter=",", header="t,x,z", comments="")
+    words = ["torque", str(BAR), str(LOOPS), str(tmp_path / "path.csv"), "--frame", "left_tip"]
+    code, out, err = run("thesis-pin torque", [*words, "--json", "-"], capfd)
+    assert code == 0, err
+    document = json.loads(out)
+    assert document["parameters"]["frame"] == "left_tip"
+    assert document["parameters"]["frame_given"] == ["x", "z"]
+    code, _, err = run("thesis-pin torque", [*words[:-1], "nowhere"], capfd)
+    assert code == 2
+    assert "nowhere" in err

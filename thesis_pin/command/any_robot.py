@@ -29,7 +29,7 @@ def check(arguments: argparse.Namespace) -> ExitCode:
     """Say whether a description is sound, where it closes, and what holds it."""
 
     def answer() -> Answer:
-        robot = _loaded(arguments)
+        robot = loaded(arguments)
         found = soundness.check(robot, pose=arguments.pose, precision=arguments.precision)
         if arguments.out:
             files = {name: text.encode() for name, text in pair(robot.description).items()}
@@ -44,7 +44,7 @@ def torque(arguments: argparse.Namespace) -> ExitCode:
     """Report on a motion of any robot."""
 
     def make(_: object) -> TorqueReport:
-        robot = _loaded(arguments)
+        robot = loaded(arguments)
         with warned():
             motion = _motion(arguments, robot)
             x = arguments.precision
@@ -67,7 +67,7 @@ def formats(arguments: argparse.Namespace) -> ExitCode:
     return give(arguments, lambda: Answer(read.document, read.summary))
 
 
-def _loaded(arguments: argparse.Namespace) -> ClosedRobot:
+def loaded(arguments: argparse.Namespace) -> ClosedRobot:
     """The robot that the arguments name."""
     root = pin.JointModelFreeFlyer() if arguments.free_flyer else None
     with warnings.catch_warnings(action="ignore", category=ModelWarning):  # the verbs say them

@@ -5,7 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command.options import add_json, add_report, add_smooth, number, slope, wrench
+from thesis_pin.command.options import (
+    add_euler,
+    add_frame,
+    add_json,
+    add_report,
+    add_smooth,
+    count,
+    number,
+    slope,
+    wrench,
+)
 from thesis_pin.command.registry import Command, Parser, Verb, Words
 
 
@@ -31,17 +41,51 @@ def _which_motion(words: Words) -> None:
         "NAME_acceleration (SI, or NAME_deg and the like); with --frame of x, y, z and the like",
     )
     add_smooth(words)
+    add_frame(words)
+    add_euler(words)
+
+
+def _which_grid(words: Words) -> None:
+    """Over what a workspace is mapped."""
+    add_frame(words)
     words.add_argument(
-        "--frame",
-        metavar="NAME",
-        help="the frame that MOTION leads through the world, its columns x, y, z and roll, pitch, "
-        "yaw or qx, qy, qz, qw: as many as the robot has freedoms (default: it leads joints)",
+        "--along",
+        action="append",
+        nargs=3,
+        default=[],
+        metavar=("NAME", "FROM", "TO"),
+        help="an axis of the grid, one to three: x, y, z [m], roll, pitch, yaw [rad] of the frame, "
+        "a motor or a joint; also x_mm, NAME_deg and the like (default: the ranges of up to three "
+        "motors)",
     )
     words.add_argument(
-        "--euler",
-        metavar="ORDER",
-        help="order of the angles in columns a, b, c (or about rx, ry, rz) of the frame: ZYX turns "
-        "about z, then the turned y, then the turned x; zyx about the fixed axes",
+        "--at",
+        action="append",
+        nargs=2,
+        default=[],
+        metavar=("NAME", "VALUE"),
+        help="what else leads and stands still; motors that nothing leads stay at the pose",
+    )
+    words.add_argument(
+        "--points",
+        type=count("--points", 2),
+        default=41,
+        metavar="N",
+        help="points an axis (default: 41)",
+    )
+    words.add_argument(
+        "--length",
+        type=number("--length", positive=True),
+        metavar="METRES",
+        help="of shifts, that counts as a radian in condition numbers (default: 0.1)",
+    )
+
+
+def _where_to(words: Words) -> None:
+    """Where a workspace is written."""
+    words.add_argument("--out", metavar="DIR", help="write workspace.json, .csv and figures")
+    words.add_argument(
+        "--html", metavar="FILE|-", help="write it as a page to mail: picture, numbers, animation"
     )
 
 
@@ -200,6 +244,24 @@ COMMAND = Command(
                 _which_robot,
                 _which_stance,
                 partial(add_report, breaks="it falls, or a motor or joint leaves its limits"),
+            ),
+        ),
+        Verb(
+            "workspace",
+            "where can it go, and how well do its motors hold it there?",
+            "Reach and conditioning over a grid of motors or of a frame's coordinates, in one "
+            "assembly.",
+            "workspace urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
+            "--frame tool_tip --along x 0.2 0.7 --along z -0.4 0.4 --at y 0 --at roll 0 --at pitch "
+            "0 --at yaw 0 --points 21 --out space",
+            "thesis_pin.loops.workspace.mapped:evaluate_workspace",
+            "thesis_pin.command.mapping:workspace",
+            (
+                _which_robot,
+                _which_grid,
+                _which_pose,
+                _where_to,
+                partial(add_json, what="the grid"),
             ),
         ),
         Verb(

@@ -45,6 +45,21 @@ def count(name: str, least: int, most: int = MOST) -> Callable[[str], int]:
     return read
 
 
+def quantity(flag: str, text: str) -> float:
+    """A number among the words of a flag.
+
+    Raises:
+        BadInput: It is none, or not finite.
+    """
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise BadInput(f"{flag} has {shown(text)}", allowed="a finite number")
+    return value
+
+
 def wrench(text: str) -> tuple[str, tuple[float, ...]]:
     """An argparse type: ``FRAME=fx,fy,fz``, three more numbers for a moment."""
     frame, _, values = text.rpartition("=")
@@ -101,6 +116,27 @@ def add_smooth(words: Words) -> None:
         default="auto",
         help="samples are as fine as they show (auto) or exact (none), or no finer than a "
         "length such as 0.1mm, an angle such as 0.05deg, or 0.1mm,0.05deg (default: auto)",
+    )
+
+
+def add_euler(words: Words) -> None:
+    """In which order angles turn."""
+    words.add_argument(
+        "--euler",
+        metavar="ORDER",
+        help="order of the angles in columns a, b, c (or about rx, ry, rz): ZYX turns about z, "
+        "then the turned y, then the turned x; zyx about the fixed axes. Columns psi, theta, phi "
+        "are Rx(θ) Ry(ψ) Rz(φ)",
+    )
+
+
+def add_frame(words: Words) -> None:
+    """Which frame leads the robot."""
+    words.add_argument(
+        "--frame",
+        metavar="NAME",
+        help="a frame of the robot: its x, y, z, roll, pitch, yaw, or as many of them as the robot "
+        "has freedoms, lead the robot (default: joints do)",
     )
 
 

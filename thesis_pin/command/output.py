@@ -7,10 +7,12 @@ that no number is ever cut.
 
 from __future__ import annotations
 
+import contextlib
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from thesis_pin.command import plain
 from thesis_pin.command.text import readable
 from thesis_pin.errors import CannotWrite
 from thesis_pin.report.tables import Part
@@ -30,6 +32,12 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title:
     Where it is wider than the terminal, each row becomes a paragraph: its first
     cell, then each further one with its heading.
     """
+    rows = [list(row) for row in rows]
+    if _plainly([*columns, title, *(cell for row in rows for cell in row)]):
+        text = plain.table(columns, rows, title, plain.width())
+        if text is not None:
+            _write(text)
+            return
     from rich import box
     from rich.table import Table
 
@@ -60,6 +68,10 @@ def print_parts(parts: Iterable[Part]) -> None:
 
 def print_text(*paragraphs: str) -> None:
     """Print paragraphs wrapped to the terminal's width."""
+    if _plainly(paragraphs):
+        for text in paragraphs:
+            _write(plain.paragraph(text, plain.width()))
+        return
     console = _console()
     _print(console, *_said(console, paragraphs))
 
@@ -83,6 +95,16 @@ def print_entries(entries: Iterable[tuple[str, str]]) -> None:
     for label, text in pairs:
         table.add_row(label, Text(text))
     _print(console, table)
+
+
+def _plainly(texts: Sequence[str]) -> bool:
+    return plain.wanted() and plain.understood(texts)
+
+
+def _write(text: str) -> None:
+    with _told():
+        sys.stdout.write(text)
+        sys.stdout.flush()
 
 
 def _console() -> Console:
@@ -119,9 +141,16 @@ def _stack(
 
 
 def _print(console: Console, *things: RenderableType) -> None:
-    try:
+    with _told():
         for thing in things:
             console.print(thing)
+
+
+@contextlib.contextmanager
+def _told() -> Iterator[None]:
+    """Say that standard output can't be written."""
+    try:
+        yield
     except BrokenPipeError:
         raise
     except OSError as error:

@@ -34,6 +34,9 @@ FRICTION_EDGES = 8
 """Edges of the pyramid inside each corner's friction cone; it gives away at most
 1 − cos(π/8) = 7.6 % of the friction, on the safe side."""
 
+_ALONE = 250_000
+"""Multiplications of a matrix product that OpenBLAS leaves to one thread."""
+
 
 @dataclass(frozen=True)
 class Contact:
@@ -102,7 +105,9 @@ class Contact:
         """
         flat = self.scale(wrench).reshape(-1, 6)
         margin = np.empty(len(flat))
-        for part in blocks(len(flat), 1024):  # a row of the product is some hundred facets
+        # So few that BLAS doesn't share the product among threads: where another program has a
+        # core, they wait for each other and take ten times as long.
+        for part in blocks(len(flat), max(1, _ALONE // self.facets.size)):
             margin[part] = -(flat[part] @ self.facets.T).max(axis=-1)
         return margin.reshape(wrench.shape[:-1])
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import fcntl
-import hashlib
 import itertools
 import os
 import shutil
@@ -114,6 +113,8 @@ class Claim:
 
     def write(self, files: Mapping[str, bytes]) -> None:
         """Write the files; see :func:`write_folder`."""
+        import hashlib  # 2 ms that no run without a folder needs
+
         sums = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
         contents = {**files, MANIFEST: manifest(sums)}
         new = self._partial / "new"

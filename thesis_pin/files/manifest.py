@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -37,6 +36,8 @@ def _listed(folder: Path) -> dict[str, str]:
 def _sum(path: Path) -> str:
     try:
         with path.open("rb") as stream:
+            import hashlib
+
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError:
         return ""

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pinocchio as pin
@@ -23,14 +24,14 @@ from thesis_pin.loops.system.equations import Equations
 from thesis_pin.loops.system.rows import Loop as Loop
 from thesis_pin.loops.system.scale import Scale, scale_of
 from thesis_pin.loops.system.survey import Survey
-from thesis_pin.model.formats.closure_file import FILE_KIND, ClosureFile
-from thesis_pin.model.formats.joining import joined
-from thesis_pin.model.formats.rounding import Rounding, rounding
-from thesis_pin.model.formats.urdf.reading import read_urdf
 from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
 from thesis_pin.model.mechanism.closure_types import word_of
-from thesis_pin.model.mechanism.description import Description
-from thesis_pin.model.mechanism.supplement import Closure, Motor, Supplement
+from thesis_pin.model.mechanism.supplement import FILE_KIND, Closure, Motor, Supplement
+
+if TYPE_CHECKING:  # robots that ship are known to be sound, and loaded without their readers
+    from thesis_pin.model.formats.closure_file import ClosureFile
+    from thesis_pin.model.formats.rounding import Rounding
+    from thesis_pin.model.mechanism.description import Description
 
 NO_LIMIT = 1e30
 """Torque, force or speed from which a joint's limit stands for none."""
@@ -41,9 +42,12 @@ class ClosedRobot(LoadedRobot):
 
     Args:
         robot: The description, or the URDF of the tree.
-        closures: What closes it, if the URDF alone is given; None if nothing does.
+        closures: What closes it, if the URDF alone is given: a closure file, or what one says;
+            None if nothing does.
         root_joint: Joint between world and root link; None for what the description says.
         where: Closure file, for messages.
+        ships: Whether the URDF and what closes it are, letter for letter, what ships with the
+            package; see :class:`~thesis_pin.model.loading.LoadedRobot`.
 
     Attributes:
         description: What it was made from.
@@ -67,18 +71,24 @@ class ClosedRobot(LoadedRobot):
     def __init__(
         self,
         robot: Description | str | bytes,
-        closures: ClosureFile | None = None,
+        closures: ClosureFile | Supplement | None = None,
         root_joint: RootJoint = None,
         *,
         where: str = FILE_KIND,
+        ships: bool = False,
     ) -> None:
-        described = robot if isinstance(robot, Description) else checked(read_urdf(robot))
-        if closures is not None:
-            described = joined(described, closures.supplement())
-        beside = described.supplement
+        if closures is not None and not isinstance(closures, Supplement):
+            closures = closures.supplement()
+        self._closures = closures
+        described: str | Description
+        if ships and isinstance(robot, str):
+            described, beside, place = robot, self._closures or Supplement(), "URDF"
+        else:
+            described = _described(robot, self._closures)
+            beside, place = described.supplement, described.where
         if root_joint is None and beside.free_root:
             root_joint = pin.JointModelFreeFlyer()
-        super().__init__(described, {}, root_joint, where=described.where)
+        super().__init__(described, {}, root_joint, where=place, ships=ships)
         if beside.joint_types:
             self.model = replace_joints(self.model, beside.joint_types, where=where)
             self.data = self.model.createData()
@@ -115,7 +125,9 @@ class ClosedRobot(LoadedRobot):
             self.turning[single.v] = single.continuous
         self.base = _base(self.model)
         held = np.concatenate([self.actuated, self.base])
-        self.passive = np.setdiff1d(np.arange(self.model.nv), held)
+        free = np.ones(self.model.nv, dtype=bool)
+        free[held] = False
+        self.passive = np.flatnonzero(free)
 
     def led(self, model: pin.Model, joints: Sequence[str], loops: Sequence[Loop]) -> ClosedRobot:
         """A copy for kinematics, of which other joints and a base are led, not motors.
@@ -133,6 +145,9 @@ class ClosedRobot(LoadedRobot):
         found._place(FILE_KIND)
         return found
 
+    def _described(self) -> Description:
+        return _described(self.urdf, self._closures)
+
     @cached_property
     def system(self) -> Equations:
         """Its equations, as functions of stacks of configurations."""
@@ -146,6 +161,8 @@ class ClosedRobot(LoadedRobot):
     @cached_property
     def rounding(self) -> Rounding | None:
         """Which of its directions are nearly round; None if none is."""
+        from thesis_pin.model.formats.rounding import rounding
+
         return rounding(self.description)
 
     @cached_property
@@ -184,6 +201,15 @@ class ClosedRobot(LoadedRobot):
         for loop in self.loops:
             models.append(loop.rigid_constraint_model(self.model))
         return models
+
+
+def _described(robot: Description | str | bytes, closures: Supplement | None) -> Description:
+    """What a description, or a URDF, and what closes it make together."""
+    from thesis_pin.model.formats.joining import joined
+    from thesis_pin.model.formats.urdf.reading import read_urdf
+
+    described = checked(read_urdf(robot)) if isinstance(robot, str | bytes) else robot
+    return described if closures is None else joined(described, closures)
 
 
 def _loop(model: pin.Model, closure: Closure, where: str) -> Loop:

@@ -9,8 +9,8 @@ import numpy as np
 import pinocchio as pin
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.model.formats.closure_file import JointType
 from thesis_pin.model.loading import joint_id
+from thesis_pin.model.mechanism.closure_types import JointType
 
 _TURNS = {"X": pin.JointModelRX, "Y": pin.JointModelRY, "Z": pin.JointModelRZ}
 _KINDS = get_args(JointType)

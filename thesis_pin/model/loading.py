@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import functools
-import shutil
-import tempfile
 import weakref
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import pinocchio as pin
 
 from thesis_pin.errors import ModelError, UnknownName
-from thesis_pin.model.formats.urdf.reading import read_urdf
-from thesis_pin.model.mechanism.bodies import check_bodies, odd_bodies
-from thesis_pin.model.mechanism.description import Description
-from thesis_pin.model.mechanism.soundness import check_agreement, check_description
-from thesis_pin.model.meshes import with_mesh_paths
 from thesis_pin.numeric.checks import instance, shown
+
+if TYPE_CHECKING:  # robots that ship are known to be sound, and loaded without their readers
+    from thesis_pin.model.mechanism.description import Description
 
 RootJoint: TypeAlias = pin.JointModel | Sequence[tuple[str, pin.JointModel]] | None
 """Joint between world and root link; several (name, joint) in series; None to fix it."""
@@ -60,6 +56,8 @@ def check_urdf(urdf: str | bytes, *, where: str = "URDF") -> Description:
             axes, loops or joints that follow others.
         NonPhysicalInertia: With the link, its eigenvalues and by how much.
     """
+    from thesis_pin.model.formats.urdf.reading import read_urdf
+
     description = read_urdf(urdf, where=where)
     beside = description.supplement
     if beside.closures or beside.couplings:
@@ -79,6 +77,9 @@ def checked(description: Description) -> Description:
     Raises:
         ModelError, NonPhysicalInertia: See :func:`check_urdf`.
     """
+    from thesis_pin.model.mechanism.bodies import odd_bodies
+    from thesis_pin.model.mechanism.soundness import check_description
+
     check_description(description, where=description.where)
     odd = tuple(odd_bodies(description))
     return replace(description, warnings=(*description.warnings, *odd))
@@ -103,17 +104,31 @@ def load_model(
         ModelError, NonPhysicalInertia: See :func:`check_urdf`; or Pinocchio's model
             isn't what the URDF says.
     """
-    description = urdf if isinstance(urdf, Description) else check_urdf(urdf, where=where)
-    roots = 0
+    from thesis_pin.model.mechanism.bodies import check_bodies
+    from thesis_pin.model.mechanism.soundness import check_agreement
+
+    description = _description(urdf, where)
+    model, roots = _built(description.text, root_joint, where)
+    if roots:
+        check_bodies(description, free_root=True)
+    check_agreement(description, model, roots=roots, where=where)
+    return model
+
+
+def _description(urdf: str | bytes | Description, where: str) -> Description:
+    from thesis_pin.model.mechanism.description import Description
+
+    return urdf if isinstance(urdf, Description) else check_urdf(urdf, where=where)
+
+
+def _built(text: str, root_joint: RootJoint, where: str) -> tuple[pin.Model, int]:
+    """Pinocchio's model of a URDF, and how many joints lead to its root link."""
     try:
         if root_joint is None:
-            model = pin.buildModelFromXML(description.text)
-        elif isinstance(root_joint, list | tuple):
-            roots = len(root_joint)
-            model = _on_chain(root_joint, pin.buildModelFromXML(description.text))
-        else:
-            roots = 1
-            model = pin.buildModelFromXML(description.text, root_joint)
+            return pin.buildModelFromXML(text), 0
+        if isinstance(root_joint, list | tuple):
+            return _on_chain(root_joint, pin.buildModelFromXML(text)), len(root_joint)
+        return pin.buildModelFromXML(text, root_joint), 1
     except (TypeError, IndexError) as error:  # Pinocchio's bindings know the types of joints
         raise ModelError(
             f"root_joint is {shown(root_joint)}",
@@ -122,10 +137,6 @@ def load_model(
         ) from error
     except (RuntimeError, ValueError) as error:
         raise ModelError(f"Pinocchio can't read it ({error})", where=where) from None
-    if roots:
-        check_bodies(description, free_root=True)
-    check_agreement(description, model, roots=roots, where=where)
-    return model
 
 
 def _on_chain(joints: Sequence[tuple[str, pin.JointModel]], model: pin.Model) -> pin.Model:
@@ -163,8 +174,15 @@ class LoadedRobot:
     (``model``, ``data``, ``q0``, ``v0``, ``visual_model``, ``collision_model``);
     ``wrapper`` is a real one. Geometry is read on first use: most runs need none.
 
+    Args:
+        urdf: The URDF, or what was read.
+        meshes: Text of each mesh by the name that the URDF uses.
+        root_joint: See :func:`load_model`.
+        where: File name for messages.
+        ships: Whether the text is, letter for letter, one that ships with the package: tests
+            check those, and loading takes a third of the time.
+
     Attributes:
-        description: What was read.
         urdf: The URDF text.
         model: Pinocchio model.
         data: Its data; methods of this class don't use it, so it is the caller's.
@@ -179,15 +197,30 @@ class LoadedRobot:
         root_joint: RootJoint = None,
         *,
         where: str = "URDF",
+        ships: bool = False,
     ) -> None:
-        description = urdf if isinstance(urdf, Description) else check_urdf(urdf, where=where)
-        self.description = description
-        self.urdf = description.text
-        self._meshes = dict(meshes)
-        self.model = load_model(description, root_joint, where=where)
+        self._where, self._meshes = where, dict(meshes)
+        self._description: Description | None = None
+        if ships and isinstance(urdf, str):
+            self.urdf = urdf
+            self.model, _ = _built(urdf, root_joint, where)
+        else:
+            description = _description(urdf, where)
+            self._description, self.urdf = description, description.text
+            self.model = load_model(description, root_joint, where=where)
         self.data = self.model.createData()
         self.q0 = pin.neutral(self.model)
         self.v0 = np.zeros(self.model.nv)
+
+    @property
+    def description(self) -> Description:
+        """What the URDF says, as it was read and checked."""
+        if self._description is None:
+            self._description = self._described()
+        return self._description
+
+    def _described(self) -> Description:
+        return check_urdf(self.urdf, where=self._where)
 
     def __getstate__(self) -> dict[str, object]:
         """What travels: all but what is made of it, as Pinocchio's data, geometry and pools."""
@@ -206,6 +239,9 @@ class LoadedRobot:
     @functools.cached_property
     def _folder(self) -> str:
         """Meshes on disk, where Pinocchio's reader wants them; lives as long as the robot."""
+        import shutil
+        import tempfile
+
         folder = tempfile.mkdtemp(prefix="thesis_pin_")
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         for name, text in self._meshes.items():
@@ -218,6 +254,8 @@ class LoadedRobot:
         if self._meshes:
             text = self.urdf.replace('filename="', f'filename="{self._folder}/')
         else:
+            from thesis_pin.model.meshes import with_mesh_paths
+
             tag = "visual" if kind == pin.GeometryType.VISUAL else "collision"
             text = with_mesh_paths(self.description, tag)
         try:

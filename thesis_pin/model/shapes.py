@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from thesis_pin.model.specification import Key, Positive, Strict, Vector3
+from thesis_pin.model.limits import Key
+from thesis_pin.model.strict import Positive, Strict, Vector3
 
 
 class Shape(Strict):

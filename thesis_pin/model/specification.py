@@ -9,54 +9,27 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
-
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from thesis_pin.errors import BadInput, Problem, SpecificationError
 from thesis_pin.model.limits import LIMITS, bounded
 from thesis_pin.model.limits import Key as Key
 from thesis_pin.model.source import read_text
+from thesis_pin.model.strict import Assumption as Assumption
+from thesis_pin.model.strict import NotNegative as NotNegative
+from thesis_pin.model.strict import Positive as Positive
+from thesis_pin.model.strict import Strict as Strict
+from thesis_pin.model.strict import SymmetricMatrix as SymmetricMatrix
+from thesis_pin.model.strict import Vector2 as Vector2
+from thesis_pin.model.strict import Vector3 as Vector3
 from thesis_pin.numeric.checks import brief, shown
 
+if TYPE_CHECKING:
+    from pydantic import BaseModel
 
-class Strict(BaseModel):
-    """Base of everything read from a file: no unknown keys, no NaN, immutable."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-
-    def cross_check(self) -> Iterator[tuple[Key, str, object]]:
-        """Yield key, complaint and value of what is wrong between several keys."""
-        yield from ()
-
-
-class Assumption(Strict):
-    """A number the thesis leaves open; reports list it with its reason."""
-
-    why: str = Field(min_length=1)
-
-
-def _symmetric(matrix: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...], ...]:
-    if any(matrix[i][j] != matrix[j][i] for i in range(3) for j in range(i)):
-        raise ValueError("must be symmetric")
-    return matrix
-
-
-def _not_tiny(value: float) -> float:
-    if value < LIMITS.smallest:
-        raise ValueError(f"must be at least {LIMITS.smallest:g}")
-    return value
-
-
-Positive = Annotated[float, Field(gt=0), AfterValidator(_not_tiny)]
-NotNegative = Annotated[float, Field(ge=0)]
-Vector2 = tuple[float, float]
-Vector3 = tuple[float, float, float]
-SymmetricMatrix = Annotated[tuple[Vector3, Vector3, Vector3], AfterValidator(_symmetric)]
-
-File = TypeVar("File", bound=BaseModel)
+File = TypeVar("File", bound="BaseModel | Strict")
 
 _PART = r"""(?:"[^"\n]*+"|'[^'\n]*+'|[\w\-]++)[ \t]*+\.[ \t]*+"""
 _DOTTED = re.compile(rf"""(?<![\w\-"'.])(?:{_PART}){{{LIMITS.nesting},}}+""")
@@ -68,7 +41,7 @@ def read_toml(kind: str, schema: type[File], path: str | Path) -> File:
 
     Args:
         kind: What the file is, for messages ("specification", "gait", …).
-        schema: The pydantic model it must satisfy.
+        schema: What it must satisfy, a :class:`~thesis_pin.model.strict.Strict`.
         path: The file.
 
     Returns:
@@ -117,7 +90,7 @@ def validate(
 
     Args:
         kind: What the data is, for messages.
-        schema: The pydantic model.
+        schema: What they must satisfy.
         data: Nested dicts and lists.
         where: File or place, for messages.
         lines: Line of each key, from :func:`key_lines`.
@@ -125,6 +98,8 @@ def validate(
     Raises:
         SpecificationError: With a :class:`Problem` for each thing wrong.
     """
+    from pydantic import ValidationError
+
     lines = lines or {}
 
     def place(key: Key) -> str:
@@ -140,7 +115,7 @@ def validate(
     found: list[Problem] = []
     try:
         # Strict: true isn't 1 and "0.33" isn't 0.33. Files have lists where we have tuples.
-        result = schema.model_validate(data, strict=True)
+        result = cast(File, schema.model_validate(data, strict=True))
     except ValidationError as error:
         for detail in error.errors(include_url=False):
             key = _real_key(detail["loc"], data)
@@ -212,7 +187,7 @@ def _real_key(location: Sequence[str | int], data: Any) -> Key:
     return tuple(key)
 
 
-def _known_keys(schema: type[BaseModel], key: Key) -> str:
+def _known_keys(schema: object, key: Key) -> str:
     """List the keys allowed beside an unknown one, where the schema makes that plain."""
     current: Any = schema
     for part in key[:-1]:

@@ -23,6 +23,10 @@ BLOCK = 4096
 LONG = 16 * BLOCK
 """Samples from which what can be worked out again isn't kept: memory counts, not speed."""
 
+# Freed once, eight megabytes make glibc keep that much for the next block of samples; otherwise it
+# returns what exceeds 128 kB and gets it back page by page, a third of the time along a motion.
+np.empty(2**20)
+
 Number: TypeAlias = float | np.ndarray
 """One number, or an array of them."""
 

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
+from collections.abc import Sequence
 from functools import cached_property
+from itertools import pairwise
 from math import perm
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from thesis_pin.numeric.sparing import Part, plus, times
+
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
+
+_FEW = 32
+"""Samples a piece from which it is worth while to go from piece to piece."""
 
 
 class Piecewise:
@@ -39,8 +47,8 @@ class Piecewise:
         Returns:
             Shape of ``t``, then that of one coefficient.
         """
-        times = np.asarray(t, dtype=float)
-        where, (order, pieces, *shape) = times.ravel(), self.c.shape
+        given = np.asarray(t, dtype=float)
+        where, (order, pieces, *shape) = given.ravel(), self.c.shape
         if pieces == 1:
             offset, coefficients = where - self.x[0], self.c
         else:
@@ -52,7 +60,33 @@ class Piecewise:
             result += coefficients[order - 1 - k] * power * float(perm(k, nu))
             power *= offset
         result[np.isnan(where)] = np.nan
-        return result.reshape((*times.shape, *shape))
+        return result.reshape((*given.shape, *shape))
+
+    def jet(self, t: np.ndarray) -> tuple[Part, Part, Part]:
+        """Values, rates and accelerations together, by Horner's scheme.
+
+        Args:
+            t: Where, shape ``(n,)``, n ≥ 1; single values only, no vectors.
+
+        Returns:
+            Each an array ``(n,)``, or a float where it is the same everywhere.
+        """
+        pieces = self.c.shape[1]
+        if len(t) == 1:
+            here = float(t[0])
+            piece = min(max(bisect_right(self.x, here) - 1, 0), pieces - 1)
+            return _horner(self.c[:, piece].tolist(), here - float(self.x[piece]))
+        if pieces == 1:
+            return _horner(self.c[:, 0].tolist(), t - self.x[0])
+        if len(t) < _FEW * pieces or (t[1:] < t[:-1]).any():
+            piece = np.clip(np.searchsorted(self.x, t, side="right") - 1, 0, pieces - 1)
+            return _horner(list(self.c[:, piece]), t - self.x[piece])
+        # Numbers for coefficients: with an array of them it would take twice as long.
+        ends = [0, *np.searchsorted(t, self.x[1:-1]).tolist(), len(t)]
+        steps = [(k, slice(*ends)) for k, ends in enumerate(pairwise(ends)) if ends[0] < ends[1]]
+        jets = [_horner(self.c[:, k].tolist(), t[some] - self.x[k]) for k, some in steps]
+        found = [_joined(values, steps, len(t)) for values in zip(*jets, strict=True)]
+        return found[0], found[1], found[2]
 
     def derivative(self, nu: int = 1) -> Piecewise:
         """The derivative of order ``nu`` as a piecewise polynomial."""
@@ -74,3 +108,26 @@ class Piecewise:
         if name.startswith("_"):  # copying and pickling look for such names in what is half made
             raise AttributeError(name)
         return getattr(self.ppoly, name)
+
+
+def _horner(coefficients: list[Part], offset: Part) -> tuple[Part, Part, Part]:
+    """A polynomial, highest power first, with its first two derivatives."""
+    value: Part = 0.0
+    rate: Part = 0.0
+    second: Part = 0.0
+    for coefficient in coefficients:
+        second = plus(times(second, offset), rate)
+        rate = plus(times(rate, offset), value)
+        value = plus(times(value, offset), coefficient)
+    return value, rate, times(2.0, second)
+
+
+def _joined(values: Sequence[Part], steps: Sequence[tuple[int, slice]], count: int) -> Part:
+    """What holds from step to step as one array, or as one float if it is the same everywhere."""
+    first = values[0]
+    if all(isinstance(value, float) and value == first for value in values):
+        return first
+    whole = np.empty(count)
+    for (_, some), value in zip(steps, values, strict=True):
+        whole[some] = value
+    return whole

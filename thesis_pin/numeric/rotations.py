@@ -12,10 +12,10 @@ from __future__ import annotations
 import numpy as np
 
 from thesis_pin.errors import BadInput
+from thesis_pin.numeric import sparing
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, whole
-from thesis_pin.numeric.elementwise import cosine_sine
-from thesis_pin.numeric.vectors import cross
+from thesis_pin.numeric.sparing import minus, plus, times
 
 _PLANE = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
@@ -103,27 +103,49 @@ def euler_placement(
 
     Source: Scout thesis, 3.1–3.3 (angular velocity and acceleration of torso and feet).
     """
-    angle, rate, second = (np.moveaxis(x, -1, 0) for x in (angles, rates, accelerations))
-    unit = np.eye(3).reshape(3, 3, *[1] * (angles.ndim - 1))
-    columns = [unit[0], unit[1], unit[2]]  # of the rotation so far, components first
-    omega = alpha = np.zeros((3, *angle.shape[1:]))
-    for k, letter in enumerate(axes):
-        axis = columns["xyz".index(letter)]
-        spin = rate[k] * axis
-        alpha = alpha + second[k] * axis + cross(omega, spin)
-        omega = omega + spin
-        one, other = _PLANE[letter]
-        cosine, sine = cosine_sine(angle[k])
-        columns[one], columns[other] = (
-            cosine * columns[one] + sine * columns[other],
-            cosine * columns[other] - sine * columns[one],
-        )
-    matrix = np.stack(np.broadcast_arrays(*columns), axis=1)  # (component, column, ...)
+    angle, rate, second = (
+        [np.asarray(part) for part in np.moveaxis(x, -1, 0)] for x in (angles, rates, accelerations)
+    )
+    turned = euler_parts(axes, angle, rate, second)
+    matrix, omega, alpha = (sparing.spread(parts, angles.shape[:-1]) for parts in turned)
     return (
-        np.moveaxis(matrix, (0, 1), (-2, -1)),
+        np.moveaxis(matrix.reshape(3, 3, *matrix.shape[1:]), (0, 1), (-2, -1)),
         np.moveaxis(omega, 0, -1),
         np.moveaxis(alpha, 0, -1),
     )
+
+
+def euler_parts(
+    axes: str, angles: sparing.Triple, rates: sparing.Triple, accelerations: sparing.Triple
+) -> tuple[tuple[sparing.Part, ...], sparing.Triple, sparing.Triple]:
+    """:func:`euler_placement` part by part, each an array or, where it is constant, a float.
+
+    Args:
+        axes: Three letters, for instance ``"xyz"``.
+        angles: The three angles [rad].
+        rates: Their time derivatives [rad/s].
+        accelerations: Their second time derivatives [rad/s²].
+
+    Returns:
+        The nine entries of the rotation, row by row, and the three of ω and of α.
+    """
+    columns: list[sparing.Triple] = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+    omega: sparing.Triple = (0.0, 0.0, 0.0)
+    alpha: sparing.Triple = omega
+    for letter, angle, rate, second in zip(axes, angles, rates, accelerations, strict=True):
+        axis = columns["xyz".index(letter)]
+        spin = [times(rate, part) for part in axis]
+        drift = sparing.cross(omega, spin)
+        more = [plus(times(second, part), bend) for part, bend in zip(axis, drift, strict=True)]
+        alpha = [plus(*pair) for pair in zip(alpha, more, strict=True)]
+        omega = [plus(*pair) for pair in zip(omega, spin, strict=True)]
+        one, other = _PLANE[letter]
+        cosine, sine = sparing.cosine_sine(angle)
+        pairs = list(zip(columns[one], columns[other], strict=True))
+        columns[one] = [plus(times(cosine, x), times(sine, y)) for x, y in pairs]
+        columns[other] = [minus(times(cosine, y), times(sine, x)) for x, y in pairs]
+    entries = tuple(columns[column][row] for row in range(3) for column in range(3))
+    return entries, omega, alpha
 
 
 def euler_rate_matrix(axes: str, angles: np.ndarray) -> np.ndarray:

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.errors import ThesisPinError
 from thesis_pin.loops.joints import singles
 from thesis_pin.pages.drawing import (
-    CLOSED,
-    OPEN,
     axis_placements,
-    closure_items,
     frame_placements,
     joint_placements,
-    robot_items,
 )
-from thesis_pin.pages.scene import Arc, Arrow, Ball, Group, Item, Readout, Scene, levels, thinned
-from thesis_pin.report.curves import BLUE, ORANGE, SKY, VERMILLION
+from thesis_pin.pages.robot import GROUPS, items_of, size_of
+from thesis_pin.pages.scene import Arc, Arrow, Group, Item, Readout, Scene, levels, thinned
+from thesis_pin.report.curves import BLUE, ORANGE, VERMILLION
 from thesis_pin.report.torque.document import TorqueReport
 
 Array = NDArray[np.float64]
@@ -38,8 +33,7 @@ def scene(report: TorqueReport) -> Scene:
     robot, keep = report.robot, thinned(report.joints.time, MOST_SAMPLES)
     q = report.joints.q[keep]
     moves = joint_placements(robot.model, q)
-    extent = float(np.ptp(moves[..., :3].reshape(-1, 3), axis=0).max())
-    size = extent if extent > 0 else 1.0
+    size = size_of(moves)
     force = 0.3 * size / max(float(report.loop_force_size.max(initial=0.0)), 1e-12)
     largest = max(float(np.abs(report.dynamics.torque).max(initial=0.0)), 1e-12)
     return Scene(
@@ -48,8 +42,7 @@ def scene(report: TorqueReport) -> Scene:
         f"{report.joints.time[-1] - report.joints.time[0]:.3g} seconds.",
         time=report.joints.time[keep],
         groups=(
-            Group("robot", "robot", ((SKY, ""),)),
-            Group("loops", "loops", ((CLOSED, "closed"), (OPEN, "open"))),
+            *GROUPS,
             Group("forces", f"loop forces (1 N is {force * 1e3:.3g} mm long)", ((VERMILLION, ""),)),
             Group(
                 "torques",
@@ -58,8 +51,7 @@ def scene(report: TorqueReport) -> Scene:
             ),
         ),
         items=(
-            *(_bodies(report, q) or _bars(report, q, moves, size)),
-            *_loops(report, q, size),
+            *items_of(robot, q),
             *_forces(report, keep, q, force, size),
             *_torques(report, keep, moves, size, largest),
         ),
@@ -69,44 +61,6 @@ def scene(report: TorqueReport) -> Scene:
         ),
         floor=float(moves[..., 2].min()) - 0.05 * size,
     )
-
-
-def _bodies(report: TorqueReport, q: Array) -> list[Item]:
-    """The visual shapes; none where there are none, or a mesh is missing."""
-    robot = report.robot
-    try:
-        shapes = robot_items(robot.model, robot.visual_model, q, group="robot")
-    except (ThesisPinError, ValueError, RuntimeError):  # Pinocchio's, for meshes
-        return []
-    return [replace(shape, name=f"body {k} {shape.name}") for k, shape in enumerate(shapes)]
-
-
-def _bars(report: TorqueReport, q: Array, moves: Array, size: float) -> Iterator[Item]:
-    """A bar from each joint to the next, and a ball at each."""
-    model = report.robot.model
-    for joint in range(1, model.njoints):
-        place, name = moves[:, joint, :3], model.names[joint]
-        yield Ball(f"joint {joint} {name}", "robot", place, 0.012 * size, (SKY,))
-        if parent := model.parents[joint]:
-            origin = moves[:, parent, :3]
-            yield Arrow(
-                f"bar {joint}", "robot", origin, place - origin, 1.0, 6e-3 * size, SKY, head=False
-            )
-    for k, loop in enumerate(report.robot.loops):
-        for end, frame in zip(loop.ids, loop.frames, strict=True):
-            joint = model.frames[end].parentJoint
-            if joint:
-                origin = moves[:, joint, :3]
-                way = frame_placements(model, frame, q)[:, :3] - origin
-                name = f"bar to {frame} of loop {k}"
-                yield Arrow(name, "robot", origin, way, 1.0, 6e-3 * size, SKY, head=False)
-
-
-def _loops(report: TorqueReport, q: Array, size: float) -> Iterator[Item]:
-    for k, loop in enumerate(report.robot.loops):
-        items = closure_items(report.robot.model, [loop.frames], q, "loops", 0.015 * size)
-        for item in items:
-            yield replace(item, name=f"loop {k} {item.name}")
 
 
 def _forces(

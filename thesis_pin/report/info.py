@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from thesis_pin.report.tables import Part, Table
 from thesis_pin.version import __version__
 
 if TYPE_CHECKING:
-    from pydantic import BaseModel
+    from thesis_pin.model.strict import Strict
 
 VERSION = 2
 """Of the schema ``…/info``; docs/conventions.md describes it."""
@@ -93,11 +93,12 @@ def body(name: str, mass: float, com: np.ndarray, inertia: np.ndarray, span: flo
     }
 
 
-def assumptions(stated: BaseModel) -> list[dict[str, object]]:
+def assumptions(stated: Strict) -> list[dict[str, object]]:
     """What a specification assumes, one entry an assumption: ``name``, values, ``why``."""
+    dumped: dict[str, Any] = stated.model_dump(mode="json")
     return [
         {"name": name, **one}
-        for name, entry in stated.model_dump(mode="json").items()
+        for name, entry in dumped.items()
         for one in (entry if isinstance(entry, list) else [entry])
     ]
 
@@ -121,7 +122,7 @@ def document(
     neutral: Mapping[str, np.ndarray],
     lengths: Mapping[str, Mapping[str, float]],
     angles: Mapping[str, Mapping[str, float]],
-    stated: BaseModel,
+    stated: Strict,
     implausible: Sequence[str] = (),
 ) -> Info:
     """A robot's joints, bodies, loops, freedom and assumptions, JSON-ready.

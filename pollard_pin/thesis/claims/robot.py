@@ -11,6 +11,7 @@ import functools
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -225,7 +226,7 @@ def torque_change(specification: Specification, bodies: list[str]) -> float:
         specification: The robot.
         bodies: Those whose printed matrix is then used about the centre of gravity.
     """
-    data = specification.model_dump()
+    data: dict[str, Any] = specification.model_dump()
     kept = [x for x in data["assumptions"]["replaced_inertias"] if x["link"] not in bodies]
     data["assumptions"]["replaced_inertias"] = kept
     chains = ("chain_0", "chain_1", "chain_2")

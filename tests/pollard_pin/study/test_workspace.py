@@ -72,3 +72,34 @@ def test_a_slice_is_drawn_without_a_display(pollard):
 def test_an_empty_or_endless_grid_is_refused(pollard, axes):
     with pytest.raises(BadInput, match="positions"):
         evaluate_workspace(pollard, *axes)
+
+
+def test_any_robots_workspace_of_pollard_is_its_own(pollard):
+    """By Newton steps from cell to cell, and by the closed form."""
+    import thesis_pin
+    from pollard_pin.closure import CLOSURE_PATH
+    from thesis_pin.loops.workspace.mapped import evaluate_workspace as anyones
+
+    x, z = np.linspace(0.3, 0.75, 10), np.linspace(-0.35, 0.2, 12)
+    own = evaluate_workspace(pollard, x, 0.05, z, orientation=[0.1, 0.2, -0.1])
+    loaded = thesis_pin.load(pollard_pin.URDF_PATH, CLOSURE_PATH)
+    pose = pollard.inverse_kinematics([0.45, 0.05, 0.05, 0.1, 0.2, -0.1], own.branch).angles
+    from pollard_pin.coordinates import pose_rotation
+
+    turn = pose_rotation(np.array([0, 0, 0, 0.1, 0.2, -0.1]))
+    import pinocchio as pin
+
+    at = {"y": 0.05} | dict(zip(("roll", "pitch", "yaw"), pin.rpy.matrixToRpy(turn), strict=True))
+    found = anyones(loaded, {"x": x, "z": z}, at=at, frame="tool_tip", pose=pose)
+    regular = own.reachable[:, 0] & np.isfinite(own.condition[:, 0])
+    np.testing.assert_array_equal(found.reachable, regular)
+    some = found.reachable
+    np.testing.assert_allclose(found.condition[some], own.condition[:, 0][some], rtol=1e-9)
+    signs = np.sign(found.determinant[some]) * np.sign(own.determinant[:, 0][some])
+    assert len({*signs}) == 1
+    angles = pollard.inverse_kinematics(
+        np.concatenate([own.points[:, 0], np.broadcast_to([0.1, 0.2, -0.1], (10, 12, 3))], -1),
+        own.branch,
+    ).angles
+    apart = (found.q - angles)[some]
+    np.testing.assert_allclose(np.sin(apart / 2), 0, atol=1e-9)

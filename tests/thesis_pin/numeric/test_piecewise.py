@@ -69,3 +69,32 @@ def test_curves_through_nodes_need_no_scipy():
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert ran.stdout == "False\n"
+
+
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    order=st.integers(1, 7),
+    pieces=st.integers(1, 6),
+    count=st.sampled_from([1, 2, 40, 500]),
+    ordered=st.booleans(),
+)
+@settings(max_examples=100, deadline=None)
+def test_a_jet_is_scipys_value_rate_and_acceleration(seed, order, pieces, count, ordered):
+    """One sample, some, and so many that it goes from piece to piece."""
+    c, x, _ = made(seed, order, pieces)
+    t = np.random.default_rng(seed).uniform(x[0] - 1, x[-1] + 1, count)
+    t[: len(x)] = x[:count]  # the piece on the right holds at a knot
+    t = np.sort(t) if ordered else t
+    for nu, found in enumerate(Piecewise(c, x).jet(t)):
+        expected = PPoly(c, x)(t, nu)
+        # Each sum is as exact as the largest of its terms.
+        size = PPoly(np.abs(c), x)(x[:-1] + 3.0, nu).max() + 1e-300
+        np.testing.assert_allclose(found + np.zeros(count), expected, rtol=1e-9, atol=1e-9 * size)
+
+
+def test_a_jet_that_is_the_same_everywhere_is_a_float():
+    t = np.linspace(0.0, 2.0, 200)
+    assert Piecewise([[0.3]], [0.0, 1.0]).jet(t) == (0.3, 0.0, 0.0)
+    value, rate, second = Piecewise([[1.0, 1.0], [0.0, 1.0]], [0.0, 1.0, 2.0]).jet(t)
+    np.testing.assert_allclose(value, t, atol=1e-15)
+    assert (rate, second) == (1.0, 0.0)

@@ -88,9 +88,7 @@ def cause(dynamics: FootDynamics, sample: int, border: float | None = None) -> C
         rest[:3] /= dynamics.length
         return Cause(sample, None, *_split(rest, floor.normal), outside)
     least = missing(sums, grips.rays(EDGES, rough), total)[0] + tolerance(dynamics.scale)
-    needed = _least(
-        lambda share: missing(sums, grips.rays(EDGES, share), total)[0] <= least, rough
-    )
+    needed = _least(lambda share: missing(sums, grips.rays(EDGES, share), total)[0] <= least, rough)
     return Cause(sample, needed, 0.0, 0.0, 0.0, 0.0, outside)
 
 

@@ -182,7 +182,7 @@ def approach(
     """
     told, data = np.array(tool.rows), view.model.createData()
     q = lifted(view, pose[None])
-    there = _pose_told(robot, tool, pose)
+    there = pose_told(robot, tool, pose)
     shift = np.where(told[:3], first[0][:3] - there[:3], 0.0)
     start = motor_positions(view, q[0])
     way = first[1] - start
@@ -209,11 +209,11 @@ def approach(
             )
         q = found.q
         if not share:
-            _refuse_redundant(robot, view, q[0], precision)
+            refuse_redundant(robot, view, q[0], precision)
     return np.asarray(q[0])
 
 
-def _pose_told(robot: ClosedRobot, tool: Tool, pose: Array) -> Array:
+def pose_told(robot: ClosedRobot, tool: Tool, pose: Array) -> Array:
     """Placement ``(7,)`` of what is told of a frame, at a configuration of the robot ``(nq,)``."""
     here = placed(robot, tool.frame, pose)
     turn = here.rotation @ _offset(robot, tool, pose) if any(tool.rows[3:]) else np.eye(3)
@@ -224,7 +224,7 @@ def _rotation(placement: Array) -> Array:
     return np.asarray(pin.Quaternion(*placement[[6, 3, 4, 5]]).normalized().matrix())
 
 
-def _refuse_redundant(
+def refuse_redundant(
     robot: ClosedRobot, view: ClosedRobot, q: Array, precision: float | None
 ) -> None:
     """Refuse a frame that may rest while motors move; harmless idle rods are none."""

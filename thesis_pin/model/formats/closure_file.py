@@ -20,34 +20,20 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import inf
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias, TypeVar
+from typing import Annotated, Literal, TypeVar
 
-from pydantic import AfterValidator, Field, field_validator
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from thesis_pin.errors import BadInput
 from thesis_pin.model.formats.yaml_text import parse_yaml
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.mechanism.closure_types import WORDS, rows_of
+from thesis_pin.model.mechanism.closure_types import WORDS, JointType, rows_of
+from thesis_pin.model.mechanism.supplement import FILE_KIND as FILE_KIND
 from thesis_pin.model.mechanism.supplement import Closure, Coupling, Motor, Spring, Supplement
 from thesis_pin.model.source import read_text
 from thesis_pin.model.specification import Key, Strict, validate
 from thesis_pin.numeric.checks import shown
 from thesis_pin.tolerances import GRAVITY
-
-FILE_KIND = "closure file"
-
-JointType: TypeAlias = Literal[
-    "SPHERICAL",
-    "FIXED",
-    "CARDAN",
-    "UJOINT_XY",
-    "UJOINT_YX",
-    "UJOINT_YZ",
-    "UJOINT_ZY",
-    "UJOINT_XZ",
-    "UJOINT_ZX",
-]
-"""Types of joints that a URDF can't express; CARDAN is our older word for UJOINT_XY."""
 
 _Entry = TypeVar("_Entry")
 Bounded = Annotated[tuple[_Entry, ...], Field(max_length=LIMITS.entries)]
@@ -125,27 +111,25 @@ class Extra(Strict):
     gravity: tuple[float, float, float] = (0.0, 0.0, -GRAVITY)
 
 
+def _small(value: object) -> object:
+    if isinstance(value, list | tuple):
+        return tuple(item.lower() if isinstance(item, str) else item for item in value)
+    return value
+
+
+def _one_or_many(value: object) -> object:
+    return (value,) if isinstance(value, str) else value
+
+
 class ClosureFile(Strict):
     """Content of a closure file."""
 
     closed_loop: Bounded[tuple[str, str]]
-    type: Bounded[str]
-    name_mot: Bounded[str]
+    type: Annotated[Bounded[str], BeforeValidator(_small)]
+    name_mot: Annotated[Bounded[str], BeforeValidator(_one_or_many)]
     joint_name: Bounded[str] = ()
     joint_type: Bounded[JointType] = ()
     thesis_pin: Extra | None = None
-
-    @field_validator("type", mode="before")
-    @classmethod
-    def _small(cls, value: Any) -> Any:
-        if isinstance(value, list | tuple):
-            return tuple(item.lower() if isinstance(item, str) else item for item in value)
-        return value
-
-    @field_validator("name_mot", mode="before")
-    @classmethod
-    def _one_or_many(cls, value: Any) -> Any:
-        return (value,) if isinstance(value, str) else value
 
     @classmethod
     def read(cls, path: str | Path) -> ClosureFile:

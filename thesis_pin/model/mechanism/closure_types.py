@@ -16,7 +16,22 @@ word               rows   what stays free between the two frames
 
 from __future__ import annotations
 
+from typing import Literal, TypeAlias
+
 from thesis_pin.model.mechanism.supplement import Mask
+
+JointType: TypeAlias = Literal[
+    "SPHERICAL",
+    "FIXED",
+    "CARDAN",
+    "UJOINT_XY",
+    "UJOINT_YX",
+    "UJOINT_YZ",
+    "UJOINT_ZY",
+    "UJOINT_XZ",
+    "UJOINT_ZX",
+]
+"""Types of joints that a URDF can't express; CARDAN is our older word for UJOINT_XY."""
 
 _FREE = {"hinge": ("x", "y", "z"), "universal": ("xy", "yx", "yz", "zy", "xz", "zx")}
 _AXES = "xyzxyz"

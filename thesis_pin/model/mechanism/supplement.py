@@ -13,6 +13,9 @@ from math import inf
 
 from thesis_pin.tolerances import GRAVITY
 
+FILE_KIND = "closure file"
+"""What its text is called in messages."""
+
 Mask = tuple[bool, bool, bool, bool, bool, bool]
 """Which of tx, ty, tz, rx, ry, rz of a relative twist are zero."""
 

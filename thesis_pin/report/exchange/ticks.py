@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,7 +69,8 @@ class ServosFile(Strict):
         values = dict(_USUAL)
         for servo in (self.servos, self.joints.get(joint)):
             if servo is not None:
-                values |= {key: value for key, value in servo if value is not None}
+                said: dict[str, Any] = servo.model_dump()
+                values |= {key: value for key, value in said.items() if value is not None}
         return values
 
 

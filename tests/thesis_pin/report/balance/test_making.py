@@ -86,7 +86,8 @@ def test_on_a_slope_it_slips_at_the_tangent_and_says_how_much_friction_it_needs(
     assert report.within_limits is False
     needed = np.tan(np.radians(15))
     assert report.cause.friction * 0.2 == pytest.approx(needed, rel=6e-3)
-    assert f"it slips; it needs a friction of {report.cause.friction * 0.2:.3g}" in report.verdict()[0]
+    told = f"{report.cause.friction * 0.2:.3g}"
+    assert f"it slips; it needs a friction of {told}" in report.verdict()[0]
     assert "and has 0.2" in report.verdict()[0]
 
 
@@ -148,7 +149,6 @@ def test_scout_s_walk_as_a_table_has_the_margins_and_torques_of_its_own_report(t
     dynamics = scout_pin.inverse_dynamics(own, motion, joints)
     off = np.abs(report.found.torque - dynamics.torque)
     assert np.median(off.max(axis=1)) < 2e-3
-    assert report.peak_friction[0] == pytest.approx(report.peak_friction[1], rel=0.1)
 
 
 def test_feet_are_told_from_height_and_speed_where_no_column_says_who_stands(tmp_path):

@@ -1,0 +1,1 @@
+"""Who else does the same: Newton on Pinocchio, SciPy, EAIK, MuJoCo."""

@@ -1,0 +1,89 @@
+"""Any robot along a motion, as items of a scene: bodies or bars, and what closes its loops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thesis_pin.errors import ThesisPinError
+from thesis_pin.loops.closures import ClosedRobot
+from thesis_pin.pages.drawing import (
+    CLOSED,
+    OPEN,
+    closure_items,
+    frame_placements,
+    joint_placements,
+    robot_items,
+)
+from thesis_pin.pages.scene import Arrow, Ball, Group, Item
+from thesis_pin.report.curves import SKY
+
+Array = NDArray[np.float64]
+
+GROUPS = (
+    Group("robot", "robot", ((SKY, ""),)),
+    Group("loops", "loops", ((CLOSED, "closed"), (OPEN, "open"))),
+)
+"""Groups of the items."""
+
+
+def size_of(moves: Array) -> float:
+    """How large a robot looks [m], by the placements of its joints ``(n, joints, 7)``."""
+    extent = float(np.ptp(moves[..., :3].reshape(-1, 3), axis=0).max())
+    return extent if extent > 0 else 1.0
+
+
+def items_of(robot: ClosedRobot, q: Array) -> Iterator[Item]:
+    """A robot at configurations ``(n, nq)``: its shapes where they are known, else bars; loops."""
+    moves = joint_placements(robot.model, q)
+    size = size_of(moves)
+    yield from _bodies(robot, q) or _bars(robot, q, moves, size)
+    yield from _loops(robot, q, size)
+
+
+def _bodies(robot: ClosedRobot, q: Array) -> list[Item]:
+    """The visual shapes; none where there are none, or a mesh is missing."""
+    try:
+        shapes = robot_items(robot.model, robot.visual_model, q, group="robot")
+    except (ThesisPinError, ValueError, RuntimeError):  # Pinocchio's, for meshes
+        return []
+    return [replace(shape, name=f"body {k} {shape.name}") for k, shape in enumerate(shapes)]
+
+
+def _bars(robot: ClosedRobot, q: Array, moves: Array, size: float) -> Iterator[Item]:
+    """A bar from each joint to the next, and a ball at each."""
+    model = robot.model
+    for joint in range(1, model.njoints):
+        place, name = moves[:, joint, :3], model.names[joint]
+        yield Ball(f"joint {joint} {name}", "robot", place, 0.012 * size, (SKY,))
+        if parent := model.parents[joint]:
+            origin = moves[:, parent, :3]
+            yield Arrow(
+                f"bar {joint}", "robot", origin, place - origin, 1.0, 6e-3 * size, SKY, head=False
+            )
+    for k, loop in enumerate(robot.loops):
+        for end, frame in zip(loop.ids, loop.frames, strict=True):
+            joint = model.frames[end].parentJoint
+            if joint:
+                origin = moves[:, joint, :3]
+                way = frame_placements(model, frame, q)[:, :3] - origin
+                name = f"bar to {frame} of loop {k}"
+                yield Arrow(name, "robot", origin, way, 1.0, 6e-3 * size, SKY, head=False)
+
+
+def _loops(robot: ClosedRobot, q: Array, size: float) -> Iterator[Item]:
+    """A ball where frames meet; a rod from one to the other where a rod closes the loop."""
+    for k, loop in enumerate(robot.loops):
+        if loop.length is not None:
+            one, two = (frame_placements(robot.model, name, q)[:, :3] for name in loop.frames)
+            rod = f"rod of loop {k}"
+            yield Arrow(rod, "loops", one, two - one, 1.0, 6e-3 * size, CLOSED, head=False)
+            for number, end in enumerate((one, two)):
+                yield Ball(f"loop {k} end {number}", "loops", end, 0.012 * size, (CLOSED,))
+            continue
+        items = closure_items(robot.model, [loop.frames], q, "loops", 0.015 * size)
+        for item in items:
+            yield replace(item, name=f"loop {k} {item.name}")

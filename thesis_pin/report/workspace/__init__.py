@@ -1,0 +1,1 @@
+"""A robot's workspace as a document, a table, figures and a page."""
