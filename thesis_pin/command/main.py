@@ -155,8 +155,8 @@ def _which_stance(words: Words) -> None:
         "--friction",
         type=number("--friction", positive=True),
         default=0.6,
-        metavar="MU",
-        help="coefficient of friction of all feet (default: 0.6)",
+        metavar="NUMBER",
+        help="coefficient between sole and floor (default: 0.6)",
     )
     words.add_argument(
         "--floor-height",
