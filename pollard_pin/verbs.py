@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,8 +17,10 @@ from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import Answer, give, write_results
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.errors import BadInput, Unreachable
-from thesis_pin.report.exchange.movement import Movement
 from thesis_pin.report.tables import Table
+
+if TYPE_CHECKING:  # reports need none of it
+    from thesis_pin.report.exchange.movement import Movement
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:

@@ -26,6 +26,7 @@ from pollard_pin.specification import (
     ACTUATORS,
 )
 from thesis_pin.model.mechanism.inertia import Reading
+from thesis_pin.numeric.arrays import ascending
 from thesis_pin.numeric.elementwise import blocks, intervals
 from thesis_pin.numeric.long import gathered
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -179,7 +180,7 @@ class TrajectoryNumbers:
         Taken over at most 2 000 evenly spread samples.
         """
         count = len(self.joints.time)
-        some = np.unique(np.linspace(0, count - 1, min(count, _REACTION_SAMPLES)).astype(int))
+        some = ascending(np.linspace(0, count - 1, min(count, _REACTION_SAMPLES)).astype(int))
         joints, forces = self.joints.part(some), self.dynamics.loop_force[some]
         wrench = joint_reactions(self.robot, joints.q, joints.v, joints.a, forces)
         return (

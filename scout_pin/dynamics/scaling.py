@@ -104,7 +104,7 @@ class DoubleSupport:
         static = free_flying_forces(robot, *free_flyer_state(at_rest.torso, _still(moving)))
         whole = free_flying_forces(robot, *free_flyer_state(here.torso, moving))
         every = np.arange(len(some))
-        problem = sharing_problem(robot, here, moving, static, every)
+        problem = sharing_problem(robot, here, moving.q, static, every)
         added = whole - static
         motion_part = problem.with_load((added[:, 6:12], added[:, 12:18]), added[:, :6])
         return cls(some, problem, motion_part, _friction(robot, moving))

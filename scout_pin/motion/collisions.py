@@ -16,6 +16,7 @@ import pinocchio as pin
 from scout_pin.coordinates import free_flyer_state
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
+from thesis_pin.numeric.arrays import ascending
 from thesis_pin.numeric.elementwise import BLOCK
 from thesis_pin.numeric.trajectory import JointTrajectory
 
@@ -71,7 +72,7 @@ def collisions(robot: Scout, motion: GaitMotion, joints: JointTrajectory) -> Col
     shapes = _Shapes(robot, judged)
     count = len(motion.t)
     every = np.arange(0, count, 1 + count // _MOST)
-    few = np.unique(np.linspace(0, count - 1, _DRAWN).astype(np.intp))
+    few = ascending(np.linspace(0, count - 1, _DRAWN).astype(np.intp))
     touching = shapes.touches(robot, motion, joints, every, drawn=False) if judged else ()
     drawn = shapes.touches(robot, motion, joints, few, drawn=True)
     return Collisions(judged, touching, drawn, shapes.neighbours, shapes.neutral)

@@ -21,12 +21,12 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, check_stance
 from scout_pin.motion.variants import RateJump, Rows, Variants
 from thesis_pin.errors import TrajectoryError, WrongShape
-from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.numeric.arrays import ascending, finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples
 from thesis_pin.numeric.interpolation import jumps
 from thesis_pin.numeric.long import LongBody
-from thesis_pin.numeric.piecewise import Piecewise
+from thesis_pin.numeric.piecewise import Piecewise, jet
 from thesis_pin.numeric.rotations import euler_parts
 from thesis_pin.numeric.sparing import spread, times
 from thesis_pin.numeric.trajectory import BodyMotion
@@ -172,9 +172,9 @@ class Gait:
         else:  # their knots are where the fit wants them, and nothing happens there
             changes += [t for one in self.variants.changes for t in (one.start, one.end)]
         side = TOLERANCES.instant * (self.end - self.start)
-        near = np.concatenate([np.unique(changes) - side, np.unique(changes) + side])
+        near = np.concatenate([ascending(changes) - side, ascending(changes) + side])
         near = near[(near > self.start) & (near < self.end)]
-        times = np.union1d(np.linspace(self.start, self.end, samples), near)
+        times = ascending(np.linspace(self.start, self.end, samples), near)
         return times if self.variants is None else times[self.variants.known(times)]
 
     def rate_jumps(self, time_unit: float | None = None) -> list[RateJump]:
@@ -206,10 +206,10 @@ class Gait:
         self, name: str, t: np.ndarray, unit: float, samples: Samples = slice(None)
     ) -> BodyMotion:
         t = t[samples]
-        jets = [curve.jet(t) for curve in self.curves[name]]
-        value = [jet[0] for jet in jets]
-        rate = [times(jet[1], 1.0 / unit) for jet in jets]
-        second = [times(jet[2], 1.0 / unit**2) for jet in jets]
+        jets = [jet(curve, t) for curve in self.curves[name]]
+        value = [one[0] for one in jets]
+        rate = [times(one[1], 1.0 / unit) for one in jets]
+        second = [times(one[2], 1.0 / unit**2) for one in jets]
         rotation, omega, alpha = euler_parts("xyz", value[3:], rate[3:], second[3:])
         parts = (value[:3], rate[:3], second[:3], omega, alpha)
         return BodyMotion(

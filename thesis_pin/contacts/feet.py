@@ -21,7 +21,9 @@ def sole_corners(outline: np.ndarray, placement: np.ndarray) -> np.ndarray:
     Returns:
         Shape ``(..., corners, 3)``.
     """
-    turned = np.einsum("...ij,kj->...ki", placement[..., :3, :2], outline)
+    # Written out: einsum takes ten times as long.
+    x, y = outline[:, 0, None], outline[:, 1, None]
+    turned = placement[..., None, :3, 0] * x + placement[..., None, :3, 1] * y
     return np.asarray(turned + placement[..., None, :3, 3])
 
 

@@ -14,6 +14,7 @@ from thesis_pin.errors import BadInput, NoSupportForce
 from thesis_pin.model.loading import LoadedRobot
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import real
+from thesis_pin.numeric.planar import convex_hull, depth
 from thesis_pin.tolerances import GRAVITY
 
 
@@ -116,14 +117,7 @@ def signed_margin(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
         polygon: Corners, counter-clockwise [m], shape ``(h, 2)``.
         points: Shape ``(n, 2)``.
     """
-    import shapely
-
-    border = shapely.LinearRing(polygon)
-    place = shapely.points(points)
-    distance = shapely.distance(border, place)
-    return np.asarray(
-        np.where(shapely.contains(shapely.Polygon(polygon), place), distance, -distance)
-    )
+    return depth(polygon, points)
 
 
 def support_polygon(*soles: ArrayLike) -> np.ndarray:
@@ -137,9 +131,7 @@ def support_polygon(*soles: ArrayLike) -> np.ndarray:
 
     Source: Scout thesis, section 6.2.
     """
-    from scipy.spatial import ConvexHull
-
     if not soles:
         raise BadInput("there is no sole", allowed="the corners of at least one")
     points = np.concatenate([corners("sole", sole)[:, :2] for sole in soles])
-    return np.asarray(points[ConvexHull(points).vertices])
+    return np.asarray(points[convex_hull(points)])

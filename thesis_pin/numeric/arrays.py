@@ -175,6 +175,18 @@ def spread(name: str, vector: np.ndarray, stack: tuple[int, ...]) -> np.ndarray:
         raise WrongShape(name, vector.shape, f"{shape}, or one for all") from None
 
 
+def ascending(*values: ArrayLike) -> np.ndarray:
+    """Distinct values of arrays in ascending order: ``np.union1d`` without numpy.ma's import.
+
+    Args:
+        *values: Numbers without NaN, of any shape.
+    """
+    every = np.sort(np.concatenate([np.ravel(one) for one in values]))
+    fresh = np.ones(len(every), dtype=bool)
+    np.not_equal(every[1:], every[:-1], out=fresh[1:])
+    return np.asarray(every[fresh])
+
+
 def skew(vector: np.ndarray) -> np.ndarray:
     """Cross-product matrices: ``skew(a) @ b == a × b``; ``(..., 3)`` → ``(..., 3, 3)``."""
     matrix = np.zeros((*vector.shape[:-1], 3, 3))

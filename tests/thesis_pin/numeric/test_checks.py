@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from thesis_pin.errors import BadInput, NotFinite, TrajectoryError, UnknownName, WrongShape
-from thesis_pin.numeric.arrays import finite_array, spread, together, vector
+from thesis_pin.numeric.arrays import ascending, finite_array, spread, together, vector
 from thesis_pin.numeric.checks import choice, element, function, instance, real, shown, whole
 
 
@@ -130,3 +130,11 @@ def test_a_vector_spreads_over_a_stack_and_never_enlarges_it(one, stack):
     else:
         with pytest.raises(WrongShape, match="one for all"):
             spread("reference", given_vector, tuple(stack))
+
+
+def test_ascending_is_numpys_union():
+    rng = np.random.default_rng(0)
+    one, other = np.round(rng.normal(size=50), 1), np.round(rng.normal(size=(3, 4)), 1)
+    np.testing.assert_array_equal(ascending(one, other), np.union1d(one, other))
+    np.testing.assert_array_equal(ascending([3, 1, 3]), [1, 3])
+    assert ascending([]).size == 0

@@ -78,6 +78,11 @@ class Workspace:
     seams: int
 
     @property
+    def words(self) -> tuple[str, ...]:
+        """What each state is called."""
+        return WORDS
+
+    @property
     def reachable(self) -> NDArray[np.bool_]:
         """Whether a cell is reached inside the joints' ranges, at a pose that isn't singular."""
         return np.asarray(self.state == REACHABLE)

@@ -25,7 +25,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import TrajectoryError, UnknownName
-from thesis_pin.model.specification import Key, Positive, Strict, read_toml
+from thesis_pin.model.limits import Key
+from thesis_pin.model.strict import Positive, Strict
 
 Array = NDArray[np.float64]
 
@@ -74,7 +75,7 @@ class ServosFile(Strict):
         return values
 
 
-USUAL = ServosFile(format=1)
+USUAL = ServosFile.made(format=1)
 """Pulses of 500 to 2500 µs for −90° to 90°."""
 
 
@@ -85,6 +86,8 @@ def read_servos(file: str | Path, joints: Sequence[str]) -> ServosFile:
         SpecificationError: It breaks the format; carries every problem.
         UnknownName: It speaks of a joint that isn't one of ``joints``.
     """
+    from thesis_pin.model.specification import read_toml
+
     found = read_toml("servo file", ServosFile, file)
     for name in found.joints:
         if name not in joints:
