@@ -24,6 +24,7 @@ from thesis_pin.loops.system.rows import Mask
 from thesis_pin.model.loading import frame_id
 from thesis_pin.model.mechanism.closure_types import word_of
 from thesis_pin.numeric import quaternions
+from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
 
@@ -58,6 +59,8 @@ def tool_view(robot: ClosedRobot, tool: Tool, joints: Sequence[str], pose: Array
             f"frame {tool.frame!r} can't lead a robot whose root flies freely",
             remedy="Tell the base and the joints, or fix the root",
         )
+    if tool.kept is not None:
+        _refuse_otherwise(robot, tool, pose)
     base = pin.Model()
     root = base.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "root_joint")
     end = base.addJointFrame(root)
@@ -128,6 +131,23 @@ def _offset(robot: ClosedRobot, tool: Tool, pose: Array) -> Array:
     alone = np.zeros(3)
     alone[axis] = angles[axis]
     return np.asarray(turn.T @ pin.rpy.rpyToMatrix(alone))
+
+
+def _refuse_otherwise(robot: ClosedRobot, tool: Tool, pose: Array) -> None:
+    """Refuse an orientation that the robot doesn't keep by itself."""
+    assert tool.kept is not None
+    want, here = np.array(tool.kept), placed(robot, tool.frame, pose).rotation
+    turn = pin.Quaternion(*want[[3, 0, 1, 2]]).normalized().matrix()
+    apart = here @ turn.T
+    if "yaw" in tool.told:  # of which the column says how much
+        apart = pin.Quaternion.FromTwoVectors(here.T[:, 2], turn.T[:, 2]).matrix()
+    off = float(np.linalg.norm(pin.log3(apart)))
+    if off > TOLERANCES.kept_turn:
+        raise Unreachable(
+            f"frame {tool.frame!r} is told to stand {np.degrees(off):.3g}° otherwise than the "
+            "robot keeps it, which has no motor for that",
+            remedy="Leave the orientation's columns out, or name another frame",
+        )
 
 
 def placed(robot: ClosedRobot, frame: str, q: Array) -> pin.SE3:
@@ -219,7 +239,7 @@ def approach(
         if reasons[0]:
             raise Unreachable(
                 reasons[0],
-                where=f"{share:.0%} of the way from the pose to the first sample",
+                where=f"{share:.2%} of the way from the pose to the first sample",
                 remedy="Start from a pose beside the first sample",
             )
         q = found.q

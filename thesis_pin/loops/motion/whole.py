@@ -32,6 +32,9 @@ STRIDE = 0.1
 JUMP = 0.2
 """Share of a passive joint's largest rate by which it may jump between two samples."""
 
+RESTS = 1e-9
+"""Share of the largest rate of all joints below which a joint rests."""
+
 
 @dataclass(frozen=True, eq=False)
 class WholeMotion:
@@ -171,7 +174,9 @@ def _refuse_jump(robot: ClosedRobot, found: JointTrajectory) -> None:
     step = np.diff(found.time)[:, None]
     jump = np.abs(np.diff(found.v, axis=0) - step * (found.a[1:] + found.a[:-1]) / 2)
     size = np.abs(found.v).max(axis=0, initial=0.0)
-    share = jump / np.where(size > 0, size, 1.0)
+    # Rates of what rests beside the others are rounding, which jumps as it likes.
+    size = np.where(size > RESTS * size.max(initial=0.0), size, np.inf)
+    share = jump / size
     leading = np.concatenate([robot.actuated, robot.base])
     driving = share[:, leading].max(axis=1, initial=0.0)
     passive = share[:, robot.passive].max(axis=1, initial=0.0)
