@@ -163,7 +163,9 @@ def left_to_the_robot(
         base[:, 3:] = quaternions(from_euler("xyz", angles))
         said = f"frame {names.frame} only yaws in the table; roll and pitch the robot keeps itself"
         some = replace(flight, turns=names("yaw"), base=base)
-        return some, Tool(names.frame, (*place, "yaw"), kept), [said]
+        angles[:, :2] = [values[name, 0].values[0] for name in names("roll", "pitch")]
+        level = quaternions(from_euler("xyz", angles[:1] * [1.0, 1.0, 0.0]))[0]
+        return some, Tool(names.frame, (*place, "yaw"), tuple(level.tolist())), [said]
     return flight, whole, []
 
 

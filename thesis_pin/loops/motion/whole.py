@@ -16,7 +16,8 @@ from thesis_pin.loops.configurations.following import follow
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.sampled import with_derivatives
 from thesis_pin.loops.motion.told import JointMotion, Tool
-from thesis_pin.loops.motion.tool import approach, inverted, refuse_tilted, tool_view
+from thesis_pin.loops.motion.tool import approach, inverted, tool_view
+from thesis_pin.loops.motion.turned import refuse_tilted
 from thesis_pin.loops.system.idle import joint_names
 from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.numeric import quaternions
