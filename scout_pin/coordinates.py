@@ -98,28 +98,29 @@ def to_thesis(
     return position, velocity, np.concatenate([linear, bend, second[..., 6:]], axis=-1)
 
 
-State = tuple[np.ndarray, np.ndarray, np.ndarray]
-"""Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root."""
-
-
-def free_flyer_state(torso: BodyMotion, joints: JointTrajectory, out: State | None = None) -> State:
+def free_flyer_state(
+    torso: BodyMotion, joints: JointTrajectory
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)`` of a free-flyer root.
 
     Args:
         torso: Motion of the torso in the world.
         joints: The twelve joints' trajectory.
-        out: Arrays to write them into; None makes new ones.
     """
-    count, turn = len(joints.q), rows(torso.rotation)
-    if out is None:
-        out = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
-    q, v, a = out
-    linear, angular = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
-    moving = into(turn, rows(torso.acceleration)) - cross(angular, linear)
-    q[:, :3], q[:, 3:7], q[:, 7:] = torso.position, quaternion_rows(turn).T, joints.q
-    v[:, :3], v[:, 3:6], v[:, 6:] = linear.T, angular.T, joints.v
-    a[:, :3], a[:, 3:6], a[:, 6:] = moving.T, into(turn, rows(torso.alpha)).T, joints.a
-    return out
+    count = len(joints.q)
+    q, v, a = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
+    fill_root(torso, (q.T, v.T, a.T))
+    q[:, 7:], v[:, 6:], a[:, 6:] = joints.q, joints.v, joints.a
+    return q, v, a
+
+
+def fill_root(torso: BodyMotion, out: tuple[np.ndarray, np.ndarray, np.ndarray]) -> None:
+    """Write the root's part of :func:`free_flyer_state`: ``(19, n)``, ``(18, n)``, ``(18, n)``."""
+    turn, (q, v, a) = rows(torso.rotation), out
+    q[:3], q[3:7] = torso.position.T, quaternion_rows(turn)
+    v[:3], v[3:6] = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
+    a[:3], a[3:6] = into(turn, rows(torso.acceleration)), into(turn, rows(torso.alpha))
+    a[:3] -= cross(v[3:6], v[:3])
 
 
 def _motion(q: np.ndarray, v: ArrayLike | None, a: ArrayLike | None) -> tuple[np.ndarray, ...]:

@@ -18,10 +18,11 @@ from scout_pin.kinematics import choosing, forward
 from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.branches import Numbers, allowed_branches
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.specification import JOINT_NAMES, SIDES, Specification
+from scout_pin.specification import CONES_PATH, JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.contacts.feet import sole_corners
+from thesis_pin.contacts.known import contact_of
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.model.mechanism.inertia import Reading
@@ -134,7 +135,7 @@ class Scout(LoadedRobot):
         """What the floor can do to each sole, left then right."""
         friction = self.specification.assumptions.floor_friction.coefficient
         left, right = (np.array(self.specification.leg(side).sole) for side in SIDES)
-        return Contact.from_outline(left, friction), Contact.from_outline(right, friction)
+        return contact_of(left, friction, CONES_PATH), contact_of(right, friction, CONES_PATH)
 
     @property
     def mass(self) -> float:

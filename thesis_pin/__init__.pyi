@@ -40,6 +40,7 @@ from .report.torque.document import (
 
 # Servos and motors
 from .sizing.catalogue import read_catalogue as read_catalogue
+from .sizing.motors import size_motors as size_motors
 
 # Viewer
 from .pages.player import write_html as write_html

@@ -11,21 +11,23 @@ A_τ = [0; I] instead of the printed (4.15)–(4.23); see docs/audit/scout.md.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pinocchio as pin
 
-from scout_pin.coordinates import free_flyer_state
+from scout_pin.coordinates import fill_root
 from scout_pin.dynamics.load_sharing import share_load
 from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
-from scout_pin.motion.trajectory import joint_trajectory
+from scout_pin.motion.trajectory import fill_rates, followed
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics, MotionContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.elementwise import BLOCK, blocks
-from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
+from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
 
@@ -77,24 +79,30 @@ def inverse_dynamics(
         Unreachable, SingularPose: See :func:`joint_trajectory`.
     """
     walking(robot)
-    if joints is None:
-        joints = joint_trajectory(robot, motion)
     instance("motion", motion, GaitMotion, "Gait.sample()")
-    instance("joints", joints, JointTrajectory, "joint_trajectory()")
-    if np.shape(joints.q) != (len(motion.time), 12):
-        raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
+    if joints is not None:
+        instance("joints", joints, JointTrajectory, "joint_trajectory()")
+        if np.shape(joints.q) != (len(motion.time), 12):
+            raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
+    q = followed(robot, motion) if joints is None else joints.q
     if not motion.support.any(axis=1).all():
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
-    count = len(joints.q)
-    torque, wrench = np.empty((count, 12)), np.zeros((count, 2, 6))
+    count = len(q)
+    forces, wrench = np.empty((count, 18)), np.zeros((count, 2, 6))
     violation = np.full(count, np.nan)
     room = _Room(robot, min(count, BLOCK))
     for part in blocks(count):
-        kept = torque[part], wrench[part], violation[part]
-        _fill(kept, robot, motion.part(part), joints.part(part), room)
+        kept = forces[part], wrench[part], violation[part]
+        some = None if joints is None else joints.part(part)
+        _fill(
+            kept,
+            robot,
+            motion.part(part),
+            room.block(robot, motion.part(part), q[part], some, part.start),
+        )
     return MotionContactDynamics(
-        torque=torque,
+        torque=forces[:, 6:],
         wrench=wrench,
         contacts=robot.contacts,
         support=motion.support,
@@ -104,63 +112,96 @@ def inverse_dynamics(
     )
 
 
+@dataclass(frozen=True)
+class _Block:
+    """What Pinocchio reads of a block of samples, joints first, and what is known of the legs.
+
+    Attributes:
+        q, v, a: Shapes ``(19, n)``, ``(18, n)``, ``(18, n)``.
+        screws: Of each leg; None where they have to be worked out.
+        resting: As of :class:`JointTrajectory`.
+    """
+
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    screws: tuple[LegScrews | None, LegScrews | None]
+    resting: np.ndarray | None
+
+
 class _Room:
-    """What Pinocchio reads and writes of a block, in memory that all blocks share."""
+    """Memory that all blocks share."""
 
     def __init__(self, robot: Scout, count: int) -> None:
-        self.pool = robot.pool
-        self.state = tuple(np.empty((count, size)) for size in (19, 18, 18))
-        self.found = np.empty((count, 18))
+        self.q, self.v, self.a = (np.empty((size, count)) for size in (19, 18, 18))
 
-    def forces(self, torso: BodyMotion, joints: JointTrajectory) -> np.ndarray:
-        """:func:`free_flying_forces` ``(n, 18)``, good until the next block is worked out."""
-        count = len(joints.q)
-        q, v, a = (one[:count] for one in self.state)
-        q, v, a = free_flyer_state(torso, joints, (q, v, a))
-        pin.rneaInParallel(1, self.pool, q.T, v.T, a.T, self.found[:count].T)
-        return self.found[:count]
+    def block(
+        self,
+        robot: Scout,
+        motion: GaitMotion,
+        q: np.ndarray,
+        joints: JointTrajectory | None,
+        first: int,
+    ) -> _Block:
+        """Take in a block, whose rates are worked out unless its trajectory is given.
+
+        It is good until the next one is taken in.
+        """
+        own = self.q[:, : len(q)], self.v[:, : len(q)], self.a[:, : len(q)]
+        screws: tuple[LegScrews | None, LegScrews | None] = (None, None)
+        own[0][7:] = q.T
+        if joints is None:
+            screws = fill_rates(robot, motion, q, (own[1][6:], own[2][6:]), first)
+        else:
+            own[1][6:], own[2][6:] = joints.v.T, joints.a.T
+        fill_root(motion.torso, own)
+        return _Block(*own, screws, None if joints is None else joints.resting)
 
 
 def _fill(
     kept: tuple[np.ndarray, np.ndarray, np.ndarray],
     robot: Scout,
     motion: GaitMotion,
-    joints: JointTrajectory,
-    room: _Room,
+    block: _Block,
 ) -> None:
-    """Work out one block of samples and write torque, wrench and violation where they belong."""
-    torque, wrench, violation = kept
-    forces = room.forces(motion.torso, joints)
-    torque[:] = forces[:, 6:]
-    shares = [np.ascontiguousarray(forces[:, :6].T)] * 2
-    double = np.flatnonzero(motion.support.all(axis=1))
-    if double.size:
-        both, violation[double] = share_load(robot, motion, joints, forces, double)
-        shares = [shares[0].copy() for _ in SIDES]
+    """Work out one block of samples; its last twelve forces are to be the joints' torques."""
+    forces, wrench, violation = kept
+    # Joints first: Pinocchio copies what it reads anyway, and all else works on rows.
+    pin.rneaInParallel(1, robot.pool, block.q, block.v, block.a, forces.T)
+    total = np.ascontiguousarray(forces[:, :6].T)
+    shares = [total, total]
+    supports, q = np.ascontiguousarray(motion.support.T), block.q[7:].T
+    if (both := supports.all(axis=0)).any():
+        double = np.flatnonzero(both)
+        each, violation[double] = share_load(robot, motion, q, forces, double)
+        shares = [total.copy(), total.copy()]
         for k in (0, 1):
-            shares[k][:, double] = both[:, k].T
+            shares[k][:, double] = each[:, k].T
     back = rows(motion.torso.rotation).transpose(1, 0, 2)
     feet = (motion.left_foot, motion.right_foot)
     for k, (side, foot, mine) in enumerate(zip(SIDES, feet, _LEGS, strict=True)):
-        standing = _consecutive(motion.support[:, k])
+        standing = _consecutive(supports[k])
         if standing is None:
             continue
+        known = block.screws[k]
+        screws = known.part(standing) if known else LegScrews(robot.legs[side], q[standing, mine])
         force, moment = shares[k][:3, standing], shares[k][3:, standing]
-        screws = LegScrews(robot.legs[side], joints.q[standing, mine])
-        for joint, taken in zip(range(12)[mine], screws.torques(force, moment), strict=True):
-            torque[standing, joint] -= taken
+        for joint, taken in enumerate(screws.torques(force, moment), 6 + mine.start):
+            forces[standing, joint] -= taken
         # From the torso's axes to the world's, and from its origin to the sole's.
         force, moment = into(back[:, :, standing], force), into(back[:, :, standing], moment)
         arm = rows(foot.position[standing] - motion.torso.position[standing])
-        wrench[standing, k, :3] = force.T
-        wrench[standing, k, 3:] = (moment - cross(arm, force)).T
+        moment -= cross(arm, force)
+        wrench[standing, k, :3], wrench[standing, k, 3:] = force.T, moment.T
     friction = robot.specification.assumptions.joint_friction
     if friction.viscous or friction.coulomb:
-        torque += joint_friction(robot, joints.v, joints.resting)
+        forces[:, 6:] += joint_friction(robot, block.v[6:].T, block.resting)
 
 
 def _consecutive(yes: np.ndarray) -> slice | np.ndarray | None:
     """Samples that say yes, as a slice if they follow each other; None if there are none."""
+    if yes.all():
+        return slice(0, len(yes))
     some = np.flatnonzero(yes)
     if not some.size:
         return None

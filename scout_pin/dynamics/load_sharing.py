@@ -9,13 +9,12 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.sharing import LoadSharing, scaled_sole_maps
-from thesis_pin.numeric.trajectory import JointTrajectory
 
 
 def share_load(
     robot: Scout,
     motion: GaitMotion,
-    joints: JointTrajectory,
+    q: np.ndarray,
     forces: np.ndarray,
     double: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -24,7 +23,7 @@ def share_load(
     Args:
         robot: The biped.
         motion: The sampled gait.
-        joints: Its joint trajectory.
+        q: Its joint angles [rad], shape ``(n, 12)``.
         forces: RNEA of the free-flying robot, shape ``(n, 18)``.
         double: Samples in double support, shape ``(m,)``.
 
@@ -32,20 +31,20 @@ def share_load(
         Wrenches about the torso's origin in its axes, ``(m, 2, 6)``, and their
         violation [N·m, forces scaled], ``(m,)``.
     """
-    return sharing_problem(robot, motion, joints, forces, double).solve()
+    return sharing_problem(robot, motion, q, forces, double).solve()
 
 
 def sharing_problem(
     robot: Scout,
     motion: GaitMotion,
-    joints: JointTrajectory,
+    q: np.ndarray,
     forces: np.ndarray,
     double: np.ndarray,
 ) -> LoadSharing:
     """The problem that :func:`share_load` solves; same arguments."""
     jacobians, maps, contacts = [], [], robot.contacts
     for k, foot in enumerate((motion.left_foot, motion.right_foot)):
-        frames = leg_frames(robot.legs[SIDES[k]], joints.q[double, 6 * k : 6 * k + 6])
+        frames = leg_frames(robot.legs[SIDES[k]], q[double, 6 * k : 6 * k + 6])
         axes, points = (x.transpose(2, 0, 1) for x in (frames.axes, frames.points))
         jacobians.append(np.concatenate([np.cross(points, axes), axes], axis=2))
         turn = np.swapaxes(foot.rotation[double], 1, 2) @ motion.torso.rotation[double]

@@ -49,15 +49,15 @@ def leg_rates(
     theta = finite_array("theta", theta, None, 6)
     if theta.shape != (foot.count, 6):
         raise WrongShape("theta", theta.shape, f"({foot.count}, 6), as foot")
-    rate, second = np.empty(theta.shape), np.empty(theta.shape)
+    rate, second = np.empty((2, 6, len(theta)))
     for part in blocks(len(theta)):
         screws = LegScrews(leg, theta[part])
         screws.refuse_singular(part.start)
         seen = None if torso is None else torso.part(part)
         for out, found in zip((rate, second), solve(screws, foot.part(part), seen), strict=True):
-            for k in range(6):
-                out[part, k] = found[k]
-    return rate, second
+            for row, joint in zip(out, found, strict=True):
+                row[part] = joint
+    return rate.T, second.T
 
 
 def solve(

@@ -18,7 +18,7 @@ import numpy as np
 
 from scout_pin.kinematics.geometry import LegGeometry
 from thesis_pin.errors import SingularPose
-from thesis_pin.numeric.elementwise import cosine_sine
+from thesis_pin.numeric.elementwise import Samples, cosine_sine
 from thesis_pin.tolerances import TOLERANCES
 
 Components = tuple[Any, Any, Any]
@@ -35,13 +35,22 @@ class LegScrews:
         angles = theta.T[:5] + leg.beta[:5, None]
         angles[3] += angles[2]
         angles[4] += angles[3]
-        cosines, sines = cosine_sine(angles)
+        self._set(leg, *cosine_sine(angles))
+
+    def _set(self, leg: LegGeometry, cosines: np.ndarray, sines: np.ndarray) -> None:
+        """From cosines and sines of γ1, γ2, γ3, γ3 + γ4, γ3 + γ4 + γ5, ``(5, n)`` each."""
+        self.leg, self._turns = leg, (cosines, sines)
         self.c1, self.c2, self.c3, self.c34, self.c345 = cosines
         self.s1, self.s2, self.s3, self.s34, self.s345 = sines
-        self.leg = leg
         self.r3 = leg.x_3 * self.c3, leg.x_3 * self.s3
         self.r4 = leg.x_4 * self.c34, leg.x_4 * self.s34
         self.v = leg.x_2 + self.r3[0] + self.r4[0], self.r3[1] + self.r4[1]
+
+    def part(self, samples: Samples) -> LegScrews:
+        """The screws at some of the configurations."""
+        some = LegScrews.__new__(LegScrews)
+        some._set(self.leg, *(turns[:, samples] for turns in self._turns))
+        return some
 
     def components(self, vector: np.ndarray | Components) -> Components:
         """Components along i3, j3, e of vectors in the torso's axes, ``(3, n)``."""

@@ -26,7 +26,7 @@ from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples
 from thesis_pin.numeric.interpolation import jumps
 from thesis_pin.numeric.long import LongBody
-from thesis_pin.numeric.piecewise import Piecewise
+from thesis_pin.numeric.piecewise import Piecewise, jet
 from thesis_pin.numeric.rotations import euler_parts
 from thesis_pin.numeric.sparing import spread, times
 from thesis_pin.numeric.trajectory import BodyMotion
@@ -206,10 +206,10 @@ class Gait:
         self, name: str, t: np.ndarray, unit: float, samples: Samples = slice(None)
     ) -> BodyMotion:
         t = t[samples]
-        jets = [curve.jet(t) for curve in self.curves[name]]
-        value = [jet[0] for jet in jets]
-        rate = [times(jet[1], 1.0 / unit) for jet in jets]
-        second = [times(jet[2], 1.0 / unit**2) for jet in jets]
+        jets = [jet(curve, t) for curve in self.curves[name]]
+        value = [one[0] for one in jets]
+        rate = [times(one[1], 1.0 / unit) for one in jets]
+        second = [times(one[2], 1.0 / unit**2) for one in jets]
         rotation, omega, alpha = euler_parts("xyz", value[3:], rate[3:], second[3:])
         parts = (value[:3], rate[:3], second[:3], omega, alpha)
         return BodyMotion(

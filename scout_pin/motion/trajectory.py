@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from scout_pin.kinematics.rates import leg_rates
+from scout_pin.kinematics.rates import solve
 from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
@@ -48,11 +48,7 @@ def joint_trajectory(
     """
     instance("robot", robot, Scout, "scout_pin.load()")
     instance("motion", motion, GaitMotion, "Gait.sample()")
-    start = None if reference is None else vector("reference", reference, 12)
-    asked = motion.branch if branch is None else branch
-    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=asked)
-    if max(robot.upper.max(), -robot.lower.min()) > np.pi:
-        q = _without_jumps(robot, motion.time, q, start)
+    q = followed(robot, motion, branch, reference)
     if len(q) < LONG:
         return JointTrajectory(motion.time, q, *_rates(robot, motion, q))
     for side, mine in zip(SIDES, _LEGS, strict=True):
@@ -61,6 +57,21 @@ def joint_trajectory(
                 continue
             LegScrews(robot.legs[side], q[part, mine]).refuse_singular(part.start)
     return LongTrajectory(motion.time, q, partial(_rates, robot, motion, q))
+
+
+def followed(
+    robot: Scout,
+    motion: GaitMotion,
+    branch: str | Sequence[str] | None = None,
+    reference: ArrayLike | None = None,
+) -> np.ndarray:
+    """Angles of :func:`joint_trajectory` alone [rad], ``(n, 12)``; same arguments."""
+    start = None if reference is None else vector("reference", reference, 12)
+    asked = motion.branch if branch is None else branch
+    q = robot.follow(motion.torso, motion.left_foot, motion.right_foot, start, branch=asked)
+    if max(robot.upper.max(), -robot.lower.min()) > np.pi:
+        q = _without_jumps(robot, motion.time, q, start)
+    return q
 
 
 def _without_jumps(
@@ -94,12 +105,48 @@ def _rates(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Joint rates and accelerations at some samples, each ``(m, 12)``."""
     motion, q = motion.part(samples), q[samples]
-    v, a = np.zeros(q.shape), np.zeros(q.shape)
+    v, a = np.empty((2, 12, len(q)))
+    for part in blocks(len(q)):
+        fill_rates(robot, motion.part(part), q[part], (v[:, part], a[:, part]), part.start)
+    return v.T, a.T
+
+
+def fill_rates(
+    robot: Scout,
+    motion: GaitMotion,
+    q: np.ndarray,
+    out: tuple[np.ndarray, np.ndarray],
+    first: int = 0,
+) -> tuple[LegScrews | None, LegScrews | None]:
+    """Write rates and accelerations of one block of samples into arrays ``(12, n)``.
+
+    Args:
+        robot: The biped.
+        motion: The block's motion.
+        q: Its joint angles [rad], shape ``(n, 12)``.
+        out: Where rates and accelerations go, joints first.
+        first: Number of its first sample, for messages.
+
+    Returns:
+        Each leg's screws; None where it rests.
+
+    Raises:
+        SingularPose: A leg's Jacobian has lost rank.
+    """
+    screws: list[LegScrews | None] = []
     for side, mine in zip(SIDES, _LEGS, strict=True):
-        if not _rests(motion, side):
-            foot = _foot(motion, side)
-            v[:, mine], a[:, mine] = leg_rates(robot.legs[side], q[:, mine], foot, motion.torso)
-    return v, a
+        if _rests(motion, side):
+            screws.append(None)
+            for rows in out:
+                rows[mine] = 0.0
+            continue
+        leg = LegScrews(robot.legs[side], q[:, mine])
+        leg.refuse_singular(first)
+        screws.append(leg)
+        for rows, found in zip(out, solve(leg, _foot(motion, side), motion.torso), strict=True):
+            for row, joint in zip(rows[mine], found, strict=True):
+                row[:] = joint
+    return screws[0], screws[1]
 
 
 def _foot(motion: GaitMotion, side: str) -> BodyMotion:

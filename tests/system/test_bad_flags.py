@@ -97,7 +97,7 @@ NUMBERS = {
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
 READ = (
-    *("--specification", "--gait", "--path", "--pose", "--servos"),
+    *("--specification", "--gait", "--path", "--pose", "--servos", "--list"),
     *("file", "closures", "motion", "servos"),
 )
 """Flags and words that name a file to read."""
@@ -151,6 +151,8 @@ CONTRADICTIONS = {
         ["--frame", "tool_tip"],
         ["--euler", "ZYX"],
     ],
+    "thesis-pin size": [["--frame", "tool_tip"], ["--external", "nowhere=0,0,1"]],
+    "thesis-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--euler", "ZYX"]],
     "thesis-pin workspace": [
         ["--along", "x", "0", "1"],
         ["--along", "z_mm", "3", "-3"],

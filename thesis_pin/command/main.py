@@ -6,11 +6,14 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command.options import (
+    LISTS,
     add_euler,
     add_frame,
     add_json,
     add_report,
+    add_sizing,
     add_smooth,
+    add_view,
     count,
     number,
     wrench,
@@ -42,6 +45,13 @@ def _which_motion(words: Words) -> None:
     add_smooth(words)
     add_frame(words)
     add_euler(words)
+
+
+def _which_list(words: Words) -> None:
+    """Which servos."""
+    words.add_argument(
+        "--list", dest="servos", nargs="+", required=True, metavar="LIST", help=LISTS
+    )
 
 
 def _which_grid(words: Words) -> None:
@@ -171,6 +181,35 @@ COMMAND = Command(
                 _which_wrenches,
                 partial(add_report, breaks="a motor or joint leaves its limits"),
             ),
+        ),
+        Verb(
+            "size",
+            "which motors of a list carry this motion?",
+            "Motors of a list held against what a motion asks of each motor of any robot: safety "
+            "factor, RMS.",
+            "size urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
+            "examples/pollard_motors.csv --list examples/servos.csv",
+            "thesis_pin.sizing.motors:size_motors",
+            "thesis_pin.command.any_robot:size",
+            (
+                _which_robot,
+                _which_motion,
+                _which_list,
+                _which_pose,
+                _which_wrenches,
+                add_sizing,
+            ),
+        ),
+        Verb(
+            "view",
+            "watch any robot move in the browser",
+            "Show any robot on a motion with its loops, their forces and the motors' torques, on "
+            "127.0.0.1.",
+            "view urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
+            "examples/pollard_motors.csv --html view.html",
+            "thesis_pin.pages.torque_scene:scene",
+            "thesis_pin.command.any_robot:view",
+            (_which_robot, _which_motion, _which_pose, _which_wrenches, add_view),
         ),
         Verb(
             "workspace",

@@ -138,6 +138,33 @@ def add_samples(words: Words, default: int) -> None:
     )
 
 
+LISTS = "lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)"
+"""What a list of servos may be, for help."""
+
+
+def add_sizing(words: Words) -> None:
+    """How lists of servos are held against a motion."""
+    words.add_argument(
+        "--voltage",
+        type=number("--voltage", positive=True),
+        metavar="V",
+        help="take those for this voltage (default: all)",
+    )
+    words.add_argument(
+        "--factor",
+        type=number("--factor", positive=True),
+        default=1.0,
+        help="least safety factor against the torque-speed line (default: 1)",
+    )
+    words.add_argument("--out", metavar="DIR", help="write report.json and sizes.csv")
+    add_json(words, "the answer")
+    words.add_argument(
+        "--strict",
+        action="store_true",
+        help="exit with 1 if some joint has no servo that carries it for long",
+    )
+
+
 def add_json(words: Words, what: str) -> None:
     """Write ``what`` as JSON."""
     words.add_argument("--json", metavar="FILE|-", help=f"write {what} as JSON")

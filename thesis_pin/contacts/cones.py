@@ -29,6 +29,7 @@ from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import real
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.nonnegative import nonnegative
+from thesis_pin.numeric.planar import convex_hull
 
 FRICTION_EDGES = 8
 """Edges of the pyramid inside each corner's friction cone; it gives away at most
@@ -61,13 +62,20 @@ class Contact:
     facets: np.ndarray
 
     @classmethod
-    def from_outline(cls, outline: np.ndarray, friction: float) -> Contact:
-        """Contact of a sole with the given corners [m], ``(n, 2)``, and friction."""
-        from scipy.spatial import ConvexHull
+    def from_outline(
+        cls, outline: np.ndarray, friction: float, *, facets: np.ndarray | None = None
+    ) -> Contact:
+        """Contact of a sole.
 
+        Args:
+            outline: Corners [m], shape ``(n, 2)``.
+            friction: Friction coefficient.
+            facets: Its :attr:`facets`, if they are known from an earlier time; they take SciPy's
+                Qhull to find.
+        """
         outline = corners("outline", outline)
         friction = real("friction", friction, low=1e-6)
-        hull = outline[ConvexHull(outline).vertices]
+        hull = outline[convex_hull(outline)]
         length = float(np.linalg.norm(np.ptp(outline, axis=0))) / 2
         angle = 2 * np.pi * np.arange(FRICTION_EDGES) / FRICTION_EDGES
         edges = np.stack(
@@ -77,14 +85,8 @@ class Contact:
         forces = np.tile(edges, (len(edge), 1))
         moments = np.cross(np.repeat(edge, FRICTION_EDGES, axis=0), forces)
         rays = np.concatenate([forces * length, moments], axis=1)
-        # All rays have the same normal force, so the cone is a five-dimensional
-        # polytope lifted to that height.
-        height = rays[0, 2]
-        section = ConvexHull(rays[:, [0, 1, 3, 4, 5]] / height)
-        normal, offset = section.equations[:, :5], section.equations[:, 5]
-        facets = np.column_stack([normal[:, :2], offset, normal[:, 2:]])
-        facets /= np.linalg.norm(facets, axis=1)[:, None]
-        return cls(outline, hull, friction, length, rays, np.unique(facets.round(12), axis=0))
+        found = _facets(rays) if facets is None else facets
+        return cls(outline, hull, friction, length, rays, found)
 
     def scale(self, wrench: np.ndarray) -> np.ndarray:
         """Wrenches with forces multiplied by :attr:`length` [N·m], ``(..., 6)``."""
@@ -139,6 +141,20 @@ class Contact:
         loaded = wrench[..., 2] > 0
         force = np.where(loaded, wrench[..., 2], np.nan)
         return np.stack([-wrench[..., 4] / force, wrench[..., 3] / force], axis=-1)
+
+
+def _facets(rays: np.ndarray) -> np.ndarray:
+    """Unit outward normals of the cone of some rays."""
+    from scipy.spatial import ConvexHull
+
+    # All rays have the same normal force, so the cone is a five-dimensional
+    # polytope lifted to that height.
+    height = rays[0, 2]
+    section = ConvexHull(rays[:, [0, 1, 3, 4, 5]] / height)
+    normal, offset = section.equations[:, :5], section.equations[:, 5]
+    facets = np.column_stack([normal[:, :2], offset, normal[:, 2:]])
+    facets /= np.linalg.norm(facets, axis=1)[:, None]
+    return np.unique(facets.round(12), axis=0)
 
 
 def corners(name: str, points: ArrayLike) -> np.ndarray:

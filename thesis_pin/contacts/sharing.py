@@ -139,9 +139,9 @@ class LoadSharing:
         if count:
             first = self.without_limits()
             limited = np.flatnonzero(self.programme.furthest(first) > 0)
-            first[limited], possible = self.programme.solve(limited)
+            found, possible = self.programme.solve(limited)
+            first[limited[possible]] = found[possible]
             for row in limited[~possible]:
-                first[row] = np.linalg.lstsq(self.matrix[row], self.target[row], rcond=None)[0]
                 violation[row] = _missing(
                     self.total[row], (self.maps[0][row], self.maps[1][row]), self.contacts
                 )

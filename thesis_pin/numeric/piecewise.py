@@ -62,32 +62,6 @@ class Piecewise:
         result[np.isnan(where)] = np.nan
         return result.reshape((*given.shape, *shape))
 
-    def jet(self, t: np.ndarray) -> tuple[Part, Part, Part]:
-        """Values, rates and accelerations together, by Horner's scheme.
-
-        Args:
-            t: Where, shape ``(n,)``, n ≥ 1; single values only, no vectors.
-
-        Returns:
-            Each an array ``(n,)``, or a float where it is the same everywhere.
-        """
-        pieces = self.c.shape[1]
-        if len(t) == 1:
-            here = float(t[0])
-            piece = min(max(bisect_right(self.x, here) - 1, 0), pieces - 1)
-            return _horner(self.c[:, piece].tolist(), here - float(self.x[piece]))
-        if pieces == 1:
-            return _horner(self.c[:, 0].tolist(), t - self.x[0])
-        if len(t) < _FEW * pieces or (t[1:] < t[:-1]).any():
-            piece = np.clip(np.searchsorted(self.x, t, side="right") - 1, 0, pieces - 1)
-            return _horner(list(self.c[:, piece]), t - self.x[piece])
-        # Numbers for coefficients: with an array of them it would take twice as long.
-        ends = [0, *np.searchsorted(t, self.x[1:-1]).tolist(), len(t)]
-        steps = [(k, slice(*ends)) for k, ends in enumerate(pairwise(ends)) if ends[0] < ends[1]]
-        jets = [_horner(self.c[:, k].tolist(), t[some] - self.x[k]) for k, some in steps]
-        found = [_joined(values, steps, len(t)) for values in zip(*jets, strict=True)]
-        return found[0], found[1], found[2]
-
     def derivative(self, nu: int = 1) -> Piecewise:
         """The derivative of order ``nu`` as a piecewise polynomial."""
         order = len(self.c)
@@ -108,6 +82,34 @@ class Piecewise:
         if name.startswith("_"):  # copying and pickling look for such names in what is half made
             raise AttributeError(name)
         return getattr(self.ppoly, name)
+
+
+def jet(curve: Piecewise | PPoly, t: np.ndarray) -> tuple[Part, Part, Part]:
+    """Values, rates and accelerations together, by Horner's scheme.
+
+    Args:
+        curve: Single values only, no vectors.
+        t: Where, shape ``(n,)``, n ≥ 1.
+
+    Returns:
+        Each an array ``(n,)``, or a float where it is the same everywhere.
+    """
+    pieces = curve.c.shape[1]
+    if len(t) == 1:
+        here = float(t[0])
+        piece = min(max(bisect_right(curve.x, here) - 1, 0), pieces - 1)
+        return _horner(curve.c[:, piece].tolist(), here - float(curve.x[piece]))
+    if pieces == 1:
+        return _horner(curve.c[:, 0].tolist(), t - curve.x[0])
+    if len(t) < _FEW * pieces or (t[1:] < t[:-1]).any():
+        piece = np.clip(np.searchsorted(curve.x, t, side="right") - 1, 0, pieces - 1)
+        return _horner(list(curve.c[:, piece]), t - curve.x[piece])
+    # Numbers for coefficients: with an array of them it would take twice as long.
+    ends = [0, *np.searchsorted(t, curve.x[1:-1]).tolist(), len(t)]
+    steps = [(k, slice(*ends)) for k, ends in enumerate(pairwise(ends)) if ends[0] < ends[1]]
+    jets = [_horner(curve.c[:, k].tolist(), t[some] - curve.x[k]) for k, some in steps]
+    found = [_joined(values, steps, len(t)) for values in zip(*jets, strict=True)]
+    return found[0], found[1], found[2]
 
 
 def _horner(coefficients: list[Part], offset: Part) -> tuple[Part, Part, Part]:

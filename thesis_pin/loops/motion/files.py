@@ -204,7 +204,7 @@ def _splined(
                 where=table.file,
                 allowed="at least 4",
             )
-        interpolated.append(moving.removeprefix("the "))
+        interpolated.append("base" if moving == "the base" else moving)
     change = None if flight is None else flight.derivatives(time)
     return JointMotion(
         name_as_text(Path(table.file).name),
