@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from scout_pin import coordinates
 from scout_pin.implausible import implausible
-from scout_pin.kinematics import choosing, forward
+from scout_pin.kinematics import choosing, following, forward
 from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.branches import Numbers, allowed_branches
 from scout_pin.kinematics.geometry import LegGeometry
@@ -247,7 +247,7 @@ class Scout(LoadedRobot):
             sides = choosing.both_legs(legs, targets, allowed)
         else:
             sides = [
-                choosing.one_branch(leg, side, target, given[..., part], only)
+                following.one_branch(leg, side, target, given[..., part], only)
                 for leg, side, target, part, only in zip(
                     legs, SIDES, targets, (slice(0, 6), slice(6, 12)), allowed, strict=True
                 )
@@ -308,7 +308,7 @@ class Scout(LoadedRobot):
         else:
             starts = (reference[:6], reference[6:])
             found = [
-                choosing.follow_branch(leg, foot.count, of, start, only)
+                following.follow_branch(leg, foot.count, of, start, only)
                 for leg, foot, of, start, only in zip(
                     legs, feet, both, starts, allowed, strict=True
                 )
