@@ -45,7 +45,7 @@ def both_legs(
         columns = [target.reshape(-1, 16).T for target in targets]
 
         def entries(number: int) -> Entries:
-            return lambda part: columns[number][:, part].copy()
+            return lambda part: columns[number][:, part]
 
         counts = (len(targets[0]), len(targets[1]))
         found = follow_both(legs, counts, (entries(0), entries(1)), allowed)
@@ -72,6 +72,8 @@ def follow_both(
     counts: tuple[int, int],
     entries: tuple[Entries, Entries],
     allowed: tuple[Numbers, Numbers],
+    *,
+    checked: bool = True,
 ) -> list[np.ndarray | None]:
     """Angles of both legs along a motion, ``(count, 6)`` each; None without a branch throughout.
 
@@ -80,13 +82,18 @@ def follow_both(
         counts: Number of samples of each, at least 1.
         entries: Placements of each sole.
         allowed: Numbers of the branches each leg may take.
+        checked: Whether the placements are known to be rigid.
+
+    Raises:
+        BadInput: A placement isn't rigid.
     """
     costs = [distances(leg, one, None) for leg, one in zip(legs, entries, strict=True)]
     tried: dict[tuple[int, int], np.ndarray | None] = {}
 
     def keeps(leg: int, k: int) -> bool:
         if (leg, k) not in tried:
-            tried[leg, k] = along_branch(legs[leg], counts[leg], entries[leg], None, k)
+            unchecked = None if checked else f"{SIDES[leg]} foot"
+            tried[leg, k] = along_branch(legs[leg], counts[leg], entries[leg], None, k, unchecked)
         return tried[leg, k] is not None
 
     taken = _choose(legs, costs, allowed, keeps)

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from scout_pin.kinematics import one_pose
-from scout_pin.kinematics.branches import EVERY, SHAPES
+from scout_pin.kinematics.branches import EVERY, LABELS, SHAPES, leg_branches
 from scout_pin.kinematics.closed_form import ClosedForm, Free
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.kinematics.inverse import every_branch, free_values
+from scout_pin.kinematics.inverse import every_branch, free_values, single_pose
 from scout_pin.kinematics.signs import GONE, SUMMANDS, sum_angles
 from scout_pin.kinematics.solutions import LegSolutions
 from thesis_pin.errors import Unreachable
-from thesis_pin.numeric.arrays import wrap
+from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, wrap
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
@@ -58,9 +58,7 @@ def one_branch(
     """
     if target.ndim == 3 and len(target) and reference.ndim == 1:
         entries = target.reshape(-1, 16).T
-        found = follow_branch(
-            leg, len(target), lambda part: entries[:, part].copy(), reference, only
-        )
+        found = follow_branch(leg, len(target), lambda part: entries[:, part], reference, only)
         if found is not None:
             return found
     return choose_branch(every_branch(leg, target, reference), side, reference, only)
@@ -128,6 +126,7 @@ def follow_branch(
     matrices: Entries,
     reference: np.ndarray | None = None,
     only: Sequence[int] = EVERY,
+    unchecked: str | None = None,
 ) -> np.ndarray | None:
     """One branch along a whole motion, if one is valid throughout: no other is worked out.
 
@@ -140,13 +139,17 @@ def follow_branch(
         matrices: Placements torso to sole.
         reference: Angles [rad], ``(6,)``; None for zero.
         only: Numbers of the branches to try.
+        unchecked: Name for messages, if the placements may not be rigid.
 
     Returns:
         Angles [rad], shape ``(count, 6)``; None if no branch is valid throughout.
+
+    Raises:
+        BadInput: A placement isn't rigid.
     """
     costs = distances(leg, matrices, reference)
     for k in nearest_first(leg, costs, only):
-        if (theta := along_branch(leg, count, matrices, reference, k)) is not None:
+        if (theta := along_branch(leg, count, matrices, reference, k, unchecked)) is not None:
             return theta
     return None
 
@@ -168,23 +171,41 @@ def distances(leg: LegGeometry, matrices: Entries, reference: np.ndarray | None)
 
 
 def along_branch(
-    leg: LegGeometry, count: int, matrices: Entries, reference: np.ndarray | None, number: int
+    leg: LegGeometry,
+    count: int,
+    matrices: Entries,
+    reference: np.ndarray | None,
+    number: int,
+    unchecked: str | None = None,
 ) -> np.ndarray | None:
-    """Angles along a motion on one branch ``(count, 6)``; None if it isn't valid throughout."""
+    """Angles along a motion on one branch ``(count, 6)``; None if it isn't valid throughout.
+
+    Args:
+        leg: Geometry of the leg.
+        count: Number of samples.
+        matrices: Placements torso to sole.
+        reference: Angles [rad], ``(6,)``, that fill in what is free; None for zero.
+        number: Of the branch.
+        unchecked: Name for messages, if the placements may not be rigid.
+
+    Raises:
+        BadInput: A placement isn't rigid.
+    """
     free = _free(leg, reference)
-    lower, upper = (
-        (limit + sign * TOLERANCES.joint_limit)[:, None]
-        for limit, sign in ((leg.lower, -1), (leg.upper, 1))
-    )
+    lower, upper = leg.lower - TOLERANCES.joint_limit, leg.upper + TOLERANCES.joint_limit
     theta = np.empty((count, 6))
     for part in blocks(count):
-        gamma, excess = ClosedForm(leg, matrices(part), free).branch(number)
-        angles = wrap(gamma - leg.beta[:, None])
-        angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
+        entries = matrices(part)
+        form = ClosedForm(leg, entries, free)
+        if unchecked is not None and not form.surely_rigid():
+            check_rigid(unchecked, entries, entries.shape[1:], part.start)
+        angles, excess = form.branch(number)
+        if leg.turned:
+            angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
         if not (
-            np.all(excess <= TOLERANCES.reach)
-            and (angles >= lower).all()
-            and (angles <= upper).all()
+            excess.max() <= TOLERANCES.reach  # NaN compares false
+            and (angles.min(axis=1) >= lower).all()
+            and (angles.max(axis=1) <= upper).all()
         ):
             return None
         theta[part] = angles.T
@@ -193,3 +214,44 @@ def along_branch(
 
 def _free(leg: LegGeometry, reference: np.ndarray | None) -> Free:
     return free_values(leg, None if reference is None else reference + leg.beta)
+
+
+def leg_angles(
+    leg: LegGeometry,
+    torso_to_foot: ArrayLike,
+    branch: str | None = None,
+    reference: ArrayLike | None = None,
+) -> np.ndarray:
+    """One valid branch a pose, for one leg alone, of those asked for the nearest to a reference.
+
+    One asked for by its signs is found twice as fast as all eight.
+
+    Args:
+        leg: Geometry of the leg.
+        torso_to_foot: Placement of the sole in the torso frame: a ``pin.SE3``, a sequence of
+            them, or an array ``(..., 4, 4)``.
+        branch: Three signs, as ``"+-+"``; or the way the knee bends, ``"forward"`` or
+            ``"backward"``; None for any.
+        reference: Angles [rad], ``(6,)`` for a start or ``(..., 6)`` for each pose; None for zero.
+
+    Returns:
+        Angles [rad], shape ``(..., 6)``. A stack is a trajectory along its first axis: on one
+        branch as long as one is valid throughout.
+
+    Raises:
+        Unreachable: Some pose has no such branch that is valid; says which and why.
+        BadInput: Wrong shape, NaN, not a rigid placement, or no such branch.
+    """
+    if reference is None and type(branch) is str and branch in LABELS:
+        plain = single_pose(torso_to_foot)
+        found = plain and one_pose.one_branch(leg, plain[0], LABELS[branch], plain[1])
+        if found and found[1] <= TOLERANCES.reach:
+            for theta, (lower, upper) in zip(found[0], leg.bounds, strict=True):
+                if not lower <= theta <= upper:
+                    break
+            else:
+                return np.array(found[0])
+    only = leg_branches(leg, branch)
+    target = pose_array("torso_to_foot", torso_to_foot)
+    start = np.zeros(6) if reference is None else finite_array("reference", reference, 6)
+    return one_branch(leg, leg.names[0].split("_")[0], target, start, only)
