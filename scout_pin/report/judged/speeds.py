@@ -185,7 +185,10 @@ class Speeds:
 
     def _floor(self, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Wrench of the floor about the world's origin ``(m, 6)``: at rest, and what s² adds."""
-        here, torso = self.dynamics.part(some).required, self.motion.torso.part(some)
+        # Of very many samples only a part at a time is ever worked out.
+        short = len(self.motion.time) < LONG
+        here = self.dynamics.required[some] if short else self.dynamics.part(some).required
+        torso = self.motion.torso.part(some)
         force = np.einsum("nij,nj->ni", torso.rotation, here[:, :3])
         moment = np.einsum("nij,nj->ni", torso.rotation, here[:, 3:])
         moment += np.cross(torso.position, force)
