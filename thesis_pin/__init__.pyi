@@ -29,6 +29,8 @@ from .contacts.standing.placing import (
     Placed as Placed,
     stand as stand,
 )
+from .report.balance.document import BalanceReport as BalanceReport
+from .report.balance.making import balance_report as balance_report
 
 # Motions of any robot
 from .loops.motion.files import read_motion as read_motion

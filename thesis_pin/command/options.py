@@ -77,6 +77,19 @@ def wrench(text: str) -> tuple[str, tuple[float, ...]]:
     return frame, (*numbers, 0.0, 0.0, 0.0)[:6]
 
 
+def slope(text: str) -> tuple[float, float]:
+    """An argparse type: a floor's slope, and the heading in which it rises [°]."""
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError:
+        numbers = [math.nan]
+    if len(numbers) > 2 or not all(map(math.isfinite, numbers)) or not 0 <= numbers[0] < 89:
+        raise argparse.ArgumentTypeError(
+            f"--slope is {shown(text)}; allowed: DEG or DEG,HEADING, DEG from 0 to below 89 [°]"
+        )
+    return numbers[0], (*numbers, 0.0)[1]
+
+
 def add_robot(words: Words, another: str) -> None:
     """Which robot: ``another`` says what a specification may describe."""
     words.add_argument(
