@@ -103,3 +103,20 @@ def test_any_robots_workspace_of_pollard_is_its_own(pollard):
     ).angles
     apart = (found.q - angles)[some]
     np.testing.assert_allclose(np.sin(apart / 2), 0, atol=1e-9)
+
+
+def test_a_pose_that_is_singular_spoils_no_condition_number(pollard):
+    """Without a pose the map starts at the neutral one, where the wrist is singular."""
+    import thesis_pin
+    from pollard_pin.closure import CLOSURE_PATH
+    from thesis_pin.loops.workspace.mapped import evaluate_workspace as anyones
+
+    loaded = thesis_pin.load(pollard_pin.URDF_PATH, CLOSURE_PATH)
+    along = {"x": np.linspace(0.3, 0.75, 8), "z": np.linspace(-0.35, 0.2, 7)}
+    at = dict.fromkeys(("y", "roll", "pitch", "yaw"), 0.0)
+    found = anyones(loaded, along, at=at, frame="tool_tip")
+    some = found.reachable
+    assert some.mean() > 0.8
+    holding = pollard.actuation(found.q[some])
+    np.testing.assert_allclose(found.condition[some], holding.condition, rtol=1e-8)
+    np.testing.assert_allclose(found.determinant[some], holding.determinant, rtol=1e-8)

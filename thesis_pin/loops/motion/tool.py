@@ -245,9 +245,9 @@ def refuse_redundant(
     """Refuse a frame that may rest while motors move; harmless idle rods are none."""
     motors = set(robot.actuators or singles(robot.model))
     for group in surveyed(view, q, precision).idle:
-        if motors & set(group.joints):
+        if loose := [name for name in group.joints if name in motors]:
             raise SingularPose(
-                f"{view.leader} don't determine the other joints: {', '.join(group.joints[:6])} "
+                f"{view.leader} don't determine the other joints: {', '.join(loose[:6])} "
                 "move while they stand still",
                 remedy="Tell more coordinates of the frame, or add columns of some joints",
             )

@@ -8,7 +8,7 @@ into another assembly.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +34,7 @@ step, and on the other side more, however far the step goes."""
 
 _NEAR = 1e-3  # what it may miss it by in any case [rad], or relative to the robot's size
 _FINER = (1, 4, 16)  # parts of the way between two cells, if need be
+_SEAM = 0.1  # what neighbours' joints may differ by beyond that [rad], or relative to the size
 _TRIED = 40  # cells that are looked for from the pose
 _STRIDE = 0.05  # steps of that way [rad], or relative to the robot's size
 _BLOCK = 2048  # cells at once, so that memory stays bounded
@@ -62,52 +63,108 @@ def spread(led: Led, progress: Callable[[int, int], None]) -> Wave:
         progress: Told the cells that are decided and their total.
     """
     points = led.grid.points
-    count, nq, nv = len(points), led.view.model.nq, led.view.model.nv
-    q = np.full((count, nq), np.nan)
-    along = np.zeros((count, nv, points.shape[1]))
-    sign, state = np.zeros(count), np.full(count, CUT_OFF, dtype=np.int8)
     first = _first(led, points)
     if first is None:
-        return Wave(q, np.full(count, OPEN, dtype=np.int8), 0)
-    cell, q[cell] = first
-    tangent, good, signs = led.tangents(q[cell][None], points[cell][None])
-    along[cell], sign[cell] = tangent[0], signs[0]
-    state[cell] = CLOSED if good[0] else SINGULAR
-    front = np.array([cell] if good[0] else [], dtype=np.intp)
-    while front.size:
-        new: list[Places] = []
-        for a, b in _blocks(_pairs(led.grid.shape, front, state), state):
-            found, tangents, signs, became = _gone(
-                led, (q[a], along[a], sign[a]), points[a], points[b]
-            )
-            better = became > state[b]
-            state[b[better]] = became[better]
-            done = became >= SINGULAR
-            q[b[done]] = found[done]
-            along[b[done]], sign[b[done]] = tangents[done], signs[done]
-            new.append(b[became == CLOSED])
-            progress(int((state != CUT_OFF).sum()), count)
-        front = np.concatenate(new) if new else np.empty(0, dtype=np.intp)
-    progress(count, count)
-    return Wave(q, state, _seams(led, points, q, along, state))
+        return Wave(
+            np.full((len(points), led.view.model.nq), np.nan),
+            np.full(len(points), OPEN, dtype=np.int8),
+            0,
+        )
+    cells = _Cells(led, points)
+    front = cells.begin(*first)
+    waiting: list[tuple[Places, Places]] = []
+    for parts in _FINER:
+        # Ways that fail are gone again in smaller steps when no other way is left, all at once.
+        failed = waiting
+        waiting = []
+        while front.size or failed:
+            ways = _blocks(failed or _pairs(led.grid.shape, front, cells.state), cells.state)
+            failed, new = [], list[Places]()
+            for a, b in ways:
+                became = cells.go(a, b, parts)
+                new.append(b[became == CLOSED])
+                waiting.append((b[became < SINGULAR], a[became < SINGULAR]))
+                progress(int((cells.state != CUT_OFF).sum()), len(points))
+            front = np.concatenate(new) if new else np.empty(0, dtype=np.intp)
+        waiting = [_joined(waiting)] if waiting else []
+    progress(len(points), len(points))
+    return Wave(cells.q, cells.state, _seams(led, points, cells.q, cells.along, cells.state))
+
+
+def _joined(ways: list[tuple[Places, Places]]) -> tuple[Places, Places]:
+    """Several ways as one list."""
+    ends, starts = zip(*ways, strict=True)
+    return np.concatenate(ends), np.concatenate(starts)
+
+
+class _Cells:
+    """What is known of every cell of a grid.
+
+    Args:
+        led: The robot and its grid.
+        points: Values of the axes in every cell, shape ``(cells, axes)``.
+    """
+
+    def __init__(self, led: Led, points: Array) -> None:
+        count, model = len(points), led.view.model
+        self.led, self.points = led, points
+        self.q = np.full((count, model.nq), np.nan)
+        self.along = np.zeros((count, model.nv, points.shape[1]))
+        self.sign, self.state = np.zeros(count), np.full(count, CUT_OFF, dtype=np.int8)
+
+    def begin(self, cell: int, q: Array) -> Places:
+        """Take a first cell as closed; it is the front, unless it is singular."""
+        tangent, good, signs = self.led.tangents(q[None], self.points[cell][None])
+        self.q[cell], self.along[cell], self.sign[cell] = q, tangent[0], signs[0]
+        self.state[cell] = CLOSED if good[0] else SINGULAR
+        return np.array([cell] if good[0] else [], dtype=np.intp)
+
+    def go(self, start: Places, end: Places, parts: int) -> NDArray[np.int8]:
+        """Go from cells to their neighbours in some steps; says what became of these."""
+        here = [self.q[start], self.along[start], self.sign[start]]
+        alive, fate = np.arange(len(start)), np.full(len(start), CLOSED, dtype=np.int8)
+        begin, way = self.points[start], (self.points[end] - self.points[start]) / parts
+        for step in range(1, parts + 1):
+            values = begin[alive] + step * way[alive]
+            values = self.points[end[alive]] if step == parts else values
+            some, result = _step(self.led, [part[alive] for part in here], way[alive], values)
+            for part, new in zip(here, some, strict=True):
+                part[alive] = new
+            fate[alive] = result
+            if step < parts:  # what isn't closed half-way says nothing of the cell itself
+                fate[alive[result != CLOSED]] = OPEN
+            alive = alive[result == CLOSED]
+            if not alive.size:
+                break
+        better, done = fate > self.state[end], fate >= SINGULAR
+        self.state[end[better]] = fate[better]
+        self.q[end[done]], self.along[end[done]], self.sign[end[done]] = (
+            part[done] for part in here
+        )
+        return fate
 
 
 def _first(led: Led, points: Array) -> tuple[int, Array] | None:
-    """The nearest cell that a straight way from the pose leads to, and the configuration there."""
-    view = led.view
+    """The nearest cell that a straight way from the pose leads to, and the configuration there.
+
+    A cell that is singular is taken only if no other is found.
+    """
+    view, spare = led.view, None
     size = np.array([view.scale.length if axis.unit == "m" else 1.0 for axis in led.grid.axes])
     far = np.abs((points - led.start) / size).max(axis=1)
     for cell in np.argsort(far, kind="stable")[:_TRIED]:
         q = led.q
-        ends = led.way(1, points[cell])[0] - led.way(2, points[cell])[0]
-        steps = max(int(np.ceil(2 * np.abs(ends).max() / _STRIDE / min(1.0, size.min()))), 1)
+        whole = 2 * np.abs(led.way(1, points[cell])[0] - led.way(2, points[cell])[0]).max()
+        steps = max(int(np.ceil(whole / _STRIDE / min(1.0, size.min()))), 1)
         for values in led.way(min(steps, 1000), points[cell]):
             q, good = led.patiently(led.placed(q[None], values[None], held=False)[0])
             if not good:
                 break
         else:
-            return int(cell), q
-    return None
+            if led.tangents(q[None], points[cell][None])[1][0]:
+                return int(cell), q
+            spare = spare or (int(cell), q)
+    return spare
 
 
 def _blocks(
@@ -145,43 +202,8 @@ def _pairs(
     return [(end[turn == k], start[turn == k]) for k in range(int(turn.max(initial=-1)) + 1)]
 
 
-def _gone(
-    led: Led, here: tuple[Array, Array, Array], start: Array, end: Array
-) -> tuple[Array, Array, Array, NDArray[np.int8]]:
-    """From cells to their neighbours: configurations, tangents, signs, and what became of them."""
-    count = len(start)
-    found = tuple(part.copy() for part in here)
-    became = np.full(count, OPEN, dtype=np.int8)
-    todo = np.arange(count)
-    for parts in _FINER:
-        now = tuple(part[todo].copy() for part in here)
-        alive = np.arange(len(todo))
-        fate = np.full(len(todo), CLOSED, dtype=np.int8)
-        for step in range(1, parts + 1):
-            values = start[todo] + (end[todo] - start[todo]) * step / parts
-            way = (end[todo] - start[todo]) / parts
-            some, result = _step(led, tuple(part[alive] for part in now), way[alive], values[alive])
-            for part, new in zip(now, some, strict=True):
-                part[alive] = new
-            fate[alive] = result
-            if step < parts:  # what isn't closed half-way says nothing of the cell itself
-                fate[alive[result != CLOSED]] = OPEN
-            alive = alive[result == CLOSED]
-            if not alive.size:
-                break
-        better = fate > became[todo]
-        for part, new in zip(found, now, strict=True):
-            part[todo[better]] = new[better]
-        became[todo[better]] = fate[better]
-        todo = todo[fate < SINGULAR]
-        if not todo.size:
-            break
-    q, tangents, signs = found
-    return q, tangents, signs, became
-
-
 def _step(
-    led: Led, here: tuple[Array, ...], way: Array, values: Array
+    led: Led, here: Sequence[Array], way: Array, values: Array
 ) -> tuple[tuple[Array, Array, Array], NDArray[np.int8]]:
     """One step along the tangents, closed and judged."""
     q, along, sign = here
@@ -224,5 +246,6 @@ def _seams(led: Led, points: Array, q: Array, along: Array, state: NDArray[np.in
             ahead, back = along[k] @ way, along[j] @ way
             missed = ((went - (ahead + back) / 2) / columns)[passive]
             size = max(np.linalg.norm((x / columns)[passive]) for x in (ahead, back))
-            found += bool(np.linalg.norm(missed) > size + 0.1)
+            if np.linalg.norm(missed) > size + _SEAM:  # how far rods have spun says nothing
+                found += bool(np.linalg.norm(led.without_idle(q[k], missed)) > size + _SEAM)
     return found

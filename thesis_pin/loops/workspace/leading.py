@@ -210,6 +210,16 @@ class Led:
         moving[:, passive] = -columns[:, None] * (inverse @ (matrices @ moving))
         return moving, kept >= self.survey.passive_rank, self._signs(own)
 
+    def without_idle(self, q: Array, moved: Array) -> Array:
+        """Scaled motions of the passive joints ``(passive,)`` without those that nothing holds."""
+        if not self.survey.idle:
+            return moved
+        passive = self.view.passive
+        matrix = self.view.system.jacobian(self.view.system.poses(self._data, q[None]))[0]
+        own = self.view.scale.rows[:, None] * matrix[:, passive] * self.view.scale.columns[passive]
+        held = np.linalg.svd(own, full_matrices=False)[2][: self.survey.passive_rank]
+        return np.asarray(held.T @ (held @ moved))
+
     def _signs(self, own: Array) -> Array:
         """The sign of the passive columns' determinant, in the space that the equations span.
 

@@ -157,7 +157,8 @@ def evaluate_workspace(
     good = np.flatnonzero(state == REACHABLE)
     some = q[good[np.linspace(0, len(good) - 1, _SHOWN).astype(int)]] if good.size else closed[None]
     rows = Tool(frame or "", grid.told).rows
-    how = measure(robot, some, frame, grid.told, rows, length, precision)
+    told = () if grid.joints else grid.told
+    how = measure(robot, some, frame, told, rows, length, precision)
     for first in range(0, len(good), _BLOCK):
         part = good[first : first + _BLOCK]
         condition[part], determinant[part] = conditioned(robot, how, q[part], precision)

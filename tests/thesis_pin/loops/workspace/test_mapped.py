@@ -329,3 +329,39 @@ def test_fingers_and_other_legs_stay_at_the_pose_and_a_free_root_is_held():
         spaces[0].q[..., others], np.broadcast_to(pose[others], (3, 3, 9))
     )
     assert set(spaces[0].still) == {fixed.model.names[1 + k] for k in others}
+
+
+@pytest.fixture(scope="module")
+def delta():
+    robot, guess = mechanisms.built("delta")
+    return robot, close(robot, guess)
+
+
+def test_rods_that_have_spun_are_no_seam_and_motors_left_free_are_named(delta):
+    robot, pose = delta
+    arms = ("arm_0_joint", "arm_1_joint", "arm_2_joint")
+    space = evaluate_workspace(
+        robot, {name: np.linspace(-0.5, 0.9, 7) for name in arms}, frame="tool", pose=pose
+    )
+    assert space.reachable.all()
+    assert space.seams == 0
+    xy = {"x": [0.05, 0.1], "y": [0.0, 0.1]}
+    with pytest.raises(SingularPose, match=r"arm_\d_joint.* move while"):
+        evaluate_workspace(robot, xy, frame="tool", pose=pose)
+
+
+def test_a_motor_beside_the_frame_leads_and_the_whole_place_is_measured(delta):
+    robot, pose = delta
+    free = evaluate_workspace(
+        robot, {"x": [0.05, 0.1], "z": [-0.4, -0.35]}, at={"y": 0.0}, frame="tool", pose=pose
+    )
+    motor = float(free.motors[0, 0, 1])
+    mixed = evaluate_workspace(
+        robot,
+        {"x": [0.05, 0.051], "z": [-0.4, -0.399]},
+        at={"arm_1_joint": motor},
+        frame="tool",
+        pose=pose,
+    )
+    assert mixed.condition[0, 0] == pytest.approx(free.condition[0, 0], rel=1e-6)
+    np.testing.assert_allclose(mixed.motors[0, 0], free.motors[0, 0], atol=1e-7)
