@@ -222,6 +222,13 @@ def add_convert(words: Words) -> None:
     add_json(words, "what was written")
 
 
+def add_jobs(words: Words, what: str) -> None:
+    """How many threads or processes share the work."""
+    words.add_argument(
+        "--jobs", type=count("--jobs", 1), default=2, metavar="N", help=f"{what} (default: 2)"
+    )
+
+
 def add_audit(words: Words) -> None:
     """The options of the verb ``audit``."""
     words.add_argument(
@@ -231,6 +238,7 @@ def add_audit(words: Words) -> None:
     add_json(words, "all rows")
     words.add_argument("--html", metavar="FILE|-", help="write a page with rendered formulas")
     words.add_argument("--markdown", metavar="FILE|-", help="write the audit as a document")
+    add_jobs(words, "processes")
 
 
 def refuse_beside(arguments: argparse.Namespace, flag: str, others: tuple[str, ...]) -> None:
