@@ -42,24 +42,28 @@ def pose_from_placement(
         ``near`` is taken.
     """
     m = np.moveaxis(matrix, (-2, -1), (0, 1))
-    lost = np.hypot(m[0, 0], m[0, 1]) < TOLERANCES.singular
-    theta = np.arctan2(-m[1, 2], m[2, 2])
-    if near is None:
-        theta = np.where(lost, np.arctan2(m[2, 1], m[1, 1]), theta)
-        return np.concatenate([position, _with_theta(m, theta)], axis=-1)
-    theta = np.where(lost, near[..., 1], theta)
-    one, other = _with_theta(m, theta), _with_theta(m, theta + np.pi)
-    far = np.abs(wrap(one - near)).sum(axis=-1) > np.abs(wrap(other - near)).sum(axis=-1)
-    angles = np.where(far[..., None], other, one)
-    return np.concatenate([position, near + wrap(angles - near)], axis=-1)
-
-
-def _with_theta(m: np.ndarray, theta: np.ndarray) -> np.ndarray:
-    """ψ, θ, φ of rotations, components first, with a θ that fits them, ``(..., 3)``."""
-    c, s = np.cos(theta), np.sin(theta)
+    size = np.sqrt(m[1, 2] * m[1, 2] + m[2, 2] * m[2, 2])  # |cos ψ|
+    lost = size < TOLERANCES.singular
+    if lost.any():
+        free = np.arctan2(m[2, 1], m[1, 1]) if near is None else near[..., 1]
+        theta = np.where(lost, free, np.arctan2(-m[1, 2], m[2, 2]))
+        c, s = np.cos(theta), np.sin(theta)
+    else:
+        theta, c, s = np.arctan2(-m[1, 2], m[2, 2]), m[2, 2] / size, -m[1, 2] / size
     psi = np.arctan2(m[0, 2], c * m[2, 2] - s * m[1, 2])
     phi = np.arctan2(c * m[1, 0] + s * m[2, 0], c * m[1, 1] + s * m[2, 1])
-    return np.stack([psi, theta, phi], axis=-1)
+    angles = np.array(np.broadcast_arrays(psi, theta, phi))
+    if near is not None:
+        beside = np.moveaxis(near, -1, 0)
+        gap = wrap(angles - beside)
+        away = np.abs(gap).sum(axis=0)
+        if (away > np.pi).any():  # else the other name, half a turn off in θ and φ, isn't nearer
+            other = wrap(np.array([np.pi - psi, theta + np.pi, phi + np.pi]) - beside)
+            gap = np.where(away > np.abs(other).sum(axis=0), other, gap)
+        angles = beside + gap
+    pose = np.empty((*angles.shape[1:], 6))
+    pose[..., :3], pose[..., 3:] = position, np.moveaxis(angles, 0, -1)
+    return pose
 
 
 def angular_rate_matrix(pose: np.ndarray) -> np.ndarray:

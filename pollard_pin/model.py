@@ -25,6 +25,7 @@ from pollard_pin.kinematics.geometry import (
     branch_labels,
     one_branch,
 )
+from pollard_pin.kinematics.regular import check_regular
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
@@ -193,7 +194,7 @@ class Pollard(ClosedRobot):
             SingularPose: Rates don't exist at a pose.
         """
         solution = self.inverse_kinematics(pose, one_branch(branch)).require()
-        return solution.angles, *self._derivatives(solution.posture, pose, rate, acceleration)
+        return solution.angles, *self._derivatives(solution.angles, pose, rate, acceleration)
 
     def rates(
         self, pose: ArrayLike, rate: ArrayLike, branch: Branch = DEFAULT_BRANCH
@@ -212,9 +213,9 @@ class Pollard(ClosedRobot):
         return self.joint_motion(pose, rate, acceleration, branch)[2]
 
     def _derivatives(
-        self, posture: Posture, pose: ArrayLike, rate: ArrayLike, acceleration: ArrayLike | None
+        self, angles: np.ndarray, pose: ArrayLike, rate: ArrayLike, acceleration: ArrayLike | None
     ) -> tuple[np.ndarray, np.ndarray]:
-        shape = posture.shape
+        shape = angles.shape[:-1]
         still = np.zeros(6)
         pose, rate, acceleration = (
             spread(name, finite_array(name, value, 6), shape).reshape(-1, 6)
@@ -224,19 +225,20 @@ class Pollard(ClosedRobot):
                 ("acceleration", still if acceleration is None else acceleration),
             )
         )
-        v, a = rates.motion_rates(posture, tool_motion(pose, rate, acceleration))
+        tool = tool_motion(pose, rate, acceleration)
+        v, a = rates.stack_rates(self.geometry, angles.reshape(-1, 12), tool)
         return v.reshape(*shape, 12), a.reshape(*shape, 12)
 
     def rate_jacobian(self, q: ArrayLike) -> np.ndarray:
         """Joint rates over the pose's rates at closed configurations, ``(..., 12, 6)``."""
         posture = self.posture(q)
-        rates.check_regular(posture)
+        check_regular(self.geometry, posture.linkage)
         return singularity.rate_jacobian(posture, self.pose(q))
 
     def actuation(self, q: ArrayLike) -> singularity.Actuation:
         """Condition and determinants of the six motors' Jacobian at ``(..., 12)``."""
         posture = self.posture(q)
-        rates.check_regular(posture)
+        check_regular(self.geometry, posture.linkage)
         return singularity.actuation(posture)
 
     def mobility(self, q: ArrayLike) -> loops.Mobility:

@@ -29,6 +29,8 @@ from .contacts.standing.placing import (
     Placed as Placed,
     stand as stand,
 )
+from .report.balance.document import BalanceReport as BalanceReport
+from .report.balance.making import balance_report as balance_report
 
 # Motions of any robot
 from .loops.motion.files import read_motion as read_motion
@@ -40,6 +42,7 @@ from .report.torque.document import (
 
 # Servos and motors
 from .sizing.catalogue import read_catalogue as read_catalogue
+from .sizing.motors import size_motors as size_motors
 
 # Viewer
 from .pages.player import write_html as write_html

@@ -104,6 +104,11 @@ class Tolerances:
             ball of 5 cm has 14 mm within ``sole_face``.
         foot_height: How much higher than the lowest link others may end that are taken for
             feet too, relative to the robot's height [-].
+        balance: How far the zero-moment point may be beyond what bears load in a report's verdict
+            [m], as a moment that is missing times the weight: nobody knows soles, points of
+            contact or the centre of mass better.
+        touching: How far a standing foot's corners may be from one plane, or from the floor,
+            without being told [m]: floors aren't flatter.
         touch_height: Height of a foot, relative to that of the centre of mass, below which it is
             on the floor if it is slow: a swinging foot of a walker gets ten times as high [-].
         touch_speed: Its speed, relative to that of a fall from that height, below which it
@@ -207,6 +212,8 @@ class Tolerances:
     sole_face: float = 1e-3
     sole_width: float = 0.02
     foot_height: float = 0.03
+    balance: float = 1e-3
+    touching: float = 1e-3
     touch_height: float = 5e-3
     touch_speed: float = 1e-2
     nearer: float = 1e-9

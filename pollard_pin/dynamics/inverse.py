@@ -18,19 +18,18 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from pollard_pin.dynamics.forces import loads
 from pollard_pin.dynamics.loops import refuse_open_loops
+from pollard_pin.kinematics.linkage import Linkage
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion
 from pollard_pin.motion.trajectory import SolvedTrajectory, joint_trajectory
-from pollard_pin.specification import ACTUATORS
-from thesis_pin.errors import SingularPose, WrongShape
+from thesis_pin.errors import WrongShape
 from thesis_pin.numeric.arrays import finite_array, together
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import LONG, blocks
+from thesis_pin.numeric.elementwise import FLOATS, LONG, blocks, components, pieces, put
 from thesis_pin.numeric.trajectory import JointTrajectory
-from thesis_pin.numeric.vectors import Vector, cross, dot
-from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -69,71 +68,8 @@ class LongDynamics(PollardDynamics):
         found = np.empty(self._joints.q.shape)
         for part in blocks(len(found)):
             some = self._joints.part(part)
-            found[part] = _tree_torques(self._robot, some.q, some.v, some.a)
+            _tree_torques(self._robot, some.q, some.v, some.a, found[part])
         return found
-
-
-def loop_forces(posture: Posture, tau: np.ndarray, first: int = 0) -> tuple[Vector, Vector]:
-    """Forces on the forearm at the two ball joints that leave every passive joint free.
-
-    Args:
-        posture: Closed posture of n samples.
-        tau: RNEA's torques of the open tree [N·m], shape ``(12, n)``.
-        first: Number of the first sample, for messages.
-
-    Returns:
-        Two forces [N], each ``(3, n)``.
-
-    Raises:
-        SingularPose: The forces aren't determined at some sample.
-    """
-    across, units = [], []
-    for i in (0, 1):
-        k, length = 7 + 3 * i, posture.geometry.x_87[i]
-        unit, yaw = posture.rods[i] / length, posture.yaw_axes[i]
-        side = cross(yaw, unit)  # where θ76i moves the tip
-        lift = dot(cross(posture.pitch_axes[i], unit), yaw)  # how much θ65i moves it along yaw
-        if (np.abs(lift) < TOLERANCES.near_singular).any():
-            raise SingularPose(
-                f"the rod of chain {i + 1} lies along the axis of θ65{i + 1}, which can't hold it"
-            )
-        # The rod feels −f; its own joints see nothing else from the loop.
-        f_side = -tau[k + 1] / length
-        f_yaw = (-tau[k] / length - f_side * dot(cross(posture.pitch_axes[i], unit), side)) / lift
-        across.append(f_side * side + f_yaw * yaw)
-        units.append(unit)
-    ey = np.zeros_like(units[0])
-    ey[1] = 1.0
-    axes = (ey, posture.forearm_axes[2])  # θ43 and θ54
-    pull = [[dot(cross(axis, posture.levers[i]), units[i]) for i in (0, 1)] for axis in axes]
-    rest = [
-        tau[1 + k] - sum(dot(cross(axis, posture.levers[i]), across[i]) for i in (0, 1))
-        for k, axis in enumerate(axes)
-    ]
-    det = pull[0][0] * pull[1][1] - pull[0][1] * pull[1][0]
-    size = np.hypot(pull[0][0], pull[1][0]) * np.hypot(pull[0][1], pull[1][1])
-    sine = det / np.where(size > 0, size, 1.0)
-    if (np.abs(sine) < TOLERANCES.near_singular).any():
-        sample = int(np.argmax(np.abs(sine) < TOLERANCES.near_singular))
-        raise SingularPose(
-            "the two rods pull the forearm in one direction: their forces aren't determined",
-            where=f"sample {first + sample}",
-        )
-    one = (rest[0] * pull[1][1] - pull[0][1] * rest[1]) / det
-    two = (pull[0][0] * rest[1] - pull[1][0] * rest[0]) / det
-    return across[0] + one * units[0], across[1] + two * units[1]
-
-
-def motor_torques(posture: Posture, tau: np.ndarray, forces: tuple[Vector, Vector]) -> np.ndarray:
-    """Torques of the six motors [N·m], shape ``(6, n)``."""
-    torque = tau[list(ACTUATORS)]
-    for i in (0, 1):
-        # ey × p, seen from the shoulder of chain 0, and ez × p from the arm's axis.
-        point, reach = posture.upper_arm + posture.levers[i], posture.side_reach(i)
-        fx, fy, fz = forces[i]
-        torque[0] -= point[2] * fx - point[0] * fz
-        torque[1 + i] += reach[0] * fy - reach[1] * fx
-    return torque
 
 
 def tree_torques(robot: Pollard, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> np.ndarray:
@@ -150,13 +86,18 @@ def tree_torques(robot: Pollard, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> np
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
     stack = {name: finite_array(name, x, None, 12) for name, x in (("q", q), ("v", v), ("a", a))}
-    return _tree_torques(robot, *together(**stack))
+    q, v, a = map(np.ascontiguousarray, together(**stack))
+    tau = np.empty(q.shape)
+    if len(tau):
+        _tree_torques(robot, q, v, a, tau)
+    return tau
 
 
-def _tree_torques(robot: Pollard, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> np.ndarray:
-    columns = [np.asfortranarray(np.ascontiguousarray(x).T) for x in (q, v, a)]
-    # For a single sample Pinocchio drops the second axis.
-    return np.asarray(pin.rneaInParallel(1, robot.pool, *columns)).reshape(12, -1).T
+def _tree_torques(
+    robot: Pollard, q: np.ndarray, v: np.ndarray, a: np.ndarray, out: np.ndarray
+) -> None:
+    """RNEA of contiguous stacks ``(n, 12)``, which Pinocchio reads as columns without a copy."""
+    pin.rneaInParallel(1, robot.pool, q.T, v.T, a.T, out.T)
 
 
 def inverse_dynamics(
@@ -183,18 +124,18 @@ def inverse_dynamics(
         raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
     if not isinstance(joints, SolvedTrajectory):
         return inverse_dynamics_at(robot, joints.q, joints.v, joints.a)
-    # What joint_trajectory has solved is closed, and its posture known.
-    count = len(joints.q)
+    # What joint_trajectory has solved is closed; whole turns of its angles change nothing.
+    count, solved = len(joints.q), joints.solutions.angles
     if count < LONG:
-        posture = joints.solutions.posture
-        return inverse_dynamics_at(robot, joints.q, joints.v, joints.a, posture)
-    found = LongDynamics(np.empty((count, 6)), np.empty((count, 2, 3)), robot, joints)
+        found = _empty(count)
+        _fill(robot, solved, (joints.q, joints.v, joints.a), found)
+        return found
+    long = LongDynamics(np.empty((count, 6)), np.empty((count, 2, 3)), robot, joints)
     for part in blocks(count):
-        some, solved = joints.part(part), joints.solutions.angles[part]
-        posture = Posture.of(robot.geometry, solved)
-        here = _solve(robot, posture, some.q, some.v, some.a, part.start)
-        found.torque[part], found.loop_force[part] = here.torque, here.loop_force
-    return found
+        some, tau = joints.part(part), np.empty((part.stop - part.start, 12))
+        here = PollardDynamics(long.torque[part], long.loop_force[part], tau)
+        _fill(robot, solved[part], (some.q, some.v, some.a), here, part.start)
+    return long
 
 
 def inverse_dynamics_at(
@@ -220,28 +161,57 @@ def inverse_dynamics_at(
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
     stack = {name: finite_array(name, x, 12) for name, x in (("q", q), ("v", v), ("a", a))}
-    angles, rates, accelerations = map(np.ascontiguousarray, together(**stack))
-    shape = angles.shape[:-1]
-    if posture is None:
-        posture = Posture.of(robot.geometry, angles)
-        refuse_open_loops(posture, angles, rates, accelerations)
-    else:
+    state = tuple(map(np.ascontiguousarray, together(**stack)))
+    shape = state[0].shape[:-1]
+    if posture is not None:
         instance("posture", posture, Posture, "Pollard.posture()")
         if posture.shape != shape:
-            raise WrongShape("q", angles.shape, f"{(*posture.shape, 12)}, as posture")
-    return _solve(robot, posture, angles, rates, accelerations)
-
-
-def _solve(
-    robot: Pollard, posture: Posture, q: np.ndarray, v: np.ndarray, a: np.ndarray, first: int = 0
-) -> PollardDynamics:
-    shape = q.shape[:-1]
-    tau = _tree_torques(robot, *(x.reshape(-1, 12) for x in (q, v, a)))
-    rows = np.ascontiguousarray(tau.T)
-    one, two = loop_forces(posture, rows, first)
-    torque = motor_torques(posture, rows, (one, two))
+            raise WrongShape("q", state[0].shape, f"{(*posture.shape, 12)}, as posture")
+    q, v, a = (one.reshape(-1, 12) for one in state)
+    found = _empty(len(q))
+    angles = q if posture is None else posture.angles.T
+    _fill(robot, angles, (q, v, a), found, check=posture is None)
     return PollardDynamics(
-        np.ascontiguousarray(torque.T).reshape(*shape, 6),
-        np.ascontiguousarray(np.stack([one, two]).transpose(2, 0, 1)).reshape(*shape, 2, 3),
-        tau.reshape(*shape, 12),
+        found.torque.reshape(*shape, 6),
+        found.loop_force.reshape(*shape, 2, 3),
+        found.joint_force.reshape(*shape, 12),
     )
+
+
+def _empty(count: int) -> PollardDynamics:
+    return PollardDynamics(np.empty((count, 6)), np.empty((count, 2, 3)), np.empty((count, 12)))
+
+
+def _fill(
+    robot: Pollard,
+    angles: np.ndarray,
+    state: tuple[np.ndarray, np.ndarray, np.ndarray],
+    found: PollardDynamics,
+    first: int = 0,
+    *,
+    check: bool = False,
+) -> None:
+    """Torques and forces of contiguous stacks ``(n, 12)``, a few by floats, many in blocks.
+
+    Args:
+        robot: The robot.
+        angles: Those of the postures [rad], which may differ from q by whole turns.
+        state: Angles, rates, accelerations.
+        found: Where to write.
+        first: Number of the first sample, for messages.
+        check: Whether to refuse what opens a ball joint.
+    """
+    geometry, torque, force = robot.geometry, found.torque, found.loop_force.reshape(-1, 6)
+    (q, v, a), every = state, pieces(len(angles))
+    if every and every[0][0] is FLOATS:
+        _tree_torques(robot, q, v, a, found.joint_force)
+    for xp, start, part in every:
+        if xp is not FLOATS:  # what stays in the cache is read again at once
+            _tree_torques(robot, q[part], v[part], a[part], found.joint_force[part])
+        known = Linkage.of(geometry, components(angles, part), xp)
+        if check:
+            rates, second = components(v, part), components(a, part)
+            refuse_open_loops(xp, geometry, known, rates, second, first + start)
+        here = loads(xp, geometry, known, components(found.joint_force, part), first + start)
+        put(torque, part, here.torque)
+        put(force, part, [*here.loop_force[0], *here.loop_force[1]])

@@ -2,95 +2,138 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from pollard_pin.kinematics.screws import Posture
+from pollard_pin.kinematics.geometry import Geometry, SideNumbers
+from pollard_pin.kinematics.linkage import Linkage, Three, in_arm
 from thesis_pin.errors import BadInput
-from thesis_pin.numeric.vectors import Vector, cross, dot
+from thesis_pin.numeric.elementwise import Elementwise, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 
-def refuse_open_loops(posture: Posture, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> None:
-    """Refuse motions ``(..., 12)`` that don't keep both ball joints together.
+def refuse_open_loops(
+    xp: Elementwise, geometry: Geometry, known: Linkage, v: Numbers, a: Numbers, first: int = 0
+) -> None:
+    """Refuse motions that don't keep both ball joints together.
+
+    Args:
+        xp: For floats or for arrays.
+        geometry: The robot's lengths.
+        known: Postures of one sample or of n.
+        v: Rates of the twelve joints [rad/s], floats or arrays ``(n,)``.
+        a: Their accelerations [rad/s²], likewise.
+        first: Number of the first sample, for messages.
 
     Raises:
         BadInput: A configuration, rate or acceleration opens a loop; says by how much.
     """
-    opening = np.linalg.norm(posture.opening, axis=-1)
-    if not (opening < TOLERANCES.loop_closure).all():
-        raise BadInput(
-            f"the configuration opens a ball joint by {float(opening.max()):.2e} m",
-            allowed=f"{TOLERANCES.loop_closure:.0e} m",
-            remedy="Use angles from inverse_kinematics or forward_kinematics",
-        )
-    rates, accelerations = (np.broadcast_to(x, q.shape).reshape(-1, 12).T for x in (v, a))
     for i in (0, 1):
-        swing = _Swing(posture, rates, i)
-        speed = 1.0 + np.abs(rates).max(axis=0)
-        _refuse(swing.gap_rate(), speed, f"the rates open ball joint {i + 1} at", "m/s", "rates")
-        size = speed**2 + np.abs(accelerations).max(axis=0)
-        gap = swing.gap_acceleration(accelerations)
-        _refuse(gap, size, f"the accelerations open ball joint {i + 1} at", "m/s²", "accelerations")
+        square = _square(_gap(geometry, known, i))
+        if _beyond(xp, square, TOLERANCES.loop_closure):
+            raise BadInput(
+                f"the configuration opens a ball joint by {float(np.sqrt(np.max(square))):.2e} m",
+                allowed=f"{TOLERANCES.loop_closure:.0e} m",
+                remedy="Use angles from inverse_kinematics or forward_kinematics",
+            )
+    for i in (0, 1):
+        for what, gap in zip(
+            ("rates", "accelerations"), _moving(geometry, known, v, a, i), strict=True
+        ):
+            # Below any limit, as nearly always, or to be held against the motion's size.
+            if _beyond(xp, _square(gap), TOLERANCES.loop_motion):
+                _refuse(gap, v, a, i, what, first)
 
 
-def _refuse(gap: Vector, size: np.ndarray, what: str, unit: str, name: str) -> None:
-    opening, limit = np.sqrt(dot(gap, gap)), TOLERANCES.loop_motion * size
+def _beyond(xp: Elementwise, square: Any, limit: float) -> bool:
+    """Whether some square passes that of a limit, or is none: NaN compares false."""
+    return xp.some(xp.where(square <= limit * limit, 0.0, 1.0) != 0.0)
+
+
+def _refuse(gap: Three, v: Numbers, a: Numbers, i: int, what: str, first: int) -> None:
+    rates, accelerations = (np.array([np.atleast_1d(one) for one in many]) for many in (v, a))
+    limit, unit = 1.0 + np.abs(rates).max(axis=0), "m/s"
+    if what == "accelerations":
+        limit, unit = limit**2 + np.abs(accelerations).max(axis=0), "m/s²"
+    opening, limit = np.sqrt(np.atleast_1d(_square(gap))), TOLERANCES.loop_motion * limit
     if not (opening <= limit).all():
         sample = int(np.argmax(~(opening <= limit)))
         raise BadInput(
-            f"{what} {opening[sample]:.2e} {unit}",
-            where=f"sample {sample}",
+            f"the {what} open ball joint {i + 1} at {opening[sample]:.2e} {unit}",
+            where=f"sample {first + sample}",
             allowed=f"{limit[sample]:.1e} {unit}",
-            remedy=f"Use the {name} of joint_motion",
+            remedy=f"Use the {what} of joint_motion",
         )
 
 
-class _Swing:
-    """Motion of both sides of ball joint i: its place on the forearm, and the rod's tip.
-
-    Args:
-        posture: Postures of n samples.
-        rates: Of the twelve joints [rad/s], shape ``(12, n)``.
-        i: 0 or 1.
-    """
-
-    def __init__(self, posture: Posture, rates: np.ndarray, i: int) -> None:
-        self.posture, self.k, self.i = posture, rates, i
-        k_21, k_65, _ = self.side = rates[6 + 3 * i : 9 + 3 * i]
-        self.pitch, self.yaw = posture.pitch_axes[i], posture.yaw_axes[i]
-        self.omega_b = k_65 * self.pitch + _along(2, k_21)
-        self.turn_axis = posture.forearm_axes[2]
-
-    def gap_rate(self) -> Vector:
-        """Velocity of the one relative to the other [m/s], ``(3, n)``."""
-        return self._gap(self.k)
-
-    def _gap(self, k: np.ndarray) -> Vector:
-        """What joint numbers k, rates or accelerations, do to the gap by themselves."""
-        posture, i = self.posture, self.i
-        k_21, k_65, k_76 = k[6 + 3 * i : 9 + 3 * i]
-        elbow = cross(_along(1, k[0]), posture.upper_arm)
-        omega = _along(1, k[0] + k[1]) + k[2] * self.turn_axis
-        turn = _along(2, k_21) + k_65 * self.pitch + k_76 * self.yaw
-        tip = cross(_along(2, k_21), posture.arms[i]) + cross(turn, posture.rods[i])
-        return np.asarray(elbow + cross(omega, posture.levers[i]) - tip)
-
-    def gap_acceleration(self, a: np.ndarray) -> Vector:
-        """Acceleration of the one relative to the other [m/s²], ``(3, n)``."""
-        posture, k, i = self.posture, self.k, self.i
-        k_21, k_65, k_76 = self.side
-        omega_f = _along(1, k[0] + k[1]) + k[2] * self.turn_axis
-        bend_f = (k[0] + k[1]) * k[2] * cross(_along(1, np.ones_like(k_21)), self.turn_axis)
-        anchor = cross(bend_f, posture.levers[i]) - k[0] ** 2 * posture.upper_arm
-        anchor = anchor + cross(omega_f, cross(omega_f, posture.levers[i]))
-        omega_u = self.omega_b + k_76 * self.yaw
-        bend_u = k_65 * cross(_along(2, k_21), self.pitch) + k_76 * cross(self.omega_b, self.yaw)
-        tip = cross(bend_u, posture.rods[i]) + cross(omega_u, cross(omega_u, posture.rods[i]))
-        return np.asarray(self._gap(a) + anchor - (tip - k_21**2 * posture.arms[i]))
+def _square(gap: Three) -> Any:
+    return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2]
 
 
-def _along(axis: int, values: np.ndarray) -> Vector:
-    """Vectors along a base axis: ``(n,)`` → ``(3, n)``."""
-    found = np.zeros((3, *values.shape))
-    found[axis] = values
-    return found
+def _gap(geometry: Geometry, known: Linkage, i: int) -> Three:
+    """Ball joint on the forearm minus rod tip, along, across and above the arm [m]."""
+    side, numbers = known.sides[i], geometry.sides[i]
+    x = geometry.x_32 * known.c21 + (known.c * side.lever_p + known.s * numbers.z)
+    y = side.lever_y - numbers.y_10
+    z = numbers.drop - geometry.x_32 * known.s21 + (known.c * numbers.z - known.s * side.lever_p)
+    return (
+        side.c21 * x + side.s21 * y - (numbers.arm + side.along),
+        side.c21 * y - side.s21 * x - side.across,
+        z - side.up,
+    )
+
+
+def _moving(
+    geometry: Geometry, known: Linkage, v: Numbers, a: Numbers, i: int
+) -> tuple[Three, Three]:
+    """First and second derivative of :func:`_gap`, seen from outside."""
+    side, numbers = known.sides[i], geometry.sides[i]
+    k_21, k_65, k_76 = v[6 + 3 * i : 9 + 3 * i]
+    along, b, d, span = side.along, side.b, side.d, side.span
+    # The rod as its arm sees it: a length across b that turns with θ65i and shrinks with θ76i.
+    shrink = -b * k_76 / span
+    rod_v = _tilted(numbers, along * shrink + d * k_65, k_76 * span, d * shrink - along * k_65)
+    a_21, a_65, a_76 = a[6 + 3 * i : 9 + 3 * i]
+    bend = -b * a_76 / span - k_76 * k_76 - k_65 * k_65
+    turn = a_65 + 2 * shrink * k_65
+    rod_a = _tilted(
+        numbers, along * bend + d * turn, a_76 * span - k_76 * k_76 * b, d * bend - along * turn
+    )
+    reach, across = numbers.arm + along, side.across
+    anchor_v, anchor_a = _anchor(geometry, known, v, a, i)
+    return (
+        (
+            anchor_v[0] - (rod_v[0] - k_21 * across),
+            anchor_v[1] - (rod_v[1] + k_21 * reach),
+            anchor_v[2] - rod_v[2],
+        ),
+        (
+            anchor_a[0] - (rod_a[0] - a_21 * across - k_21 * (2 * rod_v[1] + k_21 * reach)),
+            anchor_a[1] - (rod_a[1] + a_21 * reach + k_21 * (2 * rod_v[0] - k_21 * across)),
+            anchor_a[2] - rod_a[2],
+        ),
+    )
+
+
+def _tilted(numbers: SideNumbers, along: Any, b: Any, d: Any) -> Three:
+    """A vector along the arm, b and d along, across and above the arm."""
+    return along, numbers.c_54 * b - numbers.s_54 * d, numbers.s_54 * b + numbers.c_54 * d
+
+
+def _anchor(
+    geometry: Geometry, known: Linkage, v: Numbers, a: Numbers, i: int
+) -> tuple[Three, Three]:
+    """Velocity and acceleration of a ball joint on the forearm, in the axes of the arm."""
+    side, z = known.sides[i], geometry.sides[i].z
+    arm_p, arm_h = geometry.x_32 * known.c43, geometry.x_32 * known.s43
+    k_2, pitch, k_7 = v[0], v[0] + v[1], v[2]
+    p, y = side.lever_p, side.lever_y
+    velocity = (arm_h * k_2 + pitch * z - k_7 * y, k_7 * p, -arm_p * k_2 - pitch * p)
+    a_2, bend = a[0], a[0] + a[1]
+    acceleration = (
+        arm_h * a_2 - arm_p * k_2 * k_2 + bend * z - a[2] * y - (pitch * pitch + k_7 * k_7) * p,
+        a[2] * p - k_7 * k_7 * y,
+        -arm_p * a_2 - arm_h * k_2 * k_2 - bend * p + pitch * (2 * k_7 * y - pitch * z),
+    )
+    return in_arm(known, side, velocity), in_arm(known, side, acceleration)

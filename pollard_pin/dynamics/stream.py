@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pollard_pin.dynamics.inverse import PollardDynamics, inverse_dynamics
-from pollard_pin.kinematics.geometry import Branch
+from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
-from pollard_pin.motion.trajectory import joint_trajectory
+from pollard_pin.motion.trajectory import check_steps, joint_trajectory
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.elementwise import BLOCK, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -67,12 +67,17 @@ def torque_blocks(
     """
     time = finite_array("time", time, None)
     start = None if reference is None else vector("reference", reference, 12)
+    branch = DEFAULT_BRANCH if branch is None else branch
+    last: JointTrajectory | None = None
     for part in blocks(len(time), size):
-        # The sample before comes along, so that no jump hides between two blocks.
-        before = int(part.start > 0)
-        motion = path.at(time[part.start - before : part.stop])
-        solved = joint_trajectory(robot, motion, branch=branch, reference=start)
-        start = solved.q[-1]
-        some = slice(before, None)
-        motion, joints = motion.part(some), solved.part(some)
+        motion = path.at(time[part])
+        joints = joint_trajectory(robot, motion, branch=branch, reference=start)
+        if last is not None:  # so that no jump hides between two blocks
+            check_steps(robot, path, branch, _joined(last, joints.part(slice(0, 1))))
+        last, start = joints.part(slice(-1, None)), joints.q[-1]
         yield TorqueBlock(part.start, motion, joints, inverse_dynamics(robot, motion, joints))
+
+
+def _joined(one: JointTrajectory, other: JointTrajectory) -> JointTrajectory:
+    pairs = ((getattr(one, name), getattr(other, name)) for name in ("time", "q", "v", "a"))
+    return JointTrajectory(*(np.concatenate(pair) for pair in pairs))

@@ -16,7 +16,7 @@ from pollard_pin.coordinates import pose_from_placement
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.dynamics.three_motors import three_torques
 from pollard_pin.kinematics.geometry import Branch
-from pollard_pin.kinematics.rates import motion_rates
+from pollard_pin.kinematics.rates import stack_rates
 from pollard_pin.kinematics.singularity import rate_jacobian
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion
@@ -120,7 +120,7 @@ def judged(way: Way, tool: BodyMotion, near: Array, count: int) -> Judged:
     pose = pose_from_placement(tool.position, tool.rotation, near)
     solutions = robot.inverse_kinematics(pose, way.branch).require("path sample")
     posture, q = solutions.posture, solutions.angles
-    v, a = motion_rates(posture, tool)
+    v, a = stack_rates(robot.geometry, q, tool)
     dynamics = inverse_dynamics_at(robot, q, v, a, posture)
     torque = dynamics.torque
     if way.three:

@@ -106,6 +106,30 @@ def branch_labels(branches: object) -> tuple[Branch, ...]:
     return tuple(one_branch(branch) for branch in branches)
 
 
+class SideNumbers(NamedTuple):
+    """A side chain in floats, which cost less than entries of arrays.
+
+    Attributes:
+        x, y, z: Ball joint in the forearm's frame [m].
+        y_10: Base, signed [m].
+        drop: From the base's arm up to the shoulder of chain 0 [m].
+        arm, rod: x43 and x87 [m].
+        excess: arm² − rod² [m²].
+        c_54, s_54: Cosine and sine of β54.
+    """
+
+    x: float
+    y: float
+    z: float
+    y_10: float
+    drop: float
+    arm: float
+    rod: float
+    excess: float
+    c_54: float
+    s_54: float
+
+
 @dataclass(frozen=True)
 class Geometry:
     """Lengths and angles, with the side chains stacked.
@@ -140,21 +164,18 @@ class Geometry:
         return need_turns(self.lower, self.upper)
 
     @cached_property
-    def sides(self) -> tuple[tuple[float, ...], ...]:
-        """Each side chain's numbers as floats: anchor x, y, z, y_10, z_32, x_43, x_87, cβ, sβ."""
-        return tuple(
-            tuple(map(float, row))
-            for row in zip(
-                *self.anchors.T,
-                self.y_10,
-                self.z_32,
-                self.x_43,
-                self.x_87,
-                np.cos(self.beta_54),
-                np.sin(self.beta_54),
-                strict=True,
-            )
-        )
+    def excess(self) -> float:
+        """x32² − forearm² [m²]."""
+        return self.x_32**2 - self.forearm**2
+
+    @cached_property
+    def sides(self) -> tuple[SideNumbers, SideNumbers]:
+        """The side chains, number by number."""
+        excess = self.x_43**2 - self.x_87**2
+        lengths = (self.y_10, self.z_10 + self.z_32, self.x_43, self.x_87, excess)
+        turn = (np.cos(self.beta_54), np.sin(self.beta_54))
+        one, two = np.column_stack([self.anchors, *lengths, *turn]).tolist()
+        return SideNumbers(*one), SideNumbers(*two)
 
     @classmethod
     def of(cls, specification: Specification) -> Geometry:

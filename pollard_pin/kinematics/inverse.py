@@ -16,16 +16,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pollard_pin.kinematics.closed_form import ClosedForm
 from pollard_pin.kinematics.geometry import Branch, Geometry
+from pollard_pin.kinematics.linkage import Linkage
+from pollard_pin.kinematics.regular import singular
 from pollard_pin.kinematics.solutions import Solutions
 from thesis_pin.numeric.arrays import finite_array, spread, wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Number, blocks
-from thesis_pin.numeric.turns import fitted
+from thesis_pin.numeric.elementwise import (
+    ARRAYS,
+    FEW,
+    FLOATS,
+    Elementwise,
+    Number,
+    Numbers,
+    blocks,
+)
+from thesis_pin.numeric.turns import TURN, fitted
 from thesis_pin.tolerances import TOLERANCES
 
 _TRIED = 720
@@ -63,25 +74,27 @@ def inverse_kinematics(
     Raises:
         WrongShape, NotFinite: The pose isn't an array ``(..., 6)`` of finite numbers.
     """
-    target = finite_array("pose", pose, 6)
-    stack, count = target.shape[:-1], math.prod(target.shape[:-1])
-    flat = target.reshape(count, 6)
-    free = np.zeros((count, 12))
+    if not _is_pose(pose):
+        pose = finite_array("pose", pose, 6)
+    single = squeeze and reference is None and pose.ndim == 1 and len(branches) == 1
+    if single and (found := _one(geometry, pose, branches[0])) is not None:
+        return found
+    stack, count = pose.shape[:-1], pose.size // 6
+    flat, free = pose.reshape(count, 6), None
     if reference is not None:
         given = finite_array("reference", reference, 12)
         free = spread("reference", given, stack).reshape(count, 12)
     work = _few if count < FEW else _many
     angles, cosines, loose = work(geometry, flat, branches, free)
     for k in loose:
-        angles[k], cosines[k] = _members(geometry, flat[k], branches, free[k])
-    if (beyond := ~(np.abs(cosines).max(axis=-1) <= 1.0 + TOLERANCES.reach)).any():
-        angles[beyond] = np.nan
+        one = np.zeros(12) if free is None else free[k]
+        angles[k], cosines[k] = _members(geometry, flat[k], branches, one)
     if geometry.turned:
         angles = fitted(angles, geometry.lower, geometry.upper)
     shape: tuple[int, ...] = (*stack, len(branches))
-    target = target[..., None, :]
+    target = pose[..., None, :]
     if squeeze and len(branches) == 1:
-        shape, target = stack, target[..., 0, :]
+        shape, target = stack, pose
     return Solutions(
         geometry,
         tuple(branches),
@@ -91,42 +104,106 @@ def inverse_kinematics(
     )
 
 
+def _is_pose(pose: ArrayLike) -> TypeGuard[np.ndarray]:
+    """Whether it is one pose as it should be: a tenth of the time of the full check."""
+    if not isinstance(pose, np.ndarray) or pose.dtype.char != "d" or pose.shape != (6,):
+        return False
+    return math.isfinite(sum(pose.tolist()))
+
+
+_CLOSES = 1.0 + TOLERANCES.reach
+_NONE = (math.nan,) * 12
+ZERO = (0.0,) * 12
+
 _Solved = tuple[np.ndarray, np.ndarray, list[int]]
-"""Angles ``(n, branches, 12)``, cosines ``(n, branches, 3)``, poses with θ21 or θ43 free."""
+"""Angles ``(n, branches, 12)``, NaN where a chain doesn't close, cosines ``(n, branches, 3)``,
+and the poses with θ21 or θ43 free."""
+
+
+def _one(geometry: Geometry, pose: np.ndarray, branch: Branch) -> Solutions | None:
+    """One pose on one branch by floats; None where it takes a closer look."""
+    chunk = ClosedForm(FLOATS, geometry, pose.tolist(), ZERO)
+    found = chunk.solve(branch)
+    angles: tuple[Any, ...] = found.angles
+    one, two, three = found.cosines
+    if chunk.loose or geometry.turned or -math.pi in angles:
+        return None
+    if not (abs(one) <= _CLOSES and abs(two) <= _CLOSES and abs(three) <= _CLOSES):
+        angles = _NONE
+    both = np.array((*angles, one, two, three))
+    return Solutions(geometry, (branch,), pose, both[:12], both[12:])
 
 
 def _few(
-    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray
+    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray | None
 ) -> _Solved:
     """A few poses, by floats."""
-    numbers: list[Number] = []  # one list for all: an array costs more to begin than to fill
+    angles: list[Number] = []  # one list for all: an array costs more to begin than to fill
+    cosines: list[Number] = []
     loose: list[int] = []
-    for k, (pose, one) in enumerate(zip(poses.tolist(), free.tolist(), strict=True)):
-        chunk = ClosedForm(FLOATS, geometry, pose, one)
-        for branch in branches:
-            angles, cosines = chunk.solve(branch)
-            numbers += angles
-            numbers += cosines
+    for k, pose in enumerate(poses.tolist()):
+        chunk = ClosedForm(FLOATS, geometry, pose, ZERO if free is None else free[k].tolist())
+        every = chunk.every(branches) if len(branches) > 1 else (chunk.solve(branches[0]),)
+        for found in every:
+            cosine = found.cosines
+            closed = all(-_CLOSES <= one <= _CLOSES for one in cosine)
+            angles += found.angles if closed else _NONE
+            cosines += cosine
         if chunk.loose:
             loose.append(k)
-    rows = np.array(numbers).reshape(len(poses), len(branches), 15)
-    return wrap(rows[..., :12]), rows[..., 12:], loose
+    shape = (len(poses), len(branches))
+    rows = half_open(np.array(angles)).reshape(*shape, 12)
+    return rows, np.array(cosines).reshape(*shape, 3), loose
+
+
+def half_open(angles: np.ndarray) -> np.ndarray:
+    """Arctangents in (−π, π], in place: of −0.0 they make −π."""
+    if not angles.min(initial=0.0) > -np.pi:
+        angles[angles <= -np.pi] += TURN
+    return angles
 
 
 def _many(
-    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray
+    geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray | None
 ) -> _Solved:
     """Many poses, by arrays, in blocks."""
     count, loose = len(poses), []
     angles, cosines = np.empty((count, len(branches), 12)), np.empty((count, len(branches), 3))
     for part in blocks(count):
-        chunk = ClosedForm(ARRAYS, geometry, np.ascontiguousarray(poses[part].T), free[part].T)
-        for b, branch in enumerate(branches):
-            found, cosine = chunk.solve(branch)
-            angles[part, b] = wrap(np.array(found)).T
-            cosines[part, b] = np.array(cosine).T
+        kept = np.broadcast_to(0.0, (12, 1)) if free is None else free[part].T
+        chunk = ClosedForm(ARRAYS, geometry, np.ascontiguousarray(poses[part].T), kept)
+        for b, found in enumerate(chunk.every(branches)):
+            rows, cosine = half_open(np.array(found.angles)), np.array(found.cosines)
+            beyond = ~(np.abs(cosine).max(axis=0) <= _CLOSES)
+            if beyond.any():
+                rows[:, beyond] = np.nan
+            angles[part, b], cosines[part, b] = rows.T, cosine.T
         loose += (part.start + np.flatnonzero(chunk.loose)).tolist()
     return angles, cosines, loose
+
+
+def usual(
+    xp: Elementwise, geometry: Geometry, pose: Numbers, branch: Branch
+) -> tuple[Numbers, Numbers, Linkage] | None:
+    """Angles, cosines and linkage of some poses; None where one takes a closer look.
+
+    Usual is what is reachable and regular; joint limits are for the caller to look at.
+
+    Args:
+        xp: For floats or for arrays.
+        geometry: The robot's lengths.
+        pose: Six numbers (x, y, z, ψ, θ, φ), floats or arrays ``(n,)``.
+        branch: Label.
+    """
+    chunk = ClosedForm(xp, geometry, pose, ZERO)
+    found = chunk.solve(branch)
+    known, angles = found.linkage, found.angles
+    # A chain that doesn't close, or only just, has a vanishing sine.
+    if xp.some(chunk.loose) or singular(xp, geometry, known):
+        return None
+    if xp is FLOATS:
+        return None if -math.pi in angles else (angles, found.cosines, known)
+    return half_open(np.array(angles)), found.cosines, known
 
 
 def _members(

@@ -1,71 +1,193 @@
-"""Exact joint rates and accelerations from the tool's motion, by screw geometry.
+"""Exact joint rates and accelerations from the tool's motion, in the axes of the links.
 
-Every joint's rate is one scalar product away: a vector that is orthogonal to
-what the other joints can do. Rates and accelerations share the solver
-(:func:`_solve`); accelerations only subtract what the rates alone produce.
+Every joint's rate is a division away once the motion is seen in the axes of its own link
+(:mod:`pollard_pin.kinematics.linkage`): there what the other joints do to it vanishes. Rates
+and accelerations share the solver; accelerations only subtract what the rates alone produce.
 
-Symbols: k_2, k_6, k_7, k_12, k_18, k_25 and k_21i, k_65i, k_76i are the rates of
-θ21, θ43, θ54, θ1615, θ1716, θ1817, θ21i, θ65i, θ76i. The thesis gives them as
-rows of coefficients V, E, G (2.5, 2.6, 2.8, 2.9); the forms here are shorter and
-need none of those.
-
-Arrays are (3, …, n), components first, sample last; an axis in between holds
-several motions of the same posture (the columns of a Jacobian).
+Symbols: k_2, k_7, k_12, k_18, k_25 and k_21, k_65, k_76 are the rates of θ21, θ54, θ1615,
+θ1716, θ1817 and θ21i, θ65i, θ76i; ``pitch`` is the sum of those of θ21 and θ43. The thesis
+gives them as rows of coefficients V, E, G (2.5, 2.6, 2.8, 2.9); the forms here are shorter
+and need none of those.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
 import numpy as np
 
-from pollard_pin.kinematics.screws import Posture
-from thesis_pin.errors import SingularPose
+from pollard_pin.kinematics.geometry import Geometry, SideNumbers
+from pollard_pin.kinematics.linkage import (
+    Linkage,
+    Side,
+    Three,
+    in_arm,
+    in_plane,
+    off_forearm,
+    on_forearm,
+)
+from pollard_pin.kinematics.regular import check_regular
+from thesis_pin.numeric.elementwise import (
+    Samples,
+    components,
+    pieces,
+    put,
+)
 from thesis_pin.numeric.trajectory import BodyMotion
-from thesis_pin.numeric.vectors import Vector, cross, dot, rows
-from thesis_pin.tolerances import TOLERANCES
-
-_EY = np.array([0.0, 1.0, 0.0])
 
 
-def _y_cross(v: Vector) -> Vector:
-    """ey × v."""
-    return np.stack([v[2], np.zeros_like(v[0]), -v[0]])
+class _Tip(NamedTuple):
+    """Parts of the rod's motion as its arm sees it: along, across and above it, and along d."""
+
+    along: Any
+    across: Any
+    up: Any
+    d: Any
 
 
-def _z_cross(v: Vector) -> Vector:
-    """ez × v."""
-    return np.stack([-v[1], v[0], np.zeros_like(v[0])])
+class _Spans(NamedTuple):
+    """Lengths of chain 0 along the axes of its plane [m]: forearm p, y; upper arm p, h."""
+
+    forearm_p: Any
+    forearm_y: Any
+    arm_p: Any
+    arm_h: Any
 
 
-def _scaled(k: np.ndarray, v: Vector) -> Vector:
-    return np.asarray(k * (v if v.ndim > k.ndim else v[:, None]))
-
-
-def check_regular(posture: Posture, time: np.ndarray | None = None, first: int = 0) -> None:
-    """Refuse postures in which rates don't exist.
+def joint_rates(
+    geometry: Geometry, known: Linkage, velocity: Three, omega: Three
+) -> tuple[Any, ...]:
+    """Rates of the twelve joints.
 
     Args:
-        posture: The postures.
-        time: Their times [s], for the message.
-        first: Number of the first of them, for the message.
+        geometry: The robot's lengths.
+        known: Closed, regular postures.
+        velocity: Of the spray tip [m/s], world axes; arrays may have axes before the sample's.
+        omega: Angular velocity of the tool [rad/s], likewise.
 
-    Raises:
-        SingularPose: Names the first one and the direction that is lost.
+    Returns:
+        Twelve rates [rad/s].
     """
-    sines = posture.serial_sines.reshape(-1, len(Posture.SERIAL_NAMES))
-    lost = np.abs(sines) < TOLERANCES.near_singular
-    if lost.any():
-        sample, which = (int(k) for k in np.argwhere(lost)[0])
-        raise SingularPose(
-            f"rates don't exist: {Posture.SERIAL_NAMES[which]} (sine {sines[sample, which]:.1e})",
-            where=(f"pose {first + sample}" if first or len(sines) > 1 else "pose")
-            + ("" if time is None else f" at t = {time[sample]:.6g} s"),
-            allowed=f"sines above {TOLERANCES.near_singular:.0e}",
-            remedy="Move the path away from this posture, or choose another branch",
+    return _Rates(geometry, known, velocity, omega).rates
+
+
+class _Rates:
+    """Rates of a motion, and what the accelerations need of them."""
+
+    def __init__(
+        self, geometry: Geometry, known: Linkage, velocity: Sequence[Any], omega: Sequence[Any]
+    ) -> None:
+        self.geometry, self.known = geometry, known
+        upper, length = geometry.x_32, geometry.forearm
+        self.spans = _Spans(
+            length * known.c54, length * known.s54, upper * known.c43, upper * known.s43
+        )
+        self.omega = on_forearm(known, in_plane(known, omega))
+        self.turned = cross(self.omega, known.tool)
+        wrist = _less(in_plane(known, velocity), geometry.x_1918, off_forearm(known, self.turned))
+        self.chain = _chain(known, self.spans, wrist, self.omega)
+        k_2, pitch, k_7 = self.chain[:3]
+        # Velocity of the elbow along p, and against h.
+        self.push, self.lift = self.spans.arm_h * k_2, self.spans.arm_p * k_2
+        self.tips, sides = [], []
+        for side, numbers in zip(known.sides, geometry.sides, strict=True):
+            tip = in_arm(known, side, self._anchor(side, numbers, self.push, self.lift, pitch, k_7))
+            k_21, moved = _arm(side, numbers, *tip)
+            self.tips.append(moved)
+            sides += [k_21, *_rod(side, numbers, moved)]
+        self.rates = _joints(self.chain, sides)
+
+    def _anchor(
+        self, side: Side, numbers: SideNumbers, push: Any, lift: Any, pitch: Any, k_7: Any
+    ) -> Three:
+        """What chain 0 does to a ball joint on the forearm, along p, y, h."""
+        return (
+            push + (pitch * numbers.z - k_7 * side.lever_y),
+            k_7 * side.lever_p,
+            -lift - pitch * side.lever_p,
+        )
+
+    def accelerations(self, acceleration: Sequence[Any], alpha: Sequence[Any]) -> tuple[Any, ...]:
+        """Accelerations of the twelve joints [rad/s²] for those of the tool."""
+        geometry, known, spans = self.geometry, self.known, self.spans
+        k_2, pitch, k_7, k_12, k_18, k_25 = self.chain
+        c3, s3 = known.c1615, known.s1615
+        both, bent, turned = pitch * k_7, k_7 * k_7, pitch * pitch
+        all_of_it = bent + turned
+        elbow_p, elbow_h = k_2 * self.lift, k_2 * self.push
+        alpha = on_forearm(known, in_plane(known, alpha))
+        pull = _plus(cross(alpha, known.tool), cross(self.omega, self.turned))
+        p, y, h = _less(in_plane(known, acceleration), geometry.x_1918, off_forearm(known, pull))
+        wrist = (
+            p + (elbow_p + all_of_it * spans.forearm_p),
+            y + bent * spans.forearm_y,
+            h + (elbow_h - 2 * both * spans.forearm_y),
+        )
+        # What the wrist's rates alone accelerate; the forearm turns by (roll, g, k_7).
+        swing = pitch * known.c54
+        roll = pitch * known.s54 + k_12
+        spin = (
+            alpha[0] - (both * known.c54 + k_18 * (swing * c3 + k_7 * s3) + k_25 * self.turned[0]),
+            alpha[1] - (k_12 * k_7 - both * known.s54 - k_18 * roll * c3 + k_25 * self.turned[1]),
+            alpha[2] + (k_12 * swing + k_18 * roll * s3 - k_25 * self.turned[2]),
+        )
+        chain = _chain(known, spans, wrist, spin)
+        push, lift = spans.arm_h * chain[0] - elbow_p, spans.arm_p * chain[0] + elbow_h
+        sides: list[Any] = []
+        for i, (side, numbers) in enumerate(zip(known.sides, geometry.sides, strict=True)):
+            p, y, h = self._anchor(side, numbers, push, lift, chain[1], chain[2])
+            anchor = (
+                p - all_of_it * side.lever_p,
+                y - bent * side.lever_y,
+                h + (2 * both * side.lever_y - turned * numbers.z),
+            )
+            sides += self._side(i, in_arm(known, side, anchor))
+        return _joints(chain, sides)
+
+    def _side(self, i: int, tip: Three) -> tuple[Any, Any, Any]:
+        """Accelerations of a side chain whose ball joint accelerates by ``tip``."""
+        side, numbers, before = self.known.sides[i], self.geometry.sides[i], self.tips[i]
+        k_21, k_65, k_76 = self.rates[6 + 3 * i : 9 + 3 * i]
+        # As the turning arm sees it: Coriolis and centrifugal parts; the rod keeps its length.
+        along = tip[0] + k_21 * (2 * before.across + k_21 * (numbers.arm + side.along))
+        across = tip[1] + k_21 * (k_21 * side.across - 2 * before.along)
+        speed = before.along * before.along + before.across * before.across + before.up * before.up
+        first, moved = _arm(side, numbers, along, across, tip[2], speed)
+        second, third = _rod(side, numbers, moved)
+        growth = side.along * before.along + side.d * before.d
+        return (
+            first,
+            second - 2 * k_65 * growth / (side.span * side.span),
+            third + k_76 * k_76 * side.b / side.span,
         )
 
 
 def motion_rates(
-    posture: Posture,
+    geometry: Geometry, known: Linkage, tool: BodyMotion, piece: Samples | int
+) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+    """Rates and accelerations of the twelve joints at a piece of a motion of the tool.
+
+    Args:
+        geometry: The robot's lengths.
+        known: Closed, regular postures of the piece.
+        tool: The tool's motion; its position is that of the spray tip.
+        piece: One sample, of floats, or some, of arrays.
+
+    Returns:
+        Twelve rates [rad/s] and twelve accelerations [rad/s²].
+    """
+    velocity, omega, acceleration, alpha = (
+        (*components(stack, piece),)
+        for stack in (tool.velocity, tool.omega, tool.acceleration, tool.alpha)
+    )
+    found = _Rates(geometry, known, velocity, omega)
+    return found.rates, found.accelerations(acceleration, alpha)
+
+
+def stack_rates(
+    geometry: Geometry,
+    angles: np.ndarray,
     tool: BodyMotion,
     time: np.ndarray | None = None,
     *,
@@ -74,7 +196,8 @@ def motion_rates(
     """Rates and accelerations of the twelve joints of a motion of the tool.
 
     Args:
-        posture: Closed postures of n samples.
+        geometry: The robot's lengths.
+        angles: Closed configurations [rad], shape ``(n, 12)``.
         tool: The tool's motion there; its position is that of the spray tip.
         time: Their times [s], for the message.
         first: Number of the first of them, for the message.
@@ -85,146 +208,62 @@ def motion_rates(
     Raises:
         SingularPose: Rates don't exist at some sample.
     """
-    check_regular(posture, time, first)
-    vectors = (tool.velocity, tool.acceleration, tool.omega, tool.alpha)
-    velocity, acceleration, omega, alpha = (rows(x) for x in vectors)
-    arm = posture.geometry.x_1918 * posture.tool_axes[0]
-    v = joint_rates(posture, velocity - cross(omega, arm), omega)
-    pull = cross(alpha, arm) + cross(omega, cross(omega, arm))
-    a = joint_accelerations(posture, v, acceleration - pull, alpha)
-    return v.T, a.T
+    both = np.empty((2, *angles.shape))
+    for xp, start, piece in pieces(len(angles)):
+        known = Linkage.of(geometry, components(angles, piece), xp)
+        check_regular(geometry, known, None if time is None else time[start:], first + start, xp)
+        for stack, numbers in zip(both, motion_rates(geometry, known, tool, piece), strict=True):
+            put(stack, piece, numbers)
+    return both[0], both[1]
 
 
-def tool_twist(posture: Posture, psi_theta: np.ndarray, rate: np.ndarray) -> tuple[Vector, Vector]:
-    """Velocity of the wrist centre and angular velocity of the tool.
+def cross(a: Three, b: Three) -> Three:
+    """a × b, component by component."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
-    Args:
-        posture: The posture.
-        psi_theta: ψ and θ [rad], shape ``(2, n)``.
-        rate: Rates of (x, y, z, ψ, θ, φ), shape ``(6, ..., n)``.
 
-    Returns:
-        Ẇ [m/s] and ω [rad/s], each ``(3, ..., n)``.
+def _plus(a: Three, b: Three) -> Three:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def _less(a: Three, k: float, b: Three) -> Three:
+    """a − k b."""
+    return a[0] - k * b[0], a[1] - k * b[1], a[2] - k * b[2]
+
+
+def _chain(known: Linkage, spans: _Spans, wrist: Three, spin: Three) -> tuple[Any, ...]:
+    """θ21, the pitch, θ54 and the three wrist joints, from the wrist centre's motion and a turn.
+
+    ``wrist`` lies along p, y, h, ``spin`` along f, g, h.
     """
-    x, y, z = _euler_axes(psi_theta)
-    omega = _scaled(rate[4], x) + _scaled(rate[3], y) + _scaled(rate[5], z)
-    arm = posture.geometry.x_1918 * posture.tool_axes[0]
-    return rate[:3] - cross(omega, arm), omega
+    p, y, h = wrist
+    k_7 = y / spans.forearm_p
+    k_2 = (p + k_7 * spans.forearm_y) / spans.arm_h
+    pitch = -(h + k_2 * spans.arm_p) / spans.forearm_p
+    f, g, h = spin[0] - pitch * known.s54, spin[1] - pitch * known.c54, spin[2] - k_7
+    k_25 = (known.c1615 * g + known.s1615 * h) / known.bend
+    return k_2, pitch, k_7, f - known.tool[0] * k_25, known.c1615 * h - known.s1615 * g, k_25
 
 
-def _euler_axes(psi_theta: np.ndarray) -> tuple[Vector, Vector, Vector]:
-    """World axes of θ, ψ and φ."""
-    (cp, ct), (sp, st) = np.cos(psi_theta), np.sin(psi_theta)
-    zero, one = np.zeros_like(cp), np.ones_like(cp)
-    return (
-        np.stack([one, zero, zero]),
-        np.stack([zero, ct, st]),
-        np.stack([sp, -st * cp, ct * cp]),
-    )
+def _arm(
+    side: Side, numbers: SideNumbers, along: Any, across: Any, up: Any, speed: Any = 0.0
+) -> tuple[Any, _Tip]:
+    """θ21i, which keeps the rod's length, and what is left for the rod's own joints."""
+    push = side.along * along + side.across * across + side.up * up + speed
+    k_21 = push / (numbers.arm * side.across)
+    along = along + k_21 * side.across
+    across = across - k_21 * (numbers.arm + side.along)
+    return k_21, _Tip(along, across, up, numbers.c_54 * up - numbers.s_54 * across)
 
 
-def joint_rates(posture: Posture, wrist: Vector, omega: Vector) -> np.ndarray:
-    """Rates of the twelve joints.
-
-    Args:
-        posture: A closed, regular posture.
-        wrist: Velocity of the wrist centre [m/s], shape ``(3, ..., n)``.
-        omega: Angular velocity of the tool [rad/s], shape ``(3, ..., n)``.
-
-    Returns:
-        Rates [rad/s], shape ``(12, ..., n)``.
-    """
-    still = np.zeros((3,) + (1,) * (wrist.ndim - 1))
-    return _solve(posture, wrist, omega, (still, still))
+def _rod(side: Side, numbers: SideNumbers, tip: _Tip) -> tuple[Any, Any]:
+    """θ65i and θ76i."""
+    b = numbers.c_54 * tip.across + numbers.s_54 * tip.up
+    turn = (side.d * tip.along - side.along * tip.d) / (side.span * side.span)
+    return turn, b / side.span
 
 
-def joint_accelerations(
-    posture: Posture, rates: np.ndarray, wrist: Vector, alpha: Vector
-) -> np.ndarray:
-    """Accelerations of the twelve joints.
-
-    Args:
-        posture: A closed, regular posture.
-        rates: Rates of the twelve joints [rad/s], shape ``(12, n)``.
-        wrist: Acceleration of the wrist centre [m/s²], shape ``(3, n)``.
-        alpha: Angular acceleration of the tool [rad/s²], shape ``(3, n)``.
-
-    Returns:
-        Accelerations [rad/s²], shape ``(12, n)``.
-    """
-    f, _, h = posture.forearm_axes
-    n, tool = posture.roll_axis, posture.tool_axes[0]
-    k_2, k_12, k_18, k_25 = rates[0], rates[3], rates[4], rates[5]
-    pitch = k_2 + rates[1]
-    omega_f = pitch * _EY[:, None] + rates[2] * h
-    bias_alpha = pitch * rates[2] * _y_cross(h)
-    bias_elbow = -(k_2 * k_2) * posture.upper_arm
-
-    def carried(lever: Vector) -> Vector:
-        """What the rates alone accelerate at a point of the forearm."""
-        return np.asarray(
-            bias_elbow + cross(bias_alpha, lever) + cross(omega_f, cross(omega_f, lever))
-        )
-
-    omega_1 = omega_f + k_12 * f
-    omega_2 = omega_1 + k_18 * n
-    bias_tool = bias_alpha + k_12 * cross(omega_f, f) + k_18 * cross(omega_1, n)
-    bias_tool = bias_tool + k_25 * cross(omega_2, tool)
-    anchors, rods = [], []
-    for i in (0, 1):
-        k_21, k_65, k_76 = rates[6 + 3 * i : 9 + 3 * i]
-        b, g, u = posture.pitch_axes[i], posture.yaw_axes[i], posture.rods[i]
-        omega_b = k_65 * b
-        omega_b[2] += k_21
-        omega_u = omega_b + k_76 * g
-        alpha_u = k_65 * k_21 * _z_cross(b) + k_76 * cross(omega_b, g)
-        swing = cross(alpha_u, u) + cross(omega_u, cross(omega_u, u))
-        rods.append(swing - k_21 * k_21 * posture.arms[i])
-        anchors.append(carried(posture.levers[i]))
-    forearm = posture.geometry.forearm
-    side_bias = (anchors[0] - rods[0], anchors[1] - rods[1])
-    return _solve(posture, wrist - carried(forearm * f), alpha - bias_tool, side_bias)
-
-
-def _solve(
-    posture: Posture,
-    wrist: Vector,
-    omega: Vector,
-    side_bias: tuple[Vector, Vector],
-) -> np.ndarray:
-    """The linear system that rates and accelerations share.
-
-    Finds twelve numbers so that, moved by them, the wrist centre gains ``wrist``,
-    the tool turns by ``omega`` and each rod tip gains what its ball joint on the
-    forearm gains plus ``side_bias``.
-    """
-    length = posture.geometry.forearm
-    f, g, h = posture.forearm_axes
-    swing = _y_cross(posture.upper_arm)  # what θ21 does to the elbow
-    across = _y_cross(f)  # size cos θ54, in the plane of chain 0
-    k_2 = dot(f, wrist) / dot(f, swing)
-    rest = wrist - _scaled(k_2, swing)
-    pitch = dot(across, rest) / (length * dot(across, across))
-    k_7 = dot(g, rest) / length
-    omega_f = _scaled(k_7, h)
-    omega_f[1] = omega_f[1] + pitch
-
-    n, tool = posture.roll_axis, posture.tool_axes[0]
-    m = cross(n, f)
-    turn = omega - omega_f
-    k_25 = dot(turn, m) / dot(tool, m)
-    k_12 = dot(turn, f) - dot(tool, f) * k_25
-    result = [k_2, pitch - k_2, k_7, k_12, dot(turn, n), k_25]
-
-    for i in (0, 1):
-        tip = _scaled(k_2, swing) + cross(omega_f, posture.levers[i]) + side_bias[i]
-        arm, u = posture.arms[i], posture.rods[i]
-        b, yaw = posture.pitch_axes[i], posture.yaw_axes[i]
-        k_21 = dot(u, tip) / dot(u, _z_cross(arm))
-        tip = tip - _scaled(k_21, _z_cross(arm + u))
-        # θ65i moves the tip along −yaw by the rod's length across its axis.
-        b_u, yaw_u = cross(b, u), cross(yaw, u)
-        k_65 = dot(yaw, tip) / dot(yaw, b_u)
-        k_76 = dot(b, tip) / dot(b, yaw_u)
-        result += [k_21, k_65, k_76]
-    return np.stack(np.broadcast_arrays(*result))
+def _joints(chain: tuple[Any, ...], sides: list[Any]) -> tuple[Any, ...]:
+    """Numbers of the twelve joints, in their order."""
+    k_2, pitch, k_7, *wrist = chain
+    return (k_2, pitch - k_2, k_7, *wrist, *sides)

@@ -10,11 +10,13 @@ Source: Pollard thesis, 2.4, 2.7 (transformations), 3.2 (joint axes).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 
 from pollard_pin.kinematics.geometry import Geometry
+from pollard_pin.kinematics.linkage import Linkage
 from thesis_pin.numeric.elementwise import cosine_sine
 from thesis_pin.numeric.rotations import rotation
 from thesis_pin.numeric.vectors import Vector, cross, dot
@@ -89,6 +91,11 @@ class Posture:
             (levers[0], levers[1]),
             *((first, other) for first, other in zip(*sides, strict=True)),
         )
+
+    @cached_property
+    def linkage(self) -> Linkage:
+        """The same in the axes of the links."""
+        return Linkage.of(self.geometry, self.angles)
 
     def _out(self, vector: np.ndarray) -> np.ndarray:
         """Components last, stacked as the angles came."""

@@ -17,12 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from pollard_pin.kinematics.geometry import Geometry
-from pollard_pin.kinematics.rates import joint_rates, tool_twist
+from pollard_pin.kinematics.rates import joint_rates
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import ACTUATORS
 from thesis_pin.errors import SingularPose
-from thesis_pin.numeric.elementwise import blocks
-from thesis_pin.numeric.vectors import cross
+from thesis_pin.numeric.elementwise import blocks, cosine_sine
 
 LENGTH = 0.1
 """Length [m] that lengths are divided by before a condition number is taken."""
@@ -35,21 +34,24 @@ def rate_jacobian(posture: Posture, pose: np.ndarray) -> np.ndarray:
         posture: Closed, regular posture.
         pose: Its poses (x, y, z, ψ, θ, φ), shape ``(..., 6)``.
     """
-    flat = pose.reshape(-1, 6)
-    units = np.broadcast_to(np.eye(6)[:, :, None], (6, 6, len(flat)))
-    wrist, omega = tool_twist(posture, flat[:, 3:5].T, units)
-    rates = joint_rates(posture, wrist, omega)
-    return np.ascontiguousarray(rates.transpose(2, 0, 1)).reshape(*pose.shape[:-1], 12, 6)
+    psi, theta = pose.reshape(-1, 6)[:, 3:5].T
+    (cp, sp), (ct, st) = cosine_sine(psi), cosine_sine(theta)
+    still, one = np.zeros(cp.shape), np.ones(cp.shape)
+    # World axes of ψ, θ and φ, which turn in the order θ, ψ, φ.
+    axes = np.array([[still, ct, st], [one, still, still], [sp, -st * cp, ct * cp]])
+    turns = np.concatenate([np.zeros((3, 3, len(cp))), axes]).swapaxes(0, 1)
+    return _jacobian(posture, _VELOCITIES, turns)
 
 
 def twist_jacobian(posture: Posture) -> np.ndarray:
     """Rates of the twelve joints over the tool's twist (v of the tip, ω), ``(..., 12, 6)``."""
-    count = posture.angles.shape[1]
-    units = np.broadcast_to(np.eye(6)[:, :, None], (6, 6, count))
-    arm = posture.geometry.x_1918 * posture.tool_axes[0]
-    wrist = units[:3] - cross(units[3:], arm)
-    rates = joint_rates(posture, wrist, units[3:])
-    return np.ascontiguousarray(rates.transpose(2, 0, 1)).reshape(*posture.shape, 12, 6)
+    return _jacobian(posture, _VELOCITIES, _TURNS)
+
+
+_NONE, _UNITS = np.zeros((3, 3)), np.eye(3)
+_VELOCITIES = np.concatenate([_UNITS, _NONE], axis=1)[:, :, None]
+_TURNS = np.concatenate([_NONE, _UNITS], axis=1)[:, :, None]
+"""Units along the world's axes, components first: the tip moves, or the tool turns."""
 
 
 def base_rows(posture: Posture) -> np.ndarray:
@@ -58,11 +60,17 @@ def base_rows(posture: Posture) -> np.ndarray:
     Returns:
         [rad/s per m/s], shape ``(..., 3, 3)``.
     """
-    count = posture.angles.shape[1]
-    units = np.broadcast_to(np.eye(3)[:, :, None], (3, 3, count))
-    rates = joint_rates(posture, units, np.zeros((3, 3, 1)))
-    rows = rates[list(ACTUATORS[:3])].transpose(2, 0, 1)
-    return np.ascontiguousarray(rows).reshape(*posture.shape, 3, 3)
+    every = _jacobian(posture, _VELOCITIES[:, :3], _VELOCITIES[:, 3:])
+    return every[..., list(ACTUATORS[:3]), :]
+
+
+def _jacobian(posture: Posture, velocity: np.ndarray, omega: np.ndarray) -> np.ndarray:
+    """Rates for several motions of the tool, each ``(3, k, n)``; shape ``(..., 12, k)``."""
+    known = posture.linkage
+    rates = joint_rates(posture.geometry, known, (*velocity,), (*omega,))
+    whole = np.stack(np.broadcast_arrays(*rates, known.c21)[:12])
+    by_sample = np.ascontiguousarray(whole.transpose(2, 0, 1))
+    return by_sample.reshape(*posture.shape, *by_sample.shape[1:])
 
 
 @dataclass(frozen=True)

@@ -83,12 +83,12 @@ def appendix_b(
 
 def _appendix_b_curve(origin: np.ndarray, s: np.ndarray) -> Sampled:
     u, span = _REACH * (2 * s - 1), 2 * _REACH
-    value, first, second = np.zeros((3, len(s), 3))
-    value[:, 0], value[:, 1] = -0.001 * u**2, u
-    value[:, 2] = 100 * np.sin(0.3 * u)
-    first[:, 0], first[:, 1], first[:, 2] = -0.002 * u, 1.0, 30 * np.cos(0.3 * u)
-    second[:, 0], second[:, 2] = -0.002, -9 * np.sin(0.3 * u)
-    points = value * _MM + origin[:3], first * (_MM * span), second * (_MM * span**2)
+    value, first, second = np.zeros((3, 3, len(s)))  # components first: each is one array
+    value[0], value[1], value[2] = -0.001 * u**2, u, 100 * np.sin(0.3 * u)
+    first[0], first[1], first[2] = -0.002 * u, 1.0, 30 * np.cos(0.3 * u)
+    second[0], second[2] = -0.002, -0.09 * value[2]
+    value, first, second = value * _MM, first * (_MM * span), second * (_MM * span**2)
+    points = value.T + origin[:3], first.T, second.T
     rotation, *rates = turning(pose_rotation(origin), np.zeros(3), s)
     return BodyMotion(rotation, *points, *rates), np.broadcast_to(origin[3:], (len(s), 3))
 

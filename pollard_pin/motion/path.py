@@ -219,12 +219,12 @@ def driven(
     """A curve over s, driven by s(t): the tool's motion over time, by the chain rule."""
     s, ds, dds = law(time)
     tool, near = curve(s)
-    ds, dds = ds[:, None], dds[:, None]
+    square = ds * ds
     moved = replace(
         tool,
-        velocity=tool.velocity * ds,
-        acceleration=tool.acceleration * ds**2 + tool.velocity * dds,
-        omega=tool.omega * ds,
-        alpha=tool.alpha * ds**2 + tool.omega * dds,
+        velocity=(tool.velocity.T * ds).T,
+        acceleration=(tool.acceleration.T * square + tool.velocity.T * dds).T,
+        omega=(tool.omega.T * ds).T,
+        alpha=(tool.alpha.T * square + tool.omega.T * dds).T,
     )
     return moved, near

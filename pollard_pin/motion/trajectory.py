@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
-from pollard_pin.kinematics.rates import check_regular, motion_rates
-from pollard_pin.kinematics.screws import Posture
+from pollard_pin.kinematics.inverse import usual
+from pollard_pin.kinematics.linkage import Linkage
+from pollard_pin.kinematics.rates import motion_rates, stack_rates
+from pollard_pin.kinematics.regular import check_regular
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
@@ -18,7 +20,16 @@ from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import LONG, Samples, blocks, intervals
+from thesis_pin.numeric.elementwise import (
+    FEW,
+    LONG,
+    Samples,
+    blocks,
+    components,
+    intervals,
+    pieces,
+    put,
+)
 from thesis_pin.numeric.long import LongTrajectory
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.turns import TURN, started, unwound
@@ -78,51 +89,105 @@ def joint_trajectory(
     instance("robot", robot, Pollard, "pollard_pin.load()")
     instance("motion", motion, ToolMotion, "ToolPath.sample()")
     branch = DEFAULT_BRANCH if branch is None else one_branch(branch)
-    path = motion.path
     start = None if reference is None else vector("reference", reference, 12)
     joints = _solve(robot, motion, branch, start)
+    check_steps(robot, motion.path, branch, joints)
+    if joints.q is not joints.solutions.angles:  # which keep them
+        _check_limits(robot, motion.time, joints.q)
+    return joints
+
+
+def check_steps(
+    robot: Pollard, path: ToolPath | None, branch: Branch, joints: JointTrajectory
+) -> None:
+    """Refuse a motion that crosses a serial singularity between two samples.
+
+    Raises:
+        SingularPose: An angle changes much more than its rate says, and the path, looked at
+            more closely, breaks there.
+    """
+    time = joints.time
     for k, joint, change in _suspicious(joints):
-        if path is None or _breaks(robot, path, motion.time[k : k + 2], branch):
+        if path is None or _breaks(robot, path, time[k : k + 2], branch):
             raise SingularPose(
                 f"the path crosses a serial singularity: {JOINT_NAMES[joint]} "
                 f"({JOINT_SYMBOLS[joint]}) jumps by {np.degrees(change):.0f}°",
-                where=f"between t = {motion.time[k]:.6g} and {motion.time[k + 1]:.6g} s",
+                where=f"between t = {time[k]:.6g} and {time[k + 1]:.6g} s",
                 remedy="Move the path, turn the tool or choose another branch"
                 + ("" if path else "; if the samples are far apart, take more of them"),
             )
-    _check_limits(robot, motion.time, joints.q)
-    return joints
 
 
 def _solve(
     robot: Pollard, motion: ToolMotion, branch: Branch, reference: np.ndarray | None = None
 ) -> SolvedTrajectory:
     """Angles without jumps of a turn, rates and accelerations."""
-    solutions = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
-    q = unwound(solutions.angles)
-    if reference is None:
-        q = started(q, robot.lower, robot.upper)
-    else:
+    solutions, rates, inside = _usual(robot, motion, branch) or _any(robot, motion, branch)
+    q = solutions.angles
+    if not inside:
+        q = unwound(q)
+    if reference is not None:
         turns = np.rint((reference - q[0]) / TURN)
         q = q + TURN * turns if turns.any() else q
-    if len(q) < LONG:
-        v, a = np.empty(q.shape), np.empty(q.shape)
-        for part in blocks(len(q)):
-            v[part], a[part] = _rates(robot, motion, solutions.angles, part)
-        return SolvedTrajectory(motion.time, q, v, a, solutions)
-    for part in blocks(len(q)):
-        posture = Posture.of(robot.geometry, solutions.angles[part])
-        check_regular(posture, motion.time[part], part.start)
+    elif not inside:
+        q = started(q, robot.lower, robot.upper)
+    if len(rates):
+        return SolvedTrajectory(motion.time, q, rates[0], rates[1], solutions)
     return LongSolvedTrajectory(robot, motion, q, solutions)
+
+
+_Solved = tuple[Solutions, np.ndarray | tuple[np.ndarray, ...], bool]
+"""Solutions; rates and accelerations ``(n, 12)``, none for very many samples; whether the angles
+neither jump by a turn nor leave the limits, or else may."""
+
+
+def _usual(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Solved | None:
+    """A motion whose samples are reachable and regular; None if one takes a closer look."""
+    count, geometry, long = len(motion.time), robot.geometry, len(motion.time) >= LONG
+    # Angles, rates, accelerations: one array of 4 MB or more comes in large pages.
+    whole, cosines = np.empty((1 if long else 3, count, 12)), np.empty((count, 3))
+    angles, rates = whole[0], whole[1:]
+    least, most = np.full((2, 12), [[np.inf], [-np.inf]])
+    for xp, _, piece in pieces(count):
+        found = usual(xp, geometry, components(motion.pose, piece), branch)
+        if found is None:
+            return None
+        put(angles, piece, found[0])
+        put(cosines, piece, found[1])
+        if not long:
+            both = motion_rates(geometry, found[2], motion.tool, piece)
+            put(rates[0], piece, both[0])
+            put(rates[1], piece, both[1])
+        if isinstance(found[0], np.ndarray):
+            least = np.minimum(least, found[0].min(axis=1))
+            most = np.maximum(most, found[0].max(axis=1))
+    if count < FEW:
+        least, most = angles.min(axis=0, initial=np.inf), angles.max(axis=0, initial=-np.inf)
+    slack = TOLERANCES.joint_limit
+    if not (robot.lower - slack <= least).all() or not (most <= robot.upper + slack).all():
+        return None
+    solutions = Solutions(geometry, (branch,), motion.pose, angles, cosines)
+    return solutions, rates, bool((most - least < np.pi).all())
+
+
+def _any(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Solved:
+    """Whatever can be solved, or the reason why it can't."""
+    solutions = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
+    geometry, angles = robot.geometry, solutions.angles
+    if len(angles) < LONG:
+        return solutions, stack_rates(geometry, angles, motion.tool, motion.time), False
+    for part in blocks(len(angles)):
+        known = Linkage.of(geometry, components(angles, part))
+        check_regular(geometry, known, motion.time[part], part.start)
+    return solutions, (), False
 
 
 def _rates(
     robot: Pollard, motion: ToolMotion, angles: np.ndarray, samples: Samples
 ) -> tuple[np.ndarray, np.ndarray]:
     """Joint rates and accelerations at some samples, each ``(m, 12)``."""
-    some, posture = motion.part(samples), Posture.of(robot.geometry, angles[samples])
-    first = samples.start if isinstance(samples, slice) else 0
-    return motion_rates(posture, some.tool, some.time, first=first)
+    some, first = motion.part(samples), samples.start if isinstance(samples, slice) else 0
+    return stack_rates(robot.geometry, angles[samples], some.tool, some.time, first=first or 0)
 
 
 def _suspicious(joints: JointTrajectory) -> list[tuple[int, int, float]]:

@@ -17,6 +17,7 @@ import numpy as np
 from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.inverse import free_flying_forces, inverse_dynamics, joint_friction
 from scout_pin.dynamics.load_sharing import sharing_problem
+from scout_pin.dynamics.stability import planned_zmp
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from thesis_pin.contacts.sharing import LoadSharing
@@ -55,8 +56,8 @@ class Torques:
 
 def single_support(
     robot: Scout, motion: GaitMotion, joints: JointTrajectory, torque: np.ndarray, some: np.ndarray
-) -> Torques:
-    """Torques where one foot stands.
+) -> tuple[Torques, np.ndarray]:
+    """Torques where one foot stands, and where on the floor the weight acts [m], ``(m, 2)``.
 
     Args:
         robot: The biped.
@@ -66,11 +67,12 @@ def single_support(
         some: Samples, all in single support, shape ``(m,)``.
     """
     moving, at_rest = joints.part(some), motion.at_rest(some)
-    static = inverse_dynamics(robot, at_rest, _still(moving)).torque
+    still = inverse_dynamics(robot, at_rest, _still(moving))
+    static, above = still.torque, planned_zmp(robot, at_rest, still)
     constant, linear = _friction(robot, moving)
     square = torque[some] - static - constant - linear
     anything = np.full(len(some), np.inf)
-    return Torques(some, static + constant, linear, square, -anything, anything)
+    return Torques(some, static + constant, linear, square, -anything, anything), above
 
 
 @dataclass(frozen=True)

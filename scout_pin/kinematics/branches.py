@@ -15,15 +15,11 @@ import numpy as np
 
 from scout_pin.kinematics.forward import leg_frames
 from scout_pin.kinematics.geometry import LegGeometry
+from scout_pin.kinematics.signs import BRANCHES as BRANCHES
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import shown
 from thesis_pin.report.branches import label
 from thesis_pin.tolerances import TOLERANCES
-
-BRANCHES = tuple((e, two, knee) for e in (1, -1) for two in (1, -1) for knee in (1, -1))
-"""Signs (S_E, S_2, S_K) of the eight branches: direction of e, sign of
-sin γ2, sign of sin γ4. The thesis's gait lies on (1, 1, 1) for the left leg and
-on (−1, 1, −1) for the right."""
 
 KNEES = ("forward", "backward")
 """Ways a knee bends: towards the toes, which is the sole's y, or away from them."""
@@ -100,7 +96,7 @@ def _numbers(leg: LegGeometry, word: str | None) -> Numbers:
         return EVERY
     if word in _NUMBERS:
         return (_NUMBERS[word],)
-    if abs(leg.foot_rows[0][1]) < TOLERANCES.singular:
+    if abs(leg.forward_part) < TOLERANCES.singular:
         raise BadInput(
             f"the {leg.names[0].split('_')[0]} knee has no way {shown(word)}: the axis of "
             "ankle_roll lies across the foot",

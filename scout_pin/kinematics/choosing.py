@@ -13,15 +13,17 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from scout_pin.kinematics import one_pose
 from scout_pin.kinematics.branches import EVERY, SHAPES, Legs, Numbers, members, mirrored
 from scout_pin.kinematics.closed_form import ClosedForm, Free
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.kinematics.inverse import PAIRS, every_branch, free_values
+from scout_pin.kinematics.inverse import every_branch, free_values
+from scout_pin.kinematics.signs import GONE, SUMMANDS, sum_angles
 from scout_pin.kinematics.solutions import LegSolutions
 from scout_pin.specification import SIDES
 from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FLOATS, blocks
+from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
 
@@ -271,12 +273,19 @@ def follow_branch(
 
 
 def distances(leg: LegGeometry, matrices: Entries, reference: np.ndarray | None) -> Floats:
-    """Largest difference of each branch from a reference at the first sample [rad], ``(8,)``."""
-    start = np.zeros(6) if reference is None else reference
-    entries = matrices(slice(0, 1))[:, 0].tolist()
-    first = ClosedForm(FLOATS, leg, entries, _free(leg, reference))
-    gammas = [gamma for pair in PAIRS for gamma in first.solve(*pair)[:2]]
-    return np.asarray(np.abs(wrap(np.array(gammas) - leg.beta - start)).max(axis=1))
+    """Largest difference of each branch from a reference at the first sample [rad], ``(8,)``.
+
+    Where a branch doesn't reach the knee counts as straight or folded.
+    """
+    start, entries = np.zeros(6) if reference is None else reference, matrices(slice(0, 1))
+    pose = np.vstack([entries[:12].reshape(3, 4), [[0.0, 0.0, 0.0, 1.0]]])
+    if (found := one_pose.summands(leg, pose, True)) is not None:
+        summands = np.array(found[:SUMMANDS])
+    else:
+        summands = ClosedForm(leg, entries, _free(leg, reference)).summands()[0][:, 0]
+    summands[GONE] = 0.0
+    theta = sum_angles(leg.sums, summands[None]).reshape(8, 6)
+    return np.asarray(np.abs(wrap(theta - start)).max(axis=1))
 
 
 def _along(
@@ -290,9 +299,8 @@ def _along(
     )
     theta = np.empty((count, 6))
     for part in blocks(count):
-        chunk = ClosedForm(ARRAYS, leg, matrices(part), free)
-        *gammas, excess = chunk.solve(*PAIRS[number // 2])
-        angles = wrap(np.array(gammas[number % 2]) - leg.beta[:, None])
+        gamma, excess = ClosedForm(leg, matrices(part), free).branch(number)
+        angles = wrap(gamma - leg.beta[:, None])
         angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
         if not (
             np.all(excess <= TOLERANCES.reach)
@@ -305,4 +313,4 @@ def _along(
 
 
 def _free(leg: LegGeometry, reference: np.ndarray | None) -> Free:
-    return free_values(leg, FLOATS, None if reference is None else (reference + leg.beta).tolist())
+    return free_values(leg, None if reference is None else reference + leg.beta)

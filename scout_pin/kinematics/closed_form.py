@@ -1,6 +1,8 @@
-"""The closed form itself: all branches of one foot pose, or of a chunk of them.
+"""The closed form itself, for many foot poses: all branches of a chunk of them, or one.
 
-Symbols as in :mod:`scout_pin.kinematics.forward`.
+Symbols as in :mod:`scout_pin.kinematics.forward`, but j is −j11 and k is k11: e is along
+(v·j) k − (v·k) j, perpendicular to a however near v is to a. The pose is the last axis.
+:mod:`scout_pin.kinematics.one_pose` does the same for a single pose.
 
 Source: Scout thesis, 3.1, the loop equation (3.4); the closed form replaces the
 thesis's numeric solver.
@@ -9,106 +11,217 @@ thesis's numeric solver.
 from __future__ import annotations
 
 import math
-from typing import Any
+
+import numpy as np
 
 from scout_pin.kinematics.geometry import LegGeometry
-from thesis_pin.numeric.elementwise import Elementwise, Number, Numbers
+from scout_pin.kinematics.signs import (
+    ANKLE,
+    BRANCHES,
+    FAR,
+    FOOT,
+    GONE,
+    KNEE,
+    ONE,
+    ONE_THREAD,
+    SUMMANDS,
+    THIGH,
+    TILT,
+    TURN_6,
+    YAW,
+)
+from thesis_pin.numeric.elementwise import Number, blocks
+from thesis_pin.numeric.vectors import cross
 from thesis_pin.tolerances import TOLERANCES
 
 Free = tuple[Number, tuple[Number, Number, Number]]
 """γ1 and the direction of e that a singular pose leaves free."""
 
+CHUNK = 3600
+"""Poses at a time: what is in between stays in a core's cache."""
+
+_TINY = 1e-300  # keeps 0/0 out of a ratio
+
 
 class ClosedForm:
     """A chunk of poses; what several branches share is computed once.
 
-    Works on floats and arrays alike. ``m`` holds the rows of the placement,
-    entry by entry.
+    Attributes:
+        v, a, j, k: p5 − p2 [m] and the axes of the foot link, each ``(3, n)``.
+        sine_axis: Sine of the angle between v and a, ``(n,)``; zero where e is free.
+        sine_hip: |sin γ2|, ``(n,)``; zero where joint 1 is free.
+        yaw, tilt, foot, turn_6: Angles γ1, γ2, from i3 to a and γ6 of S_E = S_2 = 1 [rad].
+        plane: Components of v along i3 and j3 of S_E = S_2 = 1 [m], shape ``(2, n)``.
     """
 
-    def __init__(self, xp: Elementwise, leg: LegGeometry, m: Numbers, free: Free) -> None:
-        self.xp, self.leg = xp, leg
-        self.planes: dict[int, tuple[Any, ...]] = {}
-        (f_ax, f_ay, f_az), (f_jx, f_jy, f_jz) = leg.foot_rows
-        ax, ay, az = (m[k] * f_ax + m[k + 1] * f_ay + m[k + 2] * f_az for k in (0, 4, 8))
-        jx, jy, jz = (m[k] * f_jx + m[k + 1] * f_jy + m[k + 2] * f_jz for k in (0, 4, 8))
-        vx = m[3] - leg.y_6 * jx - leg.x_5 * ax - leg.x_0
-        vy = m[7] - leg.y_6 * jy - leg.x_5 * ay
-        vz = m[11] - leg.y_6 * jz - leg.x_5 * az + leg.z_1
-        self.reach, self.a, self.j = (vx, vy, vz), (ax, ay, az), (jx, jy, jz)
-        ex, ey, ez = self._axis(free[1])
+    @np.errstate(invalid="ignore", divide="ignore")  # where nobody says what is free
+    def __init__(
+        self,
+        leg: LegGeometry,
+        entries: np.ndarray,
+        free: Free | None = None,
+        *,
+        alike: bool = False,
+    ) -> None:
+        """Work out what all branches share.
 
-        h = xp.sqrt(ex * ex + ey * ey)
-        if xp.some(yaw_free := abs(az) < TOLERANCES.singular):
-            # e is ±z if v and a are level. By e alone one can't tell: near v along a
-            # rounding tilts it.
-            yaw_free = yaw_free & (abs(vz) <= TOLERANCES.singular * self.distance)
-            yaw_free = yaw_free & (
-                (self.sine_axis >= TOLERANCES.singular) | (h < TOLERANCES.singular)
-            )
-            ex, ey, h = (xp.where(yaw_free, 0.0, old) for old in (ex, ey, h))
-            ez = xp.where(yaw_free, xp.where(ez > 0.0, 1.0, -1.0), ez)
-            safe, (c, s) = xp.where(yaw_free, 1.0, h), xp.cosine_sine(free[0])
-            c, s = xp.where(yaw_free, c, ex / safe), xp.where(yaw_free, s, ey / safe)
-            self.yaw = xp.where(yaw_free, free[0], xp.atan2(ey, ex))
-        else:
-            c, s, self.yaw = ex / h, ey / h, xp.atan2(ey, ex)
-        self.h, self.tilt = h, xp.atan2(h, ez)
-        # Components along i3 and j3 of the branch S_E = S_2 = +1.
-        self.v = ez * (c * vx + s * vy) - h * vz, c * vy - s * vx
-        self.foot = xp.atan2(c * ay - s * ax, ez * (c * ax + s * ay) - h * az)
-        self.turn_6 = xp.atan2(
-            jx * ex + jy * ey + jz * ez,
-            jx * (ey * az - ez * ay) + jy * (ez * ax - ex * az) + jz * (ex * ay - ey * ax),
-        )
-
-    def _axis(self, free: tuple[Number, Number, Number]) -> tuple[Number, Number, Number]:
-        """e, perpendicular to v and a; where v is along a, the free axis, perpendicular to a."""
-        xp, (vx, vy, vz), (ax, ay, az) = self.xp, self.reach, self.a
-        ex, ey, ez = vy * az - vz * ay, vz * ax - vx * az, vx * ay - vy * ax
-        size = xp.sqrt(ex * ex + ey * ey + ez * ez)
-        self.distance = length = xp.sqrt(vx * vx + vy * vy + vz * vz)
-        self.sine_axis = size / xp.where(length > 0.0, length, 1.0)
-        if xp.some(lost := self.sine_axis < TOLERANCES.singular):
-            fx, fy, fz = free
-            # Where the free axis itself is along a, an axis of the foot.
-            other = abs(fx * ax + fy * ay + fz * az) > 0.99
-            fx, fy, fz = (xp.where(other, j, f) for j, f in zip(self.j, free, strict=True))
-            ex, ey, ez = (xp.where(lost, f, e) for f, e in ((fx, ex), (fy, ey), (fz, ez)))
-        along = ex * ax + ey * ay + ez * az  # rounding only, except for the free axis
-        ex, ey, ez = ex - along * ax, ey - along * ay, ez - along * az
-        size = xp.sqrt(ex * ex + ey * ey + ez * ez)
-        return ex / size, ey / size, ez / size
-
-    def solve(self, axis: int, two: int) -> tuple[list[Number], list[Number], Number]:
-        """γ of the two branches with S_E = axis and S_2 = two, knee one way and the other.
-
-        Last is by how much their hip-to-ankle distance misses [m].
+        Args:
+            leg: Geometry of the leg.
+            entries: Placements torso to sole, entries first, shape ``(12 or more, n)``.
+            free: What singular poses leave free; without it their angles mean nothing.
+            alike: Whether a pose is to give the same bits however many others there are.
         """
-        excess, knee, thigh, ankle = self.planes.get(two) or self._plane(two)
-        # In the plane of two = −1 the foot's direction is turned by π.
-        foot = axis * (self.foot if two > 0 else self.foot + math.pi)
-        gamma_1 = self.yaw if axis == two else self.yaw + math.pi
-        gamma_2 = two * (self.tilt if axis > 0 else math.pi - self.tilt)
-        gamma_6 = self.turn_6 if axis > 0 else self.turn_6 + math.pi
-        one, other = axis * ankle - thigh, axis * ankle + thigh
+        self.leg, count = leg, entries.shape[1]
+        placed = _placed_alike(leg, entries) if alike else _placed(leg, entries)
+        placed[6] -= leg.x_0
+        placed[8] += leg.z_1
+        self.j, self.k, self.v, self.a = vectors = placed.reshape(4, 3, count)
+        v_j, v_k = _dot(self.v, self.j), _dot(self.v, self.k)
+        size, distance = np.sqrt(v_j * v_j + v_k * v_k), np.sqrt(_dot(self.v, self.v))
+        self.sine_axis = size / np.maximum(distance, _TINY)
+        if free is not None and (lost := self.sine_axis < TOLERANCES.singular).any():
+            v_j, v_k = self._free_axis(free[1], lost, v_j, v_k)
+            size = np.sqrt(v_j * v_j + v_k * v_k)
+        e = v_j * self.k  # times its size
+        e -= v_k * self.j
+        h = np.sqrt(_dot(e[:2], e[:2]))
+        c, s = e[:2] / h
+        self.sine_hip = sine = h / size
+        cosine = e[2] / size
+        if (level := self._level(sine, distance)) is not None:
+            e[:2, level], h[level], sine[level] = 0.0, 0.0, 0.0
+            cosine[level] = np.copysign(1.0, e[2, level])
+            v_j, v_k = _dot(e, self.k), -_dot(e, self.j)
+        self.yaw, self.tilt = np.arctan2(e[1], e[0]), np.arctan2(h, e[2])
+        self.turn_6 = np.arctan2(v_k, v_j)
+        if level is not None and free is not None:
+            yaw = np.broadcast_to(free[0], (count,))[level]
+            self.yaw[level], c[level], s[level] = yaw, np.cos(yaw), np.sin(yaw)
+        x, y, z = vectors[2:].transpose(1, 0, 2)  # of v, then a
+        along = c * x
+        along += s * y
+        along *= cosine
+        along -= sine * z
+        across = c * y
+        across -= s * x
+        self.plane, self.foot = np.stack([along[0], across[0]]), np.arctan2(across[1], along[1])
+
+    def _free_axis(
+        self,
+        free: tuple[Number, Number, Number],
+        lost: np.ndarray,
+        v_j: np.ndarray,
+        v_k: np.ndarray,
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """What stands for v·j and v·k where v is along a, so that e is the free axis there."""
+        axis = np.stack([np.broadcast_to(one, lost.shape) for one in free])
+        # Where the free axis itself is along a, an axis of the foot.
+        axis = np.where(abs(_dot(axis, self.a)) > 0.99, self.j, axis)
         return (
-            [gamma_1, gamma_2, one, knee, foot - one - knee, gamma_6],
-            [gamma_1, gamma_2, other, -knee, foot - other + knee, gamma_6],
-            excess,
+            np.where(lost, _dot(axis, self.k), v_j),
+            np.where(lost, -_dot(axis, self.j), v_k),
         )
 
-    def _plane(self, two: int) -> tuple[Any, ...]:
-        """The triangle of thigh and shank: excess, knee, angle at the hip, direction."""
-        xp, x_3, x_4 = self.xp, self.leg.x_3, self.leg.x_4
-        u_i, u_j = two * self.v[0] - self.leg.x_2, two * self.v[1]
-        square = u_i * u_i + u_j * u_j
-        reach = xp.sqrt(square)
-        c_4 = xp.clipped((square - x_3 * x_3 - x_4 * x_4) / (2 * x_3 * x_4))
-        self.planes[two] = plane = (
-            xp.larger(reach - (x_3 + x_4), abs(x_3 - x_4) - reach),
-            xp.acos(c_4),
-            xp.atan2(x_4 * xp.sqrt(1.0 - c_4 * c_4), x_3 + x_4 * c_4),
-            xp.atan2(u_j, u_i),
+    def _level(self, sine: np.ndarray, distance: np.ndarray) -> np.ndarray | None:
+        """Where v and a are level, so that e is ±z and joint 1 is free; None if nowhere.
+
+        By e alone one can't tell: near v along a rounding tilts it.
+        """
+        level = abs(self.a[2]) < TOLERANCES.singular
+        if not level.any():
+            return None
+        level &= abs(self.v[2]) <= TOLERANCES.singular * distance
+        level &= (self.sine_axis >= TOLERANCES.singular) | (sine < TOLERANCES.singular)
+        return level if level.any() else None
+
+    def surely_rigid(self) -> bool:
+        """Whether the rotations given plainly are some, and all numbers finite.
+
+        Plainly: j, k and a are a right-handed trihedron to a tenth of what is allowed, the
+        squares of all gaps summed. Else one has to look closer.
+        """
+        a, j = self.a, self.j
+        gaps = [_dot(a, a), _dot(j, j), _dot(a, j), cross(j, a).ravel()]
+        for gap, wanted in zip(gaps, (1.0, 1.0, 0.0, self.k.ravel()), strict=True):
+            gap -= wanted
+        # NaN compares false.
+        square = sum(float(gap.dot(gap)) for gap in gaps)
+        allowed = (TOLERANCES.rotation_orthogonality / 10) ** 2
+        return square <= allowed and math.isfinite(self.v.sum())
+
+    def triangles(self, two: np.ndarray) -> tuple[np.ndarray, ...]:
+        """The triangle of thigh and shank for signs S_2, ``(k,)``.
+
+        Returns:
+            The knee's angle, the angle at the hip, the direction from hip to ankle [rad], and by
+            how much their distance misses what the links can span [m], each ``(k, n)``.
+        """
+        x_2, x_3, x_4 = self.leg.x_2, self.leg.x_3, self.leg.x_4
+        u = two[:, None] * self.plane[:, None]
+        u[0] -= x_2
+        gap = np.einsum("ikn,ikn->kn", u, u)
+        c_4 = gap - (x_3 * x_3 + x_4 * x_4)
+        c_4 *= 1.0 / (2.0 * x_3 * x_4)
+        np.clip(c_4, -1.0, 1.0, out=c_4)
+        knee, s_4 = np.arccos(c_4), np.sqrt(1.0 - c_4 * c_4)
+        thigh = np.arctan2(s_4 * x_4, c_4 * x_4 + x_3)
+        np.sqrt(gap, out=gap)
+        gap -= max(x_3, x_4)
+        np.abs(gap, out=gap)
+        gap -= min(x_3, x_4)  # the nearer of its two bounds counts
+        return knee, thigh, np.arctan2(u[1], u[0]), gap
+
+    def summands(self) -> tuple[np.ndarray, np.ndarray]:
+        """What the angles of all branches are sums of: :mod:`scout_pin.kinematics.signs`.
+
+        Returns:
+            The summands, ``(13, n)``, and by how much hip to ankle misses for S_2 = ±1 [m],
+            ``(2, n)``.
+        """
+        rows = np.empty((SUMMANDS, len(self.yaw)))
+        rows[YAW], rows[TILT], rows[FOOT], rows[TURN_6] = (
+            self.yaw,
+            self.tilt,
+            self.foot,
+            self.turn_6,
         )
-        return plane
+        rows[KNEE], rows[THIGH], rows[ANKLE], gap = self.triangles(np.array([1.0, -1.0]))
+        rows[ONE], rows[GONE] = 1.0, np.where(gap > TOLERANCES.reach, FAR, 0.0)
+        return rows, gap
+
+    def branch(self, number: int) -> tuple[np.ndarray, np.ndarray]:
+        """γ of one branch [rad], ``(6, n)``, and by how much hip to ankle misses [m], ``(n,)``."""
+        axis, two, bend = BRANCHES[number]
+        knee, thigh, ankle, gap = (one[0] for one in self.triangles(np.array([float(two)])))
+        gamma = np.empty((6, len(gap)))
+        np.add(self.yaw, 0.0 if axis == two else math.pi, out=gamma[0])
+        np.multiply(self.tilt if axis > 0 else math.pi - self.tilt, two, out=gamma[1])
+        np.subtract(axis * ankle, bend * thigh, out=gamma[2])
+        np.multiply(knee, bend, out=gamma[3])
+        foot = self.foot if two > 0 else self.foot + math.pi
+        np.subtract(axis * foot, gamma[2], out=gamma[4])
+        gamma[4] -= gamma[3]
+        np.add(self.turn_6, 0.0 if axis > 0 else math.pi, out=gamma[5])
+        return gamma, gap
+
+
+def _placed(leg: LegGeometry, entries: np.ndarray) -> np.ndarray:
+    """−j11, k11, p5 and a, one component after the other, shape ``(12, n)``."""
+    placed = np.empty((12, entries.shape[1]))
+    for part in blocks(entries.shape[1], ONE_THREAD // leg.foot_maps.size):
+        np.matmul(leg.foot_maps, entries[:12, part], out=placed[:, part])
+    return placed
+
+
+def _placed_alike(leg: LegGeometry, entries: np.ndarray) -> np.ndarray:
+    """The same without BLAS, which sums in another order for another number of poses."""
+    rows = entries[:12].reshape(3, 4, -1)
+    first, second, third, last = (rows[:, k] * leg.foot_map[k][:, None, None] for k in range(4))
+    placed: np.ndarray = (first + second + third + last).reshape(12, -1)
+    return placed
+
+
+def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Dot products of vectors, components first."""
+    product: np.ndarray = np.einsum("in,in->n", a, b)
+    return product

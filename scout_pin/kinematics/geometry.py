@@ -7,7 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from scout_pin.kinematics.signs import SUMMANDS, angle_sums
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
+from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.rotations import rotation
 from thesis_pin.numeric.turns import need_turns
 
@@ -65,13 +67,43 @@ class LegGeometry:
         """Whether limits hold some angles only whole turns from (−π, π]."""
         return need_turns(self.lower, self.upper)
 
-    @cached_property
-    def foot_rows(self) -> list[list[float]]:
-        """The first two rows of :attr:`foot`: axes of the foot link, seen from the sole."""
-        rows: list[list[float]] = self.foot[:2].tolist()
-        return rows
-
     @property
+    def forward_part(self) -> float:
+        """Component of joint 6's axis along the sole's y, to the toes."""
+        return float(self.foot[0, 1])
+
+    @cached_property
     def heelwards(self) -> bool:
         """Whether the axis of joint 6 points to the heel, against the sole's y."""
-        return self.foot_rows[0][1] < 0.0
+        return self.forward_part < 0.0
+
+    @cached_property
+    def foot_map(self) -> np.ndarray:
+        """What the closed form needs of a placement P torso to sole, as P @ foot_map, ``(4, 4)``.
+
+        Its columns are −j11, k11, p5 and a, the sole's placement being an array ``(4, 4)``.
+        """
+        a, j, k = self.foot
+        columns = np.zeros((4, 4))
+        columns[:3] = np.stack([-j, k, -self.y_6 * j - self.x_5 * a, a], axis=1)
+        columns[3, 2] = 1.0
+        return columns
+
+    @cached_property
+    def foot_maps(self) -> np.ndarray:
+        """:attr:`foot_map` for placements whose twelve entries are rows of an array, ``(12, 12)``.
+
+        Gives the components of −j11, then of k11, p5 and a.
+        """
+        maps: np.ndarray = np.einsum("rq,cd->qcdr", self.foot_map, np.eye(3)).reshape(12, 12)
+        return maps
+
+    @cached_property
+    def betas(self) -> tuple[float, ...]:
+        """:attr:`beta` as floats in (−π, π]."""
+        return tuple(wrap(self.beta).tolist())
+
+    @cached_property
+    def sums(self) -> np.ndarray:
+        """θ − π of all branches as sums of a pose's angles, ``(13, 48)``: :mod:`signs`."""
+        return angle_sums(self.beta).reshape(SUMMANDS, 48)

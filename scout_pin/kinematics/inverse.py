@@ -14,24 +14,26 @@ thesis's numeric solver.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from scout_pin.kinematics.closed_form import ClosedForm, Free
+from scout_pin.kinematics import one_pose
+from scout_pin.kinematics.closed_form import CHUNK, ClosedForm
 from scout_pin.kinematics.families import axis_bounds, yaw_bounds
 from scout_pin.kinematics.geometry import LegGeometry
+from scout_pin.kinematics.signs import PLANES, SUMMANDS, sum_angles
 from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
 from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
+from scout_pin.kinematics.solutions import Solved
 from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
-from thesis_pin.numeric.elementwise import ARRAYS, FEW, FLOATS, Elementwise, Number, Numbers, blocks
+from thesis_pin.numeric.elementwise import FEW, blocks
 from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
 
 _FREE_POSES = 64
 """Singular poses worked on at a time: some hundred members of each family are tried."""
-
-PAIRS = tuple((axis, two) for axis, two, _ in BRANCHES[::2])  # two ways of the knee each
 
 
 def leg_inverse_kinematics(
@@ -57,114 +59,145 @@ def leg_inverse_kinematics(
     Raises:
         BadInput: Wrong shape, NaN or not a rigid placement.
     """
-    target = pose_array("torso_to_foot", torso_to_foot)
+    if reference is None and (plain := single_pose(torso_to_foot)) is not None:
+        pose, rigid = plain
+        if (found := one_pose.summands(leg, pose, rigid)) is not None:
+            return LegSolutions(leg, pose, found)
+    look_closer = None
+    if _plain_stack(torso_to_foot):
+        target = np.asarray(torso_to_foot)
+
+        def look_closer() -> None:
+            pose_array("torso_to_foot", target)
+
+    else:
+        target = pose_array("torso_to_foot", torso_to_foot)
     if reference is not None:
         reference = finite_array("reference", reference, 6)
-    return every_branch(leg, target, reference)
+    return every_branch(leg, target, reference, look_closer)
 
 
-def every_branch(
-    leg: LegGeometry, target: np.ndarray, reference: np.ndarray | None
-) -> LegSolutions:
-    """:func:`leg_inverse_kinematics` of arrays that have been checked."""
-    stack = target.shape[:-2]
-    count = math.prod(stack)
-    if reference is not None:
-        reference = spread("reference", finite_array("reference", reference, 6), stack)
-        reference = reference.reshape(count, 6)
-    work, entries = _few if count < FEW else _many, target.reshape(count, 16)
-    theta, excess, sine_axis, sine_hip = work(leg, entries, reference)
-    if count and min(sine_axis.min(), sine_hip.min()) < TOLERANCES.singular:
-        free = np.flatnonzero(np.minimum(sine_axis, sine_hip) < TOLERANCES.singular)
-        for part in blocks(len(free), _FREE_POSES):
-            some = free[part]
-            given = np.zeros((len(some), 6)) if reference is None else reference[some]
-            theta[some], excess[some] = _members(leg, entries[some], given)
-    if (beyond := excess > TOLERANCES.reach).any():
-        theta[beyond] = np.nan
-    if leg.turned:
-        theta = fitted(theta, leg.lower, leg.upper)
-    return LegSolutions(
-        leg,
-        target,
-        theta.reshape(*stack, 8, 6),
-        excess.reshape(*stack, 8),
-        sine_axis.reshape(stack),
-        sine_hip.reshape(stack),
+def single_pose(pose: ArrayLike) -> tuple[np.ndarray, bool] | None:
+    """A matrix ``(4, 4)`` and whether it is known to be rigid; None if it's another thing."""
+    if type(pose) is np.ndarray:
+        plain = pose.shape == (4, 4) and pose.dtype == np.float64
+        return (pose.copy(), False) if plain else None
+    matrix = getattr(pose, "homogeneous", None)
+    return (matrix, True) if type(matrix) is np.ndarray and matrix.shape == (4, 4) else None
+
+
+def _plain_stack(pose: ArrayLike) -> bool:
+    """Whether these are floats of the right shape, and so many that they are checked on the way."""
+    return (
+        type(pose) is np.ndarray
+        and pose.dtype == np.float64
+        and pose.shape[-2:] == (4, 4)
+        and pose.size >= 16 * FEW
     )
 
 
-_Solved = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-"""θ ``(n, 8, 6)``, excess ``(n, 8)``, two sines ``(n,)``."""
+def every_branch(
+    leg: LegGeometry,
+    target: np.ndarray,
+    reference: np.ndarray | None,
+    look_closer: Callable[[], None] | None = None,
+) -> LegSolutions:
+    """:func:`leg_inverse_kinematics` of arrays that have been checked.
+
+    Args:
+        leg: Geometry of the leg.
+        target: Placements, shape ``(..., 4, 4)``.
+        reference: Angles [rad], shape ``(..., 6)`` or ``(6,)``; None for zero.
+        look_closer: Raises unless all of them are rigid, if that isn't known yet; called only
+            where it isn't plain.
+    """
+    stack = target.shape[:-2]
+    count = math.prod(stack)
+    if reference is not None:
+        reference = spread("reference", reference, stack).reshape(count, 6)
+    entries = target.reshape(count, 16)
+    if count < FEW:
+        theta, excess, sines = _few(leg, entries)
+    else:
+        theta, excess, sines = _many(leg, entries, look_closer)
+    if not (np.minimum(*sines) >= TOLERANCES.singular).all():  # NaN where e is free
+        free = np.flatnonzero(~(np.minimum(*sines) >= TOLERANCES.singular))
+        excess = excess[:, PLANES]
+        for part in blocks(len(free), _FREE_POSES):
+            some = free[part]
+            given = np.zeros((len(some), 6)) if reference is None else reference[some]
+            theta[some], excess[some], sines[1][some] = _members(leg, entries[some], given)
+    theta = theta.reshape(*stack, 8, 6)
+    if leg.turned:
+        theta = fitted(theta, leg.lower, leg.upper)
+    sine_axis, sine_hip = (sine.reshape(stack) for sine in sines)
+    solved = Solved(theta, excess.reshape(*stack, excess.shape[-1]), (sine_axis, sine_hip))
+    return LegSolutions(leg, target, solved)
 
 
-def _few(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -> _Solved:
-    """All branches of a few poses, by floats."""
-    numbers: list[Number] = []  # one list for all: an array costs more to begin than to fill
-    for k, matrix in enumerate(matrices.tolist()):
-        free = free_values(
-            leg, FLOATS, None if reference is None else (reference[k] + leg.beta).tolist()
-        )
-        chunk = ClosedForm(FLOATS, leg, matrix, free)
-        excesses: list[Number] = []
-        for axis, two in PAIRS:
-            one, other, excess = chunk.solve(axis, two)
-            numbers += one
-            numbers += other
-            excesses += (excess, excess)
-        numbers += (*excesses, chunk.sine_axis, chunk.h)
-    rows = np.array(numbers).reshape(-1, 58)
-    theta = wrap(rows[:, :48].reshape(-1, 8, 6) - leg.beta)
-    return theta, rows[:, 48:56], rows[:, 56], rows[:, 57]
+_Found = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""θ ``(n, 8, 6)``, excess ``(n, 2)``, two sines ``(2, n)``: where either is zero, or isn't a
+number, angles mean nothing yet."""
 
 
-def _many(leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray | None) -> _Solved:
-    """All branches of many poses, by arrays, in blocks; the sample is their last axis."""
+def _few(leg: LegGeometry, matrices: np.ndarray) -> _Found:
+    """All branches of a few poses, by floats; by arrays if one of them isn't plain."""
+    found = [one_pose.summands(leg, matrix.reshape(4, 4), True) for matrix in matrices]
+    plain = [one for one in found if one is not None]
+    if len(plain) < len(found) or not found:
+        return _many(leg, matrices, None)
+    numbers, form = np.array(plain), ClosedForm(leg, matrices.T)
+    theta = sum_angles(leg.sums, numbers[:, :SUMMANDS]).reshape(-1, 8, 6)
+    return theta, numbers[:, SUMMANDS:], np.stack([form.sine_axis, form.sine_hip])
+
+
+def _many(leg: LegGeometry, matrices: np.ndarray, look_closer: Callable[[], None] | None) -> _Found:
+    """All branches of many poses, by arrays, in chunks."""
     count = len(matrices)
-    theta, excess, sines = np.empty((8, 6, count)), np.empty((8, count)), np.empty((2, count))
-    for part in blocks(count):
-        given = None if reference is None else (reference[part] + leg.beta).T
-        columns = np.ascontiguousarray(matrices[part].T)
-        chunk = ClosedForm(ARRAYS, leg, columns, free_values(leg, ARRAYS, given))
-        for k, pair in enumerate(PAIRS):
-            one, other, excess[2 * k : 2 * k + 2, part] = chunk.solve(*pair)
-            theta[2 * k, :, part], theta[2 * k + 1, :, part] = one, other
-        theta[:, :, part] = wrap(theta[:, :, part] - leg.beta[:, None])
-        sines[:, part] = chunk.sine_axis, chunk.h
-    return theta.transpose(2, 0, 1), excess.T, sines[0], sines[1]
+    theta, excess, sines = np.empty((count, 48)), np.empty((2, count)), np.empty((2, count))
+    for part in blocks(count, CHUNK):
+        some = matrices[part]
+        form = ClosedForm(leg, some.T)
+        if look_closer is not None and not (
+            form.surely_rigid() and not some[:, 12:15].any() and (some[:, 15] == 1.0).all()
+        ):
+            look_closer()
+            look_closer = None
+        summands, excess[:, part] = form.summands()
+        sum_angles(leg.sums, summands.T, theta[part])
+        sines[0, part], sines[1, part] = form.sine_axis, form.sine_hip
+    return theta.reshape(count, 8, 6), excess.T, sines
 
 
 def _members(
     leg: LegGeometry, matrices: np.ndarray, reference: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """θ ``(n, 8, 6)`` and excess ``(n, 8)`` of singular poses: one member of each family.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """θ ``(n, 8, 6)``, excess ``(n, 8)`` and |sin γ2| of singular poses: one member of each family.
 
     The reference's own value of what is free, if it keeps the joint limits; else the
     nearest member that does; else, limits aside, likewise; else the nearest to reach.
     """
     count, columns = len(matrices), np.ascontiguousarray(matrices.T)
-    gamma_1, axis = free_values(leg, ARRAYS, (reference + leg.beta).T)
-    given = ClosedForm(ARRAYS, leg, columns, (gamma_1, axis))
-    v, a, j = (np.stack(vector) for vector in (given.reach, given.a, given.j))
+    gamma_1, axis = free_values(leg, (reference + leg.beta).T)
+    given = ClosedForm(leg, columns, (gamma_1, axis), alike=True)
+    v, a = given.v, given.a
+    yaws = np.concatenate([gamma_1[None], yaw_bounds(leg, v, a)])
     level = np.array([0.0, 0.0, 1.0])[:, None]
-    yaws = np.concatenate([np.array(gamma_1)[None], yaw_bounds(leg, v, a)])
     axes = np.stack([np.stack(axis), *np.broadcast_to(level, (len(yaws) - 1, 3, count))])
     if np.any(given.sine_axis < TOLERANCES.singular):
-        more = axis_bounds(leg, v, a, j)
+        more = axis_bounds(leg, v, a, -given.j)
         axes = np.concatenate([axes, more])
         yaws = np.concatenate([yaws, np.broadcast_to(gamma_1, (len(more), count))])
     tried = len(yaws)
     chunk = ClosedForm(
-        ARRAYS,
         leg,
         np.tile(columns, tried),
         (yaws.ravel(), (axes[:, 0].ravel(), axes[:, 1].ravel(), axes[:, 2].ravel())),
+        alike=True,
     )
-    gamma, gaps = np.empty((8, 6, tried * count)), np.empty((8, tried * count))
-    for k, pair in enumerate(PAIRS):
-        gamma[2 * k], gamma[2 * k + 1], gaps[2 * k : 2 * k + 2] = chunk.solve(*pair)
-    theta = wrap(gamma - leg.beta[:, None]).reshape(8, 6, tried, count).transpose(2, 3, 0, 1)
-    excess = gaps.reshape(8, tried, count).transpose(1, 2, 0)
+    summands, gaps = chunk.summands()
+    theta = sum_angles(leg.sums, summands.T).reshape(tried, count, 8, 6)
+    excess = gaps[PLANES].T.reshape(tried, count, 8)
     theta = fitted(theta, leg.lower, leg.upper)
     distance = np.abs(wrap(theta - reference[:, None, :])).sum(axis=-1)
     distance[0] = -1.0  # the reference's own comes first
@@ -176,12 +209,15 @@ def _members(
     return (
         np.take_along_axis(theta, best[None, ..., None], axis=0)[0],
         np.take_along_axis(excess, best[None], axis=0)[0],
+        given.sine_hip,
     )
 
 
-def free_values(leg: LegGeometry, xp: Elementwise, gamma: Numbers | None) -> Free:
+def free_values(
+    leg: LegGeometry, gamma: np.ndarray | None
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """What a reference, as γ with the joint first, says of γ1 and e; None is neutral."""
     if gamma is None:
-        gamma = leg.beta.tolist()
-    (c1, s1), (c2, s2) = xp.cosine_sine(gamma[0]), xp.cosine_sine(gamma[1])
-    return gamma[0], (c1 * s2, s1 * s2, c2)
+        gamma = leg.beta
+    cosine, sine = np.cos(gamma[:2]), np.sin(gamma[:2])
+    return gamma[0], (cosine[0] * sine[1], sine[0] * sine[1], cosine[1])

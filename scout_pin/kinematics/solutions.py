@@ -9,11 +9,29 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.kinematics.branches import BRANCHES as BRANCHES
+from scout_pin.kinematics.closed_form import ClosedForm
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
+from scout_pin.kinematics.signs import PLANES, SUMMANDS, sum_angles
 from thesis_pin.numeric.checks import element
+from thesis_pin.numeric.turns import fitted
 from thesis_pin.report.branches import label
 from thesis_pin.tolerances import TOLERANCES
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """The arrays of :class:`LegSolutions`, as they are described there.
+
+    Attributes:
+        angles: Shape ``(..., 8, 6)``.
+        excess: Shape ``(..., 8)``, or ``(..., 2)`` where it is the same for equal S_2.
+        sines: sine_axis and sine_hip, shape ``(...)`` each.
+    """
+
+    angles: np.ndarray
+    excess: np.ndarray
+    sines: tuple[np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -25,21 +43,56 @@ class LegSolutions:
     Attributes:
         geometry: The leg.
         target: The poses asked for, torso to sole, shape ``(..., 4, 4)``.
-        angles: Joint angles θ [rad], shape ``(..., 8, 6)``, in the order of
-            :data:`BRANCHES`; NaN where a branch doesn't exist. In (−π, π], or where a joint's
-            limits hold only that, whole turns from it.
-        excess: By how much the hip-to-ankle distance |p5 − p3| of a branch misses
-            what thigh and shank can span [m], shape ``(..., 8)``; ≤ 0 if reachable.
-        sine_axis: Sine of the angle between v and a; zero where e is free.
-        sine_hip: |sin γ2|; zero where joint 1 is free.
+        solved: What the closed form found; of a single pose the numbers of
+            :func:`scout_pin.kinematics.one_pose.summands`, of which arrays are made when asked
+            for: that takes as long as finding them.
     """
 
     geometry: LegGeometry
     target: np.ndarray
-    angles: np.ndarray
-    excess: np.ndarray
-    sine_axis: np.ndarray
-    sine_hip: np.ndarray
+    solved: Solved | list[float]
+
+    @cached_property
+    def angles(self) -> np.ndarray:
+        """Joint angles θ [rad], shape ``(..., 8, 6)``, in the order of :data:`BRANCHES`.
+
+        NaN where a branch doesn't exist. In (−π, π], or where a joint's limits hold only that,
+        whole turns from it.
+        """
+        if isinstance(self.solved, Solved):
+            return self.solved.angles
+        leg, summands = self.geometry, np.array([self.solved[:SUMMANDS]])
+        angles = sum_angles(leg.sums, summands).reshape(8, 6)
+        return fitted(angles, leg.lower, leg.upper) if leg.turned else angles
+
+    @cached_property
+    def excess(self) -> np.ndarray:
+        """By how much hip to ankle misses what thigh and shank can span [m], ``(..., 8)``.
+
+        It is the distance |p5 − p3|; ≤ 0 if the branch is reachable.
+        """
+        if isinstance(self.solved, Solved):
+            excess = self.solved.excess
+        else:
+            excess = np.array(self.solved[SUMMANDS:])
+        return excess if excess.shape[-1] == 8 else excess[..., PLANES]
+
+    @property
+    def sine_axis(self) -> np.ndarray:
+        """Sine of the angle between v and a, shape ``(...)``; zero where e is free."""
+        return self._sines[0]
+
+    @property
+    def sine_hip(self) -> np.ndarray:
+        """|sin γ2|, shape ``(...)``; zero where joint 1 is free."""
+        return self._sines[1]
+
+    @cached_property
+    def _sines(self) -> tuple[np.ndarray, np.ndarray]:
+        if isinstance(self.solved, Solved):
+            return self.solved.sines
+        form = ClosedForm(self.geometry, self.target.reshape(16, 1))
+        return form.sine_axis.reshape(()), form.sine_hip.reshape(())
 
     @property
     def reachable(self) -> np.ndarray:

@@ -116,7 +116,7 @@ def closure(gait: Gait, time_unit: float | None = None) -> Closure:
     # The last piece, not one that a curve may have beyond the gait's end.
     late = np.nextafter(gait.end, -np.inf)
     gaps = state(gait, late, unit) - state(gait, gait.start, unit)
-    step = np.median(gaps[:, :2, 0], axis=0)
+    step = np.sort(gaps[:, :2, 0], axis=0)[1]  # the median of three
     gaps[:, :2, 0] -= step
     open_ = _left_open(gait, late, unit)
     found = [

@@ -13,14 +13,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.specification import SIDES
+from thesis_pin.contacts.feet import sole_corners
 from thesis_pin.contacts.polygons import least_distance
-from thesis_pin.numeric.elementwise import BLOCK, blocks
+from thesis_pin.numeric.elementwise import BLOCK, Samples, blocks
+from thesis_pin.numeric.planar import convex_hull
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
@@ -92,24 +95,39 @@ def lowest_corner(robot: Scout, motion: GaitMotion) -> float | None:
     lowest = np.inf
     for k, side in enumerate(SIDES):
         swinging = np.flatnonzero(~motion.support[:, k])
+        hull = _outline(robot, side)
+        x, y = hull[convex_hull(hull)].T[..., None]
         for part in blocks(len(swinging)):
-            place = _foot(motion, k).part(swinging[part]).placement
-            lowest = min(lowest, float(robot.sole_vertices(side, place)[..., 2].min()))
+            foot = _foot(motion, k).part(swinging[part])
+            height = foot.rotation[:, 2, 0] * x + foot.rotation[:, 2, 1] * y + foot.position[:, 2]
+            lowest = min(lowest, float(height.min()))
     return lowest if np.isfinite(lowest) else None
 
 
 def sole_gap(robot: Scout, motion: GaitMotion) -> tuple[float, int]:
     """Least distance of the soles [m], and the sample at which they are nearest."""
     least, sample = np.inf, 0
+    outlines = [_outline(robot, side) for side in SIDES]
+    hulls = [outline[convex_hull(outline)] for outline in outlines]
     for part in blocks(len(motion.t)):
+        places = [_foot(motion, k).part(part).placement for k in range(2)]
         one, other = (
-            robot.sole_vertices(side, _foot(motion, k).part(part).placement)
-            for k, side in enumerate(SIDES)
+            partial(_corners, outline, place)
+            for outline, place in zip(outlines, places, strict=True)
         )
-        found = least_distance(one, other, least)
+        outer = (sole_corners(hulls[0], places[0]), sole_corners(hulls[1], places[1]))
+        found = least_distance(one, other, least, outer)
         if found is not None:
             least, sample = found[0], part.start + found[1]
     return float(least), sample
+
+
+def _outline(robot: Scout, side: str) -> np.ndarray:
+    return np.array(robot.specification.leg(side).sole)
+
+
+def _corners(outline: np.ndarray, place: np.ndarray, some: Samples) -> np.ndarray:
+    return sole_corners(outline, place[some])
 
 
 def _foot(motion: GaitMotion, number: int) -> BodyMotion:

@@ -9,10 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
-from scout_pin.dynamics.stability import momentum, support_margin, zero_moment_point
+from scout_pin.dynamics.stability import planned_zmp, support_margin
 from scout_pin.dynamics.variants import drawn, extremes_of
 from scout_pin.implausible import implausible
 from scout_pin.kinematics.branches import branch_label
@@ -251,11 +250,7 @@ def gait_report(
         joints = joint_trajectory(robot, motion, branch=asked, reference=gait.reference)
         progress(2, 4)
         dynamics = inverse_dynamics(robot, motion, joints)
-        com, zmp = np.empty((len(motion.t), 3)), np.empty((len(motion.t), 2))
-        for part in blocks(len(motion.t)):
-            state = free_flyer_state(motion.torso.part(part), joints.part(part))
-            com[part], rate = momentum(robot, *state)
-            zmp[part] = zero_moment_point(robot.mass, com[part], rate, first=part.start)
+        zmp = planned_zmp(robot, motion, dynamics)
         margin = support_margin(robot, motion, zmp)
         progress(3, 4)
         draws = None
@@ -273,7 +268,6 @@ def gait_report(
         motion=motion,
         joints=joints,
         dynamics=dynamics,
-        com=com,
         zmp=zmp,
         margin=margin,
         impacts=tuple(impacts(robot, gait, joints, unit)),

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.dynamics.impact import Impact
+from scout_pin.dynamics.stability import centre_of_mass
 from scout_pin.dynamics.variants import Drawn
 from scout_pin.model import Scout
 from scout_pin.motion.collisions import Collisions, collisions
@@ -38,7 +39,6 @@ class GaitNumbers:
         motion: Sampled task-space motion.
         joints: Joint trajectory.
         dynamics: Torques and floor wrenches.
-        com: Centre of mass [m], shape ``(n, 3)``.
         zmp: Zero-moment point by (6.1) [m], shape ``(n, 2)``.
         margin: Signed distance of the ZMP inside the support polygon [m], ``(n,)``.
         impacts: Touchdowns.
@@ -52,11 +52,15 @@ class GaitNumbers:
     motion: GaitMotion
     joints: JointTrajectory
     dynamics: ContactDynamics
-    com: np.ndarray
     zmp: np.ndarray
     margin: np.ndarray
     impacts: tuple[Impact, ...]
     drawn: Drawn | None = None
+
+    @cached_property
+    def com(self) -> np.ndarray:
+        """Centre of mass [m], shape ``(n, 3)``."""
+        return centre_of_mass(self.robot, self.motion, self.joints)
 
     @cached_property
     def headlines(self) -> Headlines | None:
@@ -101,7 +105,7 @@ class GaitNumbers:
         places = self.ends.cycle and not self.ends.closure.places_fit
         if self.digs or self.soles_collide or self.collisions.touching or places:  # at any speed
             return []
-        return time_units(self.speeds, self.gait, self.com, self.time_unit)
+        return time_units(self.speeds, self.gait, self.time_unit)
 
     @property
     def stable_share(self) -> float:
@@ -135,7 +139,7 @@ class GaitNumbers:
     @cached_property
     def ends(self) -> Ends:
         """How the gait begins and ends."""
-        return ends(self.robot, self.gait, self.motion, self.com, self.time_unit)
+        return ends(self.robot, self.gait, self.motion, self.joints, self.time_unit)
 
     @cached_property
     def swings(self) -> list[Swing]:

@@ -92,12 +92,14 @@ NUMBERS = {
     "--servo": {"2.5"},
     "--friction": {"2.5"},
     "--external": set(),
+    "--floor-height": {"0", "-1", "2.5"},
+    "--slope": {"0", "2.5"},
 }
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
 READ = (
-    *("--specification", "--gait", "--path", "--pose", "--servos"),
+    *("--specification", "--gait", "--path", "--pose", "--servos", "--list"),
     *("file", "closures", "motion", "servos"),
 )
 """Flags and words that name a file to read."""
@@ -144,6 +146,17 @@ CONTRADICTIONS = {
     "pollard-pin info": [["--json", "-", "--html", "-"]],
     "pollard-pin urdf": [],
     "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
+    "thesis-pin balance": [
+        ["--slope", "95"],
+        ["--slope", "5,1,2"],
+        ["--friction", "0"],
+        ["--floor-height", "nan"],
+        ["--sharing", "fairly"],
+        ["--feet", "nowhere"],
+        ["--feet", "leg_left_6_link=wide"],
+        ["--pose", "nowhere"],
+        ["--json", "-", "--html", "-"],
+    ],
     "thesis-pin check": [],
     "thesis-pin formats": [],
     "thesis-pin torque": [
@@ -151,6 +164,8 @@ CONTRADICTIONS = {
         ["--frame", "tool_tip"],
         ["--euler", "ZYX"],
     ],
+    "thesis-pin size": [["--frame", "tool_tip"], ["--external", "nowhere=0,0,1"]],
+    "thesis-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--euler", "ZYX"]],
     "thesis-pin workspace": [
         ["--along", "x", "0", "1"],
         ["--along", "z_mm", "3", "-3"],

@@ -33,6 +33,7 @@ SEEN = {
     "check": set(),
     "formats": set(),
     "torque": {"--out", "--html"},
+    "balance": {"--out", "--html"},
 }
 """How one sees what a verb found, beside the terminal."""
 
@@ -44,7 +45,7 @@ SCHEMAS = {
     )
 }
 
-OWN_WORDS = {"--to", "--out", "--json", "--strict", "--specification", "--branch"}
+OWN_WORDS = {"--to", "--out", "--json", "--strict", "--specification", "--branch", "--pose"}
 """Flags whose help says what this robot or verb writes or takes there."""
 
 

@@ -12,6 +12,7 @@ SCRIPTS = sorted(EXAMPLES.glob("*.py"))
 
 SAYS = {
     "any_robot_torques": "the closest is chain1_shoulder with 8%",
+    "delta_workspace": "No motor exceeds its limits; the closest is motor_1",
     "scout_explicit_model": "8.81468 N stay unbalanced",
     "scout_inverse_kinematics": "reach the target to",
     "scout_gait_report": "Scout can walk this gait",

@@ -5,6 +5,7 @@ import runpy
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -28,6 +29,22 @@ def test_tables_are_what_the_package_works_out_now(document):
 def test_python_snippet_runs(number, capsys):
     exec(compile(blocks("python")[number], "README", "exec"), {})
     assert capsys.readouterr().out
+
+
+def test_the_snippet_on_any_robot_runs_on_one():
+    text = (ROOT / "docs" / "any_robot.md").read_text(encoding="utf-8")
+    code = re.search(r"```python\n(.*?)```", text, flags=re.DOTALL)[1]
+    for said, meant in (
+        ("arm.urdf", "urdf/pollard/pollard.urdf"),
+        ("loops.yaml", "urdf/pollard/pollard.closures.yaml"),
+        ("motion.csv", "examples/pollard_motors.csv"),
+    ):
+        assert f'"{said}"' in code
+        code = code.replace(f'"{said}"', f'"{ROOT / meant}"')
+    found = {}
+    exec(compile(code, "any_robot", "exec"), found)
+    torque = found["report"].dynamics.torque
+    np.testing.assert_allclose(found["dynamics"].torque, torque, atol=1e-9 * np.abs(torque).max())
 
 
 def commands():

@@ -9,6 +9,7 @@ import pinocchio as pin
 
 from thesis_pin.command.results import Answer, deliver, give, put_folder
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.verbs import deliver_sizes, show_scene
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.loops.checking import soundness
@@ -23,6 +24,9 @@ from thesis_pin.numeric.checks import shown
 from thesis_pin.report import formats as read
 from thesis_pin.report.tables import Part, Table
 from thesis_pin.report.torque.document import TorqueReport, torque_report
+from thesis_pin.sizing.catalogue import Catalogue
+from thesis_pin.sizing.document import Sizing
+from thesis_pin.sizing.motors import size_motors
 
 
 def check(arguments: argparse.Namespace) -> ExitCode:
@@ -43,23 +47,41 @@ def check(arguments: argparse.Namespace) -> ExitCode:
 def torque(arguments: argparse.Namespace) -> ExitCode:
     """Report on a motion of any robot."""
 
-    def make(_: object) -> TorqueReport:
-        robot = loaded(arguments)
-        with warned():
-            motion = _motion(arguments, robot)
-            x = arguments.precision
-            pose = assembly(robot, arguments.pose, precision=x).q
-            external = _external(arguments)
-            return torque_report(robot, motion, pose=pose, precision=x, external=external)
-
     return deliver(
         arguments,
         "working out the torques",
-        make,
+        lambda _: _report(arguments),
         figures="thesis_pin.report.torque.figures:figures",
         page="thesis_pin.pages.torque:torque_page",
         table="thesis_pin.report.torque.tables:summary",
     )
+
+
+def size(arguments: argparse.Namespace) -> ExitCode:
+    """Hold lists of servos against a motion of any robot."""
+
+    def make(catalogue: Catalogue, _: object) -> Sizing:
+        return size_motors(_report(arguments), catalogue, arguments.factor)
+
+    return deliver_sizes(arguments, "thesis-pin", make)
+
+
+def view(arguments: argparse.Namespace) -> ExitCode:
+    """Show a motion of any robot in the browser, or write it as a page."""
+    from thesis_pin.pages.torque_scene import scene
+
+    return show_scene(arguments, "thesis-pin", lambda _: scene(_report(arguments)))
+
+
+def _report(arguments: argparse.Namespace) -> TorqueReport:
+    """The report on the motion that the arguments name."""
+    robot = loaded(arguments)
+    with warned():
+        motion = _motion(arguments, robot)
+        x = arguments.precision
+        pose = assembly(robot, arguments.pose, precision=x).q
+        external = _external(arguments)
+        return torque_report(robot, motion, pose=pose, precision=x, external=external)
 
 
 def formats(arguments: argparse.Namespace) -> ExitCode:
@@ -108,10 +130,11 @@ def _tell(found: soundness.Soundness) -> list[Part]:
         for loop, gap in zip(robot.loops, found.assembly.gaps, strict=False)
     ]
     columns = ("loop", "type", "frame", "frame", "gap m", "gap rad")
+    motors = ", ".join(_named(motor) for motor in robot.motors)
     return [
         *([Table("", columns, rows)] if rows else []),
         f"{robot.model.name}: {robot.model.njoints - 1} joints, "
-        f"{len(robot.motors)} motors ({', '.join(_named(motor) for motor in robot.motors)}).",
+        f"{len(robot.motors)} motors{f' ({motors})' if motors else ''}.",
         *found.sentences(),
         *(f"Warning: {one}" for one in found.warnings),
         *(f"Not used: {one}" for one in robot.description.passed_over),

@@ -71,28 +71,10 @@ def size_verb(robot: Robot, help: str, description: str, example: str, *, sample
             "servos",
             nargs="+",
             metavar="LIST",
-            help="lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)",
-        )
-        words.add_argument(
-            "--voltage",
-            type=options.number("--voltage", positive=True),
-            metavar="V",
-            help="take those for this voltage (default: all)",
-        )
-        words.add_argument(
-            "--factor",
-            type=options.number("--factor", positive=True),
-            default=1.0,
-            help="least safety factor against the torque-speed line (default: 1)",
+            help=options.LISTS,
         )
         options.add_samples(words, samples)
-        words.add_argument("--out", metavar="DIR", help="write report.json and sizes.csv")
-        options.add_json(words, "the answer")
-        words.add_argument(
-            "--strict",
-            action="store_true",
-            help="exit with 1 if some joint has no servo that carries it for long",
-        )
+        options.add_sizing(words)
 
     return _verb(
         robot, "size", (help, description, example), robot.size, verbs.size, which, robot.motion

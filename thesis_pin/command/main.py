@@ -6,13 +6,17 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command.options import (
+    LISTS,
     add_euler,
     add_frame,
     add_json,
     add_report,
+    add_sizing,
     add_smooth,
+    add_view,
     count,
     number,
+    slope,
     wrench,
 )
 from thesis_pin.command.registry import Command, Parser, Verb, Words
@@ -42,6 +46,13 @@ def _which_motion(words: Words) -> None:
     add_smooth(words)
     add_frame(words)
     add_euler(words)
+
+
+def _which_list(words: Words) -> None:
+    """Which servos."""
+    words.add_argument(
+        "--list", dest="servos", nargs="+", required=True, metavar="LIST", help=LISTS
+    )
 
 
 def _which_grid(words: Words) -> None:
@@ -121,6 +132,65 @@ def _which_pose(words: Words) -> None:
     )
 
 
+def _which_stance(words: Words) -> None:
+    """A pose or a motion on feet: which feet, which floor, who carries what."""
+    words.add_argument(
+        "motion",
+        nargs="?",
+        metavar="MOTION",
+        help="CSV as for torque, with base_x … of the root and contact_NAME (0 or 1) of each foot "
+        "(default: a pose is held)",
+    )
+    add_smooth(words)
+    words.add_argument(
+        "--pose",
+        metavar="NAME|FILE",
+        help="a pose of the description or of an SRDF beside it, or a .toml file: what is held, or "
+        "where loops are closed from (default: half_sitting or standing of the SRDF, or neutral)",
+    )
+    words.add_argument(
+        "--precision",
+        type=number("--precision"),
+        metavar="RAD",
+        help="loop equations that differ by less count as one; 0 takes every one as real "
+        "(default: told from the file's own noise)",
+    )
+    words.add_argument(
+        "--feet",
+        metavar="NAME,NAME",
+        help="frames or links, each with its sole from the robot's shapes; or NAME=point, "
+        "NAME=0.03 (a ball, in metres), NAME=0.2x0.1 (a sole) (default: a guess, which is said)",
+    )
+    words.add_argument(
+        "--friction",
+        type=number("--friction", positive=True),
+        default=0.6,
+        metavar="NUMBER",
+        help="coefficient between sole and floor (default: 0.6)",
+    )
+    words.add_argument(
+        "--floor-height",
+        type=number("--floor-height"),
+        metavar="M",
+        help="height of the floor at the world's origin [m] (default: below the feet)",
+    )
+    words.add_argument(
+        "--slope",
+        type=slope,
+        default=(0.0, 0.0),
+        metavar="DEG[,HEADING]",
+        help="how much the floor rises, and in which heading from the world's x axis [°] "
+        "(default: level)",
+    )
+    words.add_argument(
+        "--sharing",
+        choices=("torque", "force", "equal"),
+        default="torque",
+        help="what shares load that the feet leave open: least squared torques, least squared "
+        "contact forces, equal normal forces (default: torque)",
+    )
+
+
 def _strictly(words: Words) -> None:
     words.add_argument(
         "--strict", action="store_true", help="exit with 1 if the motors don't hold the robot"
@@ -171,6 +241,49 @@ COMMAND = Command(
                 _which_wrenches,
                 partial(add_report, breaks="a motor or joint leaves its limits"),
             ),
+        ),
+        Verb(
+            "balance",
+            "does it keep its balance on its feet?",
+            "Forces on the feet of any robot, its torques, and whether it stands, slips or tips: "
+            "in a pose or along a motion.",
+            "balance example:talos_reduced_box --slope 5",
+            "thesis_pin.report.balance.making:balance_report",
+            "thesis_pin.command.on_feet:balance",
+            (
+                _which_robot,
+                _which_stance,
+                partial(add_report, breaks="it falls, or a motor or joint leaves its limits"),
+            ),
+        ),
+        Verb(
+            "size",
+            "which motors of a list carry this motion?",
+            "Motors of a list held against what a motion asks of each motor of any robot: safety "
+            "factor, RMS.",
+            "size urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
+            "examples/pollard_motors.csv --list examples/servos.csv",
+            "thesis_pin.sizing.motors:size_motors",
+            "thesis_pin.command.any_robot:size",
+            (
+                _which_robot,
+                _which_motion,
+                _which_list,
+                _which_pose,
+                _which_wrenches,
+                add_sizing,
+            ),
+        ),
+        Verb(
+            "view",
+            "watch any robot move in the browser",
+            "Show any robot on a motion with its loops, their forces and the motors' torques, on "
+            "127.0.0.1.",
+            "view urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
+            "examples/pollard_motors.csv --html view.html",
+            "thesis_pin.pages.torque_scene:scene",
+            "thesis_pin.command.any_robot:view",
+            (_which_robot, _which_motion, _which_pose, _which_wrenches, add_view),
         ),
         Verb(
             "workspace",

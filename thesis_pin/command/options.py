@@ -77,6 +77,19 @@ def wrench(text: str) -> tuple[str, tuple[float, ...]]:
     return frame, (*numbers, 0.0, 0.0, 0.0)[:6]
 
 
+def slope(text: str) -> tuple[float, float]:
+    """An argparse type: a floor's slope, and the heading in which it rises [°]."""
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError:
+        numbers = [math.nan]
+    if len(numbers) > 2 or not all(map(math.isfinite, numbers)) or not 0 <= numbers[0] < 89:
+        raise argparse.ArgumentTypeError(
+            f"--slope is {shown(text)}; allowed: DEG or DEG,HEADING, DEG from 0 to below 89 [°]"
+        )
+    return numbers[0], (*numbers, 0.0)[1]
+
+
 def add_robot(words: Words, another: str) -> None:
     """Which robot: ``another`` says what a specification may describe."""
     words.add_argument(
@@ -135,6 +148,33 @@ def add_samples(words: Words, default: int) -> None:
         default=default,
         metavar="N",
         help=f"evenly spaced samples; more stand beside abrupt changes (default: {default})",
+    )
+
+
+LISTS = "lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)"
+"""What a list of servos may be, for help."""
+
+
+def add_sizing(words: Words) -> None:
+    """How lists of servos are held against a motion."""
+    words.add_argument(
+        "--voltage",
+        type=number("--voltage", positive=True),
+        metavar="V",
+        help="take those for this voltage (default: all)",
+    )
+    words.add_argument(
+        "--factor",
+        type=number("--factor", positive=True),
+        default=1.0,
+        help="least safety factor against the torque-speed line (default: 1)",
+    )
+    words.add_argument("--out", metavar="DIR", help="write report.json and sizes.csv")
+    add_json(words, "the answer")
+    words.add_argument(
+        "--strict",
+        action="store_true",
+        help="exit with 1 if some joint has no servo that carries it for long",
     )
 
 

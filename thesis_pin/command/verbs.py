@@ -28,6 +28,7 @@ from thesis_pin.errors import BadInput
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
     from thesis_pin.report.exchange.movement import Movement
+    from thesis_pin.sizing.catalogue import Catalogue
     from thesis_pin.sizing.document import Sizing
 
 
@@ -65,18 +66,37 @@ def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
 
 def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Show a motion in the browser, or write it as a page."""
-    refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
-    with Bar("working out the motion") as bar:
+
+    def make(bar: Bar) -> Scene:
         from thesis_pin.pages.scene import frames
-        from thesis_pin.report.writers import json_bytes
 
         scene: Scene | None = None
         if robot.still:
             scene = _hook(robot, robot.still)(arguments, _load(robot, arguments))
         if scene is None:
             scene = _hook(robot, robot.scene)(_report(robot, arguments, frames, bar))
+        return scene
+
+    return show_scene(arguments, robot.command, make)
+
+
+def show_scene(
+    arguments: argparse.Namespace, command: str, make: Callable[[Bar], Scene]
+) -> ExitCode:
+    """Show a scene in the browser, or write it as a page.
+
+    Args:
+        arguments: With what :func:`thesis_pin.command.options.add_view` adds.
+        command: Which command asks, for the schema's name.
+        make: Makes the scene.
+    """
+    refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
+    with Bar("working out the motion") as bar:
+        from thesis_pin.report.writers import json_bytes
+
+        scene = make(bar)
     shown = {
-        "schema": f"{robot.command}/view",
+        "schema": f"{command}/view",
         "version": 1,
         "title": scene.title,
         "duration": float(scene.time[-1] - scene.time[0]),
@@ -148,6 +168,25 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def size(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Hold lists of servos against a motion."""
+
+    def make(catalogue: Catalogue, bar: Bar) -> Sizing:
+        report = _report(robot, arguments, lambda _: arguments.samples, bar)
+        found: Sizing = _hook(robot, robot.size)(report, catalogue, arguments.factor)
+        return found
+
+    return deliver_sizes(arguments, robot.command, make)
+
+
+def deliver_sizes(
+    arguments: argparse.Namespace, command: str, make: Callable[[Catalogue, Bar], Sizing]
+) -> ExitCode:
+    """Write and print which servos of lists carry a motion.
+
+    Args:
+        arguments: With ``servos``, ``voltage``, ``out``, ``json`` and ``strict``.
+        command: Which command asks, for the schema's name.
+        make: Holds a list against the motion.
+    """
     from thesis_pin.report.writers import csv_bytes, json_bytes
     from thesis_pin.sizing.catalogue import read_catalogue
     from thesis_pin.sizing.tables import summary
@@ -155,10 +194,9 @@ def size(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     catalogue = read_catalogue(arguments.servos, voltage=arguments.voltage)
     files: dict[str, bytes] = {}
     with Bar("working out the motion") as bar:
-        report = _report(robot, arguments, lambda _: arguments.samples, bar)
-        found: Sizing = _hook(robot, robot.size)(report, catalogue, arguments.factor)
+        found = make(catalogue, bar)
         wanted = arguments.json or arguments.out
-        content = json_bytes(found.document(robot.command)) if wanted else b""
+        content = json_bytes(found.document(command)) if wanted else b""
         if arguments.out:
             files = {"report.json": content, "sizes.csv": csv_bytes(found.columns())}
     write_results(arguments, files, content)

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeAlias
+
 import numpy as np
 
+from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.tolerances import TOLERANCES
+
+Moving: TypeAlias = np.ndarray | Callable[[Samples], np.ndarray]
+"""Corners of a moving polygon, or what gives those of some samples."""
 
 _LINES = np.array(
     [[np.cos(a), np.sin(a), 0.0] for a in np.pi * np.arange(8) / 8] + [[0.0, 0.0, 1.0]]
@@ -31,14 +38,20 @@ def polygon_distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def least_distance(
-    one: np.ndarray, other: np.ndarray, known: float = np.inf
+    one: Moving,
+    other: Moving,
+    known: float = np.inf,
+    hulls: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> tuple[float, int] | None:
     """Where two moving polygons are nearest: the distance [m], and the sample.
 
     Args:
-        one: Corners of one polygon at each sample [m], shape ``(n, corners, 3)``.
+        one: Corners of one polygon at each sample [m], shape ``(n, corners, 3)``; or, if its
+            hull is known, what gives those of some samples.
         other: The same of the other one.
         known: A distance [m] known from elsewhere.
+        hulls: Corners of each polygon's convex hull at each sample, if they are known: the
+            others cast no shadow of their own.
 
     Returns:
         None if no pair is nearer than what is known. Pairs that differ by less than the
@@ -46,23 +59,43 @@ def least_distance(
     """
     # How far apart their shadows are bounds the distance from below: on a few fixed lines
     # first, and where that doesn't tell, across every edge.
-    apart = _gaps(one @ _LINES.T, other @ _LINES.T)
+    outer = (_some(one, slice(None)), _some(other, slice(None))) if hulls is None else hulls
+    apart = _level_and_upright(*outer)
     sample = int(np.argmin(apart))
     if apart[sample] >= known - TOLERANCES.nearer:
         return None
-    least = float(polygon_distance(one[[sample]], other[[sample]])[0])
+    first = np.array([sample])
+    least = float(polygon_distance(_some(one, first), _some(other, first))[0])
     some = np.flatnonzero(apart < min(least, known) - TOLERANCES.nearer)
-    apart = _apart(one[some], other[some])
+    apart = _apart(outer[0][some], outer[1][some])
     order = np.argsort(apart)
     for start in range(0, len(some), _TOGETHER):
         some_more = order[start : start + _TOGETHER]
         if apart[some_more[0]] >= min(least, known) - TOLERANCES.nearer:
             break
         part = some[some_more]
-        found = polygon_distance(one[part], other[part])
+        found = polygon_distance(_some(one, part), _some(other, part))
         if found.min() < least:
             least, sample = float(found.min()), int(part[np.argmin(found)])
     return (least, sample) if least < known else None
+
+
+def _some(polygon: Moving, samples: Samples) -> np.ndarray:
+    return polygon[samples] if isinstance(polygon, np.ndarray) else polygon(samples)
+
+
+def _level_and_upright(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """How far apart shadows are at most on a few level lines and the vertical, ``(n,)``."""
+    # Coordinates first, then corners: a third of the time.
+    here, there = (
+        np.ascontiguousarray(np.moveaxis(part, 0, -1)).transpose(1, 0, 2) for part in (one, other)
+    )
+    apart = np.full(len(one), -np.inf)
+    for x, y, z in _LINES.tolist():
+        mine, its = (x * c[0] + y * c[1] if not z else c[2] for c in (here, there))
+        np.maximum(apart, its.min(axis=0) - mine.max(axis=0), out=apart)
+        np.maximum(apart, mine.min(axis=0) - its.max(axis=0), out=apart)
+    return apart
 
 
 def _apart(one: np.ndarray, other: np.ndarray) -> np.ndarray:

@@ -187,6 +187,19 @@ def ascending(*values: ArrayLike) -> np.ndarray:
     return np.asarray(every[fresh])
 
 
+def thinned(time: np.ndarray, most: int) -> np.ndarray:
+    """Indices of at most ``most`` evenly spread samples, both ends included.
+
+    Samples closer than a millionth of the whole, the two sides of one instant, count
+    as one: a page can't tell them apart.
+    """
+    moment = np.round((time - time[0]) / (time[-1] - time[0]) * 1e6)
+    apart = np.flatnonzero(np.diff(moment, prepend=-1.0))
+    apart[-1] = len(time) - 1
+    even = np.linspace(0, len(apart) - 1, min(len(apart), most)).round().astype(int)
+    return np.asarray(apart[ascending(even)])
+
+
 def skew(vector: np.ndarray) -> np.ndarray:
     """Cross-product matrices: ``skew(a) @ b == a × b``; ``(..., 3)`` → ``(..., 3, 3)``."""
     matrix = np.zeros((*vector.shape[:-1], 3, 3))

@@ -47,6 +47,7 @@ class Elementwise:
     Attributes:
         cosine_sine: Cosine and sine of an angle.
         sqrt, acos, atan2: As usual.
+        clipped: What ought to be a cosine, brought into ±1.
         where: ``where(condition, yes, no)``.
         some: Whether a condition holds for at least one element.
     """
@@ -57,10 +58,7 @@ class Elementwise:
     atan2: Callable[[Number, Number], Number]
     where: Callable[[Truth, Number, Number], Number]
     some: Callable[[Truth], bool]
-
-    def clipped(self, cosine: Number) -> Number:
-        """What ought to be a cosine, brought into ±1."""
-        return self.where(cosine > 1.0, 1.0, self.where(cosine < -1.0, -1.0, cosine))
+    clipped: Callable[[Number], Number]
 
     def larger(self, one: Number, other: Number) -> Number:
         """The larger of two."""
@@ -69,6 +67,14 @@ class Elementwise:
 
 def _pick(condition: bool, yes: float, no: float) -> float:
     return yes if condition else no
+
+
+def _clipped(cosine: float) -> float:
+    return 1.0 if cosine > 1.0 else -1.0 if cosine < -1.0 else cosine
+
+
+def _clipped_all(cosine: np.ndarray) -> np.ndarray:
+    return np.asarray(np.minimum(np.maximum(cosine, -1.0), 1.0))
 
 
 def _cosine_sine(angle: float) -> tuple[float, float]:
@@ -81,8 +87,9 @@ def cosine_sine(angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 # Each of the two takes its own kind only, which their common type can't say.
-FLOATS = Elementwise(_cosine_sine, math.sqrt, math.acos, math.atan2, _pick, bool)  # type: ignore[arg-type]
-ARRAYS = Elementwise(cosine_sine, np.sqrt, np.arccos, np.arctan2, np.where, np.any)  # type: ignore[arg-type]
+FLOATS = Elementwise(_cosine_sine, math.sqrt, math.acos, math.atan2, _pick, bool, _clipped)  # type: ignore[arg-type]
+_OF_ARRAYS = cosine_sine, np.sqrt, np.arccos, np.arctan2, np.where, np.any, _clipped_all
+ARRAYS = Elementwise(*_OF_ARRAYS)  # type: ignore[arg-type]
 
 
 def blocks(count: int, size: int = BLOCK) -> list[slice]:
@@ -93,3 +100,21 @@ def blocks(count: int, size: int = BLOCK) -> list[slice]:
 def intervals(count: int, size: int = BLOCK) -> list[slice]:
     """Slices whose neighbours share a sample: each step between two samples lies in one."""
     return [slice(part.start, part.stop + 1) for part in blocks(max(count - 1, 1), size)]
+
+
+def pieces(count: int) -> list[tuple[Elementwise, int, Samples | int]]:
+    """A few samples one by one, as floats; many in blocks: functions, first sample, samples."""
+    if count < FEW:
+        return [(FLOATS, k, k) for k in range(count)]
+    return [(ARRAYS, part.start, part) for part in blocks(count)]
+
+
+def components(stack: np.ndarray, piece: Samples | int) -> Numbers:
+    """A piece of a stack ``(n, k)``, component by component: k floats, or rows ``(k, m)``."""
+    part = stack[piece]
+    return part.tolist() if part.ndim == 1 else np.ascontiguousarray(part.T)
+
+
+def put(stack: np.ndarray, piece: Samples | int, numbers: Numbers) -> None:
+    """Write components, floats or arrays ``(m,)``, to a piece of a stack ``(n, k)``."""
+    stack[piece] = np.asarray(numbers).T

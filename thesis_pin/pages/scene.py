@@ -15,6 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
+from thesis_pin.numeric.arrays import thinned as thinned
 
 GREY = "#9AA0A6"
 
@@ -265,20 +266,6 @@ class Scene:
                     np.shape(readout.values),
                     str(time.shape),
                 )
-
-
-def thinned(time: np.ndarray, most: int) -> np.ndarray:
-    """Indices of at most ``most`` evenly spread samples, both ends included.
-
-    Samples closer than a millionth of the whole, the two sides of one instant, count
-    as one: a page can't tell them apart.
-    """
-    moment = np.round((time - time[0]) / (time[-1] - time[0]) * 1e6)
-    apart = np.unique(moment, return_index=True)[1]
-    apart[-1] = len(time) - 1
-    return np.asarray(
-        apart[np.unique(np.linspace(0, len(apart) - 1, min(len(apart), most)).round().astype(int))]
-    )
 
 
 def frames(duration: float) -> int:

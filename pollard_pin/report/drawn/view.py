@@ -76,7 +76,7 @@ def path_scene(report: TrajectoryReport) -> Scene:
                 Readout(f"torque {ACTUATOR_SYMBOLS[k]}", report.torque[keep, k], "N·m", 3)
                 for k in range(6)
             ),
-            Readout("loops open by", _opening(report)[keep] * 1e12, "pm", 4),
+            Readout("loops open by", _opening(report)[keep] * 1e6, "µm", 3),
         ),
         floor=low - 0.05,
         forward=(1.0, 0.0),

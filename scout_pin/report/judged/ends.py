@@ -9,10 +9,11 @@ from typing import Literal
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.dynamics.stability import support_margin
+from scout_pin.dynamics.stability import centre_of_mass, support_margin
 from scout_pin.model import Scout
 from scout_pin.motion.cycles import Closure, Gap, closure, state
 from scout_pin.motion.gait import BODIES, Gait, GaitMotion
+from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.tolerances import TOLERANCES
 
 Kind = Literal["rests", "cycles", "open cycle", "in motion"]
@@ -98,18 +99,22 @@ class Ends:
         }
 
 
-def ends(robot: Scout, gait: Gait, motion: GaitMotion, com: np.ndarray, unit: float) -> Ends:
+def ends(
+    robot: Scout, gait: Gait, motion: GaitMotion, joints: JointTrajectory, unit: float
+) -> Ends:
     """Judge how a gait begins and ends.
 
     Args:
         robot: The biped.
         gait: The gait.
         motion: Its samples.
-        com: Centre of mass at each [m], shape ``(n, 3)``.
+        joints: Their joint trajectory.
         unit: Seconds in the gait's unit of t.
     """
     both = np.array([0, len(motion.t) - 1])
-    margins = support_margin(robot, motion.part(both), com[both, :2])
+    first_last = motion.part(both)
+    com = centre_of_mass(robot, first_last, joints.part(both))
+    margins = support_margin(robot, first_last, com[:, :2])
     late = float(np.nextafter(gait.end, -np.inf))
     found = [
         End(t, *_fastest(gait, at, unit), float(margin))

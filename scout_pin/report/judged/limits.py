@@ -119,7 +119,7 @@ class TimeUnits:
         }
 
 
-def time_units(speeds: Speeds, gait: Gait, com: np.ndarray, unit: float) -> list[TimeUnits]:
+def time_units(speeds: Speeds, gait: Gait, unit: float) -> list[TimeUnits]:
     """Time units between a fifth and five times the given one at which all limits are kept.
 
     What happens at any speed isn't looked at: soles that collide or dig into the floor.
@@ -127,7 +127,6 @@ def time_units(speeds: Speeds, gait: Gait, com: np.ndarray, unit: float) -> list
     Args:
         speeds: The gait at any speed.
         gait: The gait.
-        com: Centre of mass at each sample [m], shape ``(n, 3)``.
         unit: Seconds in the gait's unit of t at s = 1.
 
     Returns:
@@ -135,7 +134,7 @@ def time_units(speeds: Speeds, gait: Gait, com: np.ndarray, unit: float) -> list
     """
     low, high = SPEEDS
     jump, gap = _jump(gait, unit / high), _gap(gait, unit / high)
-    taken = Intervals.joined([speeds.servos["servo"], speeds.balance(com)], 3)
+    taken = Intervals.joined([speeds.servos["servo"], speeds.balance()], 3)
     for cause, found in (("rate jump", jump), ("gap", gap)):
         if found is not None:
             start = TOLERANCES.rate_jump / abs(found.size) * high

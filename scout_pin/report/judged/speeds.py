@@ -15,14 +15,14 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.dynamics.scaling import DoubleSupport, Torques, single_support
-from scout_pin.dynamics.stability import polygons
+from scout_pin.dynamics.stability import centre_of_mass, polygons
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.report.judged.causes import CAUSES, Cause
 from scout_pin.report.judged.trial import Trial, beyond
 from thesis_pin.contacts.cones import in_sole_axes
 from thesis_pin.contacts.dynamics import ContactDynamics
-from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.elementwise import LONG, blocks
 from thesis_pin.numeric.inequalities import (
     Intervals,
     Rest,
@@ -110,11 +110,38 @@ class Speeds:
         return np.asarray(np.abs(self.joints.part(samples).v) / self.robot.no_load_speed)
 
     def _torques(self) -> Iterator[Torques]:
+        alone = self._alone if len(self.joints.time) < LONG else self._each_alone()
+        yield from (torques for torques, _ in alone)
+        if self._double is not None:
+            yield self._double.free
+
+    @cached_property
+    def _alone(self) -> list[tuple[Torques, np.ndarray]]:
+        return list(self._each_alone())
+
+    def _each_alone(self) -> Iterator[tuple[Torques, np.ndarray]]:
+        """Torques of single support, and where the weight acts, block by block."""
         for part in blocks(len(self._single)):
             some = self._single[part]
             yield single_support(self.robot, self.motion, self.joints, self.dynamics.torque, some)
-        if self._double is not None:
-            yield self._double.free
+
+    @cached_property
+    def _weight_above(self) -> np.ndarray:
+        """Where on the floor the weight acts, x and y below the centre of mass [m], ``(n, 2)``.
+
+        In single support statics have found it already.
+        """
+        place = np.empty((len(self.joints.time), 2))
+        left = np.arange(len(place))
+        if len(place) < LONG:
+            for torques, above in self._alone:
+                place[torques.samples] = above
+            left = np.flatnonzero(self.motion.support.all(axis=1))
+        for part in blocks(len(left)):
+            some = left[part]
+            here, joints = self.motion.part(some), self.joints.part(some)
+            place[some] = centre_of_mass(self.robot, here, joints)[:, :2]
+        return place
 
     def _passed(self, torques: Torques, growth: np.ndarray, cause: Cause) -> Intervals:
         """Where |torque| / stall + growth s > 1, with cause, sample and joint."""
@@ -132,20 +159,18 @@ class Speeds:
         bounds = (np.sqrt(np.maximum(x[sample], 0.0)) for x in (torques.low, torques.high))
         return Intervals(_even(start), _even(end), source).within(*bounds)
 
-    def balance(self, com: np.ndarray) -> Intervals:
-        """Speeds at which the ZMP leaves the support polygon, or a single sole can't hold.
-
-        Args:
-            com: Centre of mass at each sample [m], shape ``(n, 3)``.
-        """
+    def balance(self) -> Intervals:
+        """Speeds at which the ZMP leaves the support polygon, or a single sole can't hold."""
         bounds: dict[Cause, _Bound] = {"zmp": _Bound(), "contact": _Bound()}
         for samples, corners in polygons(self.robot, self.motion):
             for part in blocks(len(samples)):
+                if _none_left(*bounds.values()):  # whatever the other samples forbid
+                    break
                 some = samples[part]
-                static, added = self._floor(com, some)
+                static, added = self._floor(some)
                 bounds["zmp"].take(some, *where_lines_hold(*_edges(corners, static, added)))
                 standing = np.flatnonzero(self.motion.support[some[0]])
-                if len(standing) == 1:
+                if len(standing) == 1 and not _none_left(*bounds.values()):
                     self._press(int(standing[0]), some, (static, added), bounds["contact"])
         found = []
         for cause, bound in bounds.items():
@@ -156,7 +181,7 @@ class Speeds:
             found.append(taken.within(np.full(2, self.low), np.full(2, self.high)))
         return Intervals.joined(found, 3)
 
-    def _floor(self, com: np.ndarray, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _floor(self, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Wrench of the floor about the world's origin ``(m, 6)``: at rest, and what s² adds."""
         here, torso = self.dynamics.part(some).required, self.motion.torso.part(some)
         force = np.einsum("nij,nj->ni", torso.rotation, here[:, :3])
@@ -165,7 +190,8 @@ class Speeds:
         weight = self.robot.mass * GRAVITY
         static = np.zeros((len(some), 6))
         static[:, 2] = weight
-        static[:, 3], static[:, 4] = weight * com[some, 1], -weight * com[some, 0]
+        com = self._weight_above[some]
+        static[:, 3], static[:, 4] = weight * com[:, 1], -weight * com[:, 0]
         return static, np.concatenate([force, moment], axis=1) - static
 
     def _press(
@@ -187,6 +213,8 @@ class Speeds:
         static, added = wrenches
         every = np.arange(len(some))
         for tried in (every[:: 1 + len(every) // _FEW], *np.split(every, every[_CONES::_CONES])):
+            if _none_left(bound):
+                break
             # Cones are convex: what holds at both ends known so far binds at neither.
             ends = (
                 static[tried] + np.clip(square, self.low**2, self.high**2) * added[tried]
@@ -264,6 +292,11 @@ class _Bound:
             self.low, self.slow = float(low[slow]), int(some[slow])
         if high[fast] < self.high:
             self.high, self.fast = float(high[fast]), int(some[fast])
+
+
+def _none_left(*bounds: _Bound) -> bool:
+    """Whether no speed keeps all bounds."""
+    return max(bound.low for bound in bounds) >= min(bound.high for bound in bounds)
 
 
 def pruned(taken: Intervals) -> Intervals:

@@ -21,8 +21,8 @@ from scout_pin.kinematics.choosing import distances, follow_branch
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.specification import SIDES
+from thesis_pin.numeric.arrays import thinned
 from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
-from thesis_pin.pages.scene import thinned
 from thesis_pin.report.branches import label
 from thesis_pin.tolerances import TOLERANCES
 

@@ -10,16 +10,18 @@ from hypothesis import strategies as st
 
 import pollard_pin
 from pollard_pin import USEFUL_BRANCHES
-from pollard_pin.dynamics.inverse import inverse_dynamics_at, loop_forces
+from pollard_pin.dynamics.forces import loads
+from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.dynamics.reactions import joint_reactions
 from pollard_pin.dynamics.three_motors import three_torques
-from pollard_pin.kinematics.screws import Posture
+from pollard_pin.kinematics.linkage import Linkage
 from pollard_pin.motion.curves import line
 from pollard_pin.specification import ACTUATORS
 from pollard_pin.urdf import JOINT_AXES
 from thesis_pin.errors import BadInput, SingularPose
 from thesis_pin.loops import dynamics as loop_dynamics
 from thesis_pin.loops import kinematics as loops
+from thesis_pin.numeric.elementwise import ARRAYS, FLOATS
 
 from ..conftest import closed_motion
 
@@ -236,16 +238,14 @@ def test_simulation_follows_an_inverse_dynamics_feedforward(pollard):
 def test_forces_that_are_not_determined_are_refused(pollard, rng):
     """Two rods that pull in one direction can't be told apart."""
     _, _, _, q, _, _ = closed_motion(pollard, rng, 1)
-    posture = Posture.of(pollard.geometry, q)
-    rods = (posture.rods[0], posture.rods[0])
-    twins = {
-        "levers": (posture.levers[0],) * 2,
-        "rods": rods,
-        "pitch_axes": (posture.pitch_axes[0],) * 2,
-        "yaw_axes": (posture.yaw_axes[0],) * 2,
-    }
+    geometry, known = pollard.geometry, Linkage.of(pollard.geometry, q.T)
+    twins = replace(geometry, anchors=geometry.anchors[[0, 0]])
+    same = known._replace(sides=(known.sides[0], known.sides[0]))
+    one = Linkage.of(pollard.geometry, q[0].tolist(), FLOATS)
     with pytest.raises(SingularPose, match="one direction"):
-        loop_forces(replace(posture, **twins), np.ones((12, 1)))
+        loads(ARRAYS, twins, same, np.ones((12, 1)))
+    with pytest.raises(SingularPose, match="one direction"):
+        loads(FLOATS, twins, one._replace(sides=(one.sides[0],) * 2), [1.0] * 12)
 
 
 def test_rates_that_open_a_ball_joint_are_refused(robot, rng):

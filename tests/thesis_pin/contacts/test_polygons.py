@@ -118,3 +118,30 @@ def test_of_many_tilted_pairs_the_nearest_is_found(seed):
     assert distances[sample] == pytest.approx(least, abs=1e-12)
     known = 0.999 * distances.min()
     assert least_distance(one, other, known) is None
+
+
+def test_hulls_and_corners_of_few_samples_give_the_same_as_all_corners():
+    rng = np.random.default_rng(5)
+    outline = np.array([[0, 0], [2, 0], [2, 1], [1, 0.4], [0, 1.0]])  # with a notch
+    hull = outline[[0, 1, 2, 4]]
+
+    def moving(seed):
+        rng = np.random.default_rng(seed)
+        turn, place = rng.uniform(-3, 3, 200), rng.uniform(-3, 3, (200, 3))
+
+        def corners(points, some=slice(None)):
+            c, s = np.cos(turn[some])[:, None], np.sin(turn[some])[:, None]
+            x, y = c * points[:, 0] - s * points[:, 1], s * points[:, 0] + c * points[:, 1]
+            return np.stack([x, y, np.zeros_like(x)], axis=2) + place[some][:, None]
+
+        return corners
+
+    one, other = moving(int(rng.integers(99))), moving(int(rng.integers(99)) + 100)
+    expected = least_distance(one(outline), other(outline))
+    found = least_distance(
+        lambda some: one(outline, some),
+        lambda some: other(outline, some),
+        hulls=(one(hull), other(hull)),
+    )
+    assert found == expected
+    assert found[0] == pytest.approx(polygon_distance(one(outline), other(outline)).min())

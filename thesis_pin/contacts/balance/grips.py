@@ -167,13 +167,6 @@ class Grips:
                 columns.append(column)
         return np.concatenate(columns, axis=1)
 
-    @cached_property
-    def pushes(self) -> Array:
-        """What corners could do to the robot with unlimited friction: as :meth:`rays`."""
-        upright = self.rays(1, 0.0)
-        aside = (self.rays(4) - np.repeat(upright, 4, axis=1)) / self.length
-        return np.concatenate([upright / self.length, aside], axis=1)
-
 
 def pyramid(friction: float, edges: int = FRICTION_EDGES) -> Array:
     """Outward normals of the pyramid inside a friction cone about z, shape ``(edges, 3)``."""

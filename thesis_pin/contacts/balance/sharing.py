@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.contacts.balance.grips import Grips
 from thesis_pin.contacts.cones import FRICTION_EDGES
+from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -118,13 +119,8 @@ def missing(sums: Array, rays: Array, total: Array) -> tuple[float, Array]:
     Returns:
         Its size [N·m, forces scaled] and itself, shape ``(r,)``.
     """
-    from scipy.optimize import nnls
-
-    made = sums @ rays
-    size = float(np.abs(total).max()) or 1.0
-    length = float(np.linalg.norm(made, axis=0).max(initial=0.0)) or 1.0
-    weights, rest = nnls(made / length, total / size)
-    return float(rest) * size, total - size / length * (made @ weights)
+    rest = beyond_cone(sums @ rays, total)
+    return float(np.linalg.norm(rest)), rest
 
 
 def _chosen(

@@ -32,15 +32,29 @@ def detect(floor: Floor, places: Stance) -> Flags:
         floor: The floor.
         places: Where the feet are, with speeds.
     """
-    size = max(float(np.median(floor.above(places.com))), 1e-9)
-    fall = np.sqrt(2 * GRAVITY * size)
+    low, slow = touch_height(floor, places), touch_speed(floor, places)
     found = np.zeros(places.speed.shape, dtype=bool)
     for k, corners in enumerate(places.corners):
-        height = floor.above(corners).max(axis=1) / (TOLERANCES.touch_height * size)
-        speed = places.speed[:, k] / (TOLERANCES.touch_speed * fall)
+        height = floor.above(corners).max(axis=1) / low
+        speed = places.speed[:, k] / slow
         use = np.maximum(np.abs(height), speed)
         found[:, k] = _with_hysteresis(use)
     return found
+
+
+def touch_height(floor: Floor, places: Stance) -> float:
+    """Height [m] below which a slow foot is on the floor."""
+    return TOLERANCES.touch_height * _size(floor, places)
+
+
+def touch_speed(floor: Floor, places: Stance) -> float:
+    """Speed [m/s] below which a foot near the floor rests."""
+    return TOLERANCES.touch_speed * float(np.sqrt(2 * GRAVITY * _size(floor, places)))
+
+
+def _size(floor: Floor, places: Stance) -> float:
+    """Height of the centre of mass [m]."""
+    return max(float(np.median(floor.above(places.com))), TOLERANCES.touching)
 
 
 def _with_hysteresis(use: Array) -> Flags:

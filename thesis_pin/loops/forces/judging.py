@@ -137,11 +137,17 @@ def refuse_opening(
         bad = worst > allowed
         if bad.any():
             k = int(np.argmax(bad))
+            remedy = "Give the motors' motion alone: the other joints follow from the loops"
+            if not what:
+                remedy = (
+                    f"Close it: thesis_pin.loops.configurations.closing.close(robot, q). {remedy}"
+                )
             raise BadInput(
-                f"the motion opens the loops: their opening{what} is {worst[k]:.2e} of their size",
+                f"the {'motion' if what else 'pose'} opens the loops: their opening{what} is "
+                f"{worst[k]:.2e} of their size",
                 where=f"sample {first + k}",
                 allowed=f"{allowed[k]:.1e}",
-                remedy="Give the motors' motion alone: the other joints follow from the loops",
+                remedy=remedy,
             )
 
 

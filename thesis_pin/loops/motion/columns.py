@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
@@ -45,13 +47,16 @@ def _known(robot: ClosedRobot, lead: Names | None) -> dict[str, list[Meaning]]:
     return known
 
 
-def columns_of(robot: ClosedRobot, table: Table, lead: Names | None = None) -> Chosen:
+def columns_of(
+    robot: ClosedRobot, table: Table, lead: Names | None = None, beside: Sequence[str] = ()
+) -> Chosen:
     """Which column holds which derivative of which joint, part of the base or of a frame.
 
     Args:
         robot: The robot.
         table: The table.
         lead: What columns of a frame that leads it are called.
+        beside: Headings that may be there too, and mean something to somebody else.
 
     Raises:
         UnknownName: A column is none of the robot's.
@@ -59,8 +64,10 @@ def columns_of(robot: ClosedRobot, table: Table, lead: Names | None = None) -> C
             is the derivative of.
     """
     known, base = _known(robot, lead), BASE_PARTS if len(robot.base) else ()
+    for heading in beside:
+        known.setdefault(heading, [Meaning(heading, PLAIN[0], heading)])
     placed = lead(*PLACE, *ANGLES) if lead else base
-    allowed = ["t", *singles(robot.model), *placed, "NAME_rate", "NAME_acceleration"]
+    allowed = ["t", *singles(robot.model), *placed, "NAME_rate", "NAME_acceleration", *beside]
     flies = [one for one in table.header if one.startswith(BASE_PARTS) and one not in known]
     if flies and not base:
         raise UnknownName(

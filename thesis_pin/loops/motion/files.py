@@ -59,6 +59,7 @@ def read_motion(
     smooth: str = "auto",
     frame: str | None = None,
     euler: str | None = None,
+    beside: Sequence[str] = (),
 ) -> JointMotion:
     """A motion of a robot's joints, or of a frame of it, from CSV; see the head of this module.
 
@@ -71,6 +72,7 @@ def read_motion(
         frame: Name of the frame that the file leads through the world; None if it leads joints.
         euler: Order of the angles in columns a, b, c or rx, ry, rz; see
             :func:`thesis_pin.tables.orientations.check_order`.
+        beside: Headings of columns that may stand beside these, for other readers.
 
     Raises:
         BadInput: ``smooth`` is none of these, the file can't be read, a column is missing or
@@ -81,7 +83,7 @@ def read_motion(
     how = stated(smooth)
     lead = _lead(robot, frame, euler)
     table = read_table("motion", file)
-    columns = columns_of(robot, table, lead)
+    columns = columns_of(robot, table, lead, beside)
     if len(table) < 2:
         raise TrajectoryError(f"{len(table)} samples", where=table.file, allowed="at least 2")
     time = time_column(table, columns)
@@ -204,7 +206,7 @@ def _splined(
                 where=table.file,
                 allowed="at least 4",
             )
-        interpolated.append(moving.removeprefix("the "))
+        interpolated.append("base" if moving == "the base" else moving)
     change = None if flight is None else flight.derivatives(time)
     return JointMotion(
         name_as_text(Path(table.file).name),

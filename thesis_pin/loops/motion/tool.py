@@ -45,7 +45,9 @@ def tool_view(robot: ClosedRobot, tool: Tool, joints: Sequence[str], pose: Array
             shape ``(nq,)``.
 
     Returns:
-        Its configurations are those of the robot behind the base's seven coordinates.
+        Its configurations are those of the robot behind the base's seven coordinates. Behind the
+        joints that are told, its motors are those of the robot that don't move the frame, as
+        fingers or other legs: they stay where they are.
 
     Raises:
         BadInput: The root flies freely, or what is told doesn't belong together.
@@ -69,10 +71,22 @@ def tool_view(robot: ClosedRobot, tool: Tool, joints: Sequence[str], pose: Array
         pin.Frame(f"{tool.frame} of a loop", frame.parentJoint, offset, pin.FrameType.OP_FRAME)
     )
     loops = [_moved(loop, robot, model) for loop in robot.loops]
-    if any(tool.rows):
-        kind = word_of(tool.rows)
-        loops.append(Loop(tool.frame, kind, (names[0], names[1]), (0, seat), tool.rows))
-    return robot.led(model, joints, loops)
+    if not any(tool.rows):
+        raise BadInput(f"nothing of frame {tool.frame!r} is told", allowed=", ".join(COORDINATES))
+    kind = word_of(tool.rows)
+    loops.append(Loop(tool.frame, kind, (names[0], names[1]), (0, seat), tool.rows))
+    view = robot.led(model, joints, loops)
+    return robot.led(model, (*joints, *_others(robot, view)), loops)
+
+
+def _others(robot: ClosedRobot, view: ClosedRobot) -> list[str]:
+    """Motors that no equation ties to the frame, the last of a view's loops."""
+    row = view.system.rows[-1].start
+    parts = (columns for rows, columns in view.system.parts().each if row in rows)
+    tied = {int(column) for columns in parts for column in columns}
+    places = {name: one.v for name, one in singles(view.model).items()}
+    motors = robot.actuators or tuple(singles(robot.model))
+    return [name for name in motors if places[name] not in tied and name not in view.actuators]
 
 
 def _moved(loop: Loop, robot: ClosedRobot, model: pin.Model) -> Loop:
@@ -185,7 +199,8 @@ def approach(
     there = pose_told(robot, tool, pose)
     shift = np.where(told[:3], first[0][:3] - there[:3], 0.0)
     start = motor_positions(view, q[0])
-    way = first[1] - start
+    way = np.zeros(len(start))
+    way[: len(first[1])] = first[1] - start[: len(first[1])]
     turn = pin.log3(_rotation(first[0]) @ _rotation(there).T) if told[3:].any() else np.zeros(3)
     far = max(
         float(np.abs(shift).max()) / view.scale.length,

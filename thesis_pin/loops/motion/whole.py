@@ -123,12 +123,15 @@ def _by_tool(
     course = (motion.base, *change) if change else _splined(motion.time, motion.base)
     base = inverted(tool, *course)
     guess = approach(robot, view, tool, pose, (course[0][0], motion.position[0]), precision)
+    still = view.actuators[len(motion.joints) :]
+    resting = motor_positions(view, guess)[len(motion.joints) :]
+    nothing = np.zeros((len(motion.time), len(still)))
     found = follow(
         view,
         motion.time,
-        motion.position,
-        motion.rate,
-        motion.acceleration,
+        np.column_stack([motion.position, nothing + resting]),
+        np.column_stack([motion.rate, nothing]),
+        np.column_stack([motion.acceleration, nothing]),
         guess,
         base=base,
         precision=precision,
@@ -138,7 +141,7 @@ def _by_tool(
     nq, nv = robot.model.nq, robot.model.nv
     joints = JointTrajectory(found.time, found.q[:, -nq:], found.v[:, -nv:], found.a[:, -nv:])
     refuse_tilted(robot, tool, pose, joints.q)
-    return WholeMotion(joints, motion.joints, (), tool, view)
+    return WholeMotion(joints, view.actuators, still, tool, view)
 
 
 def driven_by(robot: ClosedRobot, joints: Sequence[str]) -> ClosedRobot:

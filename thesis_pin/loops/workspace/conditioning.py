@@ -79,7 +79,7 @@ def measure(
             shape ``(n, nq)``.
         frame: The frame that counts; None without one.
         told: Which coordinates of it lead the robot; where none does, its place counts if that
-            shows all that the motors hold, else place and orientation.
+            shows all that it can do, else place and orientation.
         rows: The same as a mask.
         length: Length that shifts are divided by [m].
         precision: What counts as dependent.
@@ -90,16 +90,20 @@ def measure(
     motors = robot.actuators or tuple(singles(robot.model))
     if frame is None:
         return Measure(motors, None, WELD, length, 0)
-    choices = [rows] if told else [POINT, WELD]
-    for one in choices:
-        found = Measure(motors, frame, one, length, 0)
-        driven, seen = _maps(robot, found, q, precision)
-        held, shown = (
-            max(_rank(values) for values in np.linalg.svd(x, compute_uv=False))
-            for x in (driven, seen)
+    shown = {
+        one: max(
+            _rank(values)
+            for values in np.linalg.svd(
+                _maps(robot, Measure(motors, frame, one, length, 0), q, precision)[1],
+                compute_uv=False,
+            )
         )
-        if shown and (shown >= held or one is choices[-1]):
-            return Measure(motors, frame, one, length, shown)
+        for one in ((rows,) if told else (POINT, WELD))
+    }
+    most = max(shown.values())
+    for one, rank in shown.items():
+        if rank == most > 0:
+            return Measure(motors, frame, one, length, rank)
     raise SingularPose(
         f"frame {frame!r} doesn't move with the motors here", remedy="Name another frame or --pose"
     )

@@ -57,6 +57,7 @@ class Led:
         self.still = () if alone else tuple(name for name in motors if name not in grid.joints)
         if self.tool is not None:
             self.view = tool_view(robot, self.tool, grid.joints, pose)
+            self.still = self.view.actuators[len(grid.joints) :]
         else:
             self.view = driven_by(robot, (*grid.joints, *self.still))
         self.q = lifted(self.view, pose[None])[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -50,7 +50,7 @@ class Workspace:
     """Reach and conditioning on a grid; arrays have the grid's shape.
 
     Attributes:
-        robot: The robot.
+        robot: The robot, its root held.
         grid: What led it.
         measure: What the condition number is of.
         still: Motors that nothing led: they stayed at the pose.
@@ -62,6 +62,7 @@ class Workspace:
         beyond: Joint that leaves its range by most, -1 for none, by number.
         joints: Names of these joints.
         seams: Pairs of neighbours closed in different ways; none unless the map winds.
+        rooted: Whether a root that flies freely was held, so that coordinates are seen from it.
     """
 
     robot: ClosedRobot
@@ -76,6 +77,12 @@ class Workspace:
     beyond: NDArray[np.intp]
     joints: tuple[str, ...]
     seams: int
+    rooted: bool = False
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """What each state is called."""
+        return WORDS
 
     @property
     def reachable(self) -> NDArray[np.bool_]:
@@ -97,7 +104,8 @@ def evaluate_workspace(
     """Reach and conditioning of any robot over a grid, in the assembly of a pose.
 
     Args:
-        robot: From :func:`thesis_pin.load`.
+        robot: From :func:`thesis_pin.load`; a root that flies freely is held, and coordinates are
+            seen from it.
         along: Axes of the grid, one to three: name → values in ascending order. Names are
             x, y, z [m], roll, pitch, yaw [rad] of the frame, and joints or motors.
         at: What else leads and stands still: name → value. Motors that nothing leads stay at
@@ -124,11 +132,12 @@ def evaluate_workspace(
     length = real("length", length, low=1e-6, unit="m")
     if frame is not None:
         frame_id(robot.model, frame)
-    if len(robot.base):
-        raise BadInput("the root flies freely: it can go anywhere", remedy="Fix the root")
-    grid = grid_of(robot, along, at, frame)
     start = assembly(robot, precision=precision).q if pose is None else pose
     closed = close(robot, vector("pose", start, robot.model.nq), precision=precision)
+    rooted = len(robot.base) > 0
+    if rooted:
+        robot, closed = _rooted(robot), closed[7:]
+    grid = grid_of(robot, along, at, frame)
     led = Led(robot, grid, closed, precision)
     wave = spread(led, progress)
     state = np.full(len(wave.state), CUT_OFF, dtype=np.int8)
@@ -170,7 +179,16 @@ def evaluate_workspace(
         beyond.reshape(shape),
         names,
         wave.seams,
+        rooted,
     )
+
+
+def _rooted(robot: ClosedRobot) -> ClosedRobot:
+    """The same robot with its root held in the world."""
+    if any(robot.model.frames[k].parentJoint == 0 for loop in robot.loops for k in loop.ids):
+        raise BadInput("the root flies freely, and a loop ties the robot to the world")
+    beside = replace(robot.supplement, free_root=False, poses={})
+    return ClosedRobot(replace(robot.description, supplement=beside))
 
 
 def _unwound(robot: ClosedRobot, q: Array) -> Array:

@@ -44,6 +44,7 @@ def document(space: Workspace) -> dict[str, object]:
             "frame": grid.frame,
             "leads": list(grid.names),
             "at_the_pose": list(space.still),
+            "root_held": space.rooted,
             "condition_of": how.said(),
             "condition_length": how.length,
             "thesis_pin": __version__,
@@ -116,6 +117,8 @@ def sentences(space: Workspace) -> Iterator[str]:
             yield f"{number} cells: {MEANINGS[state]}."
     if space.still:
         yield f"Nothing leads {', '.join(space.still)}: they stay at the pose."
+    if space.rooted:
+        yield "The root is held: places and turns are seen from it."
     if space.seams:
         yield (
             f"{space.seams} pairs of neighbours are closed in two ways: the map winds around a "

@@ -41,7 +41,7 @@ def test_a_block_pushed_low_slips_and_needs_the_friction_of_its_acceleration():
     assert not found.admissible[0]
     why = cause(found, 0)
     assert why.slips
-    assert (why.tip, why.pull, why.outside) == (0.0, 0.0, 0.0)
+    assert (why.tip, why.push, why.pull, why.outside) == (0.0, 0.0, 0.0, 0.0)
     assert why.friction * 0.05 == pytest.approx(0.1, rel=6e-3)  # 32 edges: within 0.5 %
     assert pushed(robot, feet, forward=0.049 * 0.92 * 9.81).admissible[0]
 

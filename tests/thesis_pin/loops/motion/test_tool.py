@@ -386,3 +386,18 @@ def spins(course):
         )
 
     return 2 * vector(rate, back), 2 * vector(push, back)
+
+
+def test_motors_that_dont_move_the_frame_stay_at_the_pose_and_are_named(tmp_path):
+    t = mechanisms.Tree()
+    t.link("upper", "ground", (0, 0, 1), bar=(0.3, 0, 0), motor=True)
+    t.link("fore", "upper", (0, 0, 1), (0.3, 0, 0), bar=(0.25, 0, 0), motor=True)
+    t.link("finger", "fore", (0, 0, 1), (0.25, 0, 0), bar=(0.05, 0, 0), motor=True)
+    t.frame("tip", "fore", (0.25, 0, 0))
+    pose = np.array([0.2, 0.9, 0.3])
+    robot = t.robot()
+    path = table(tmp_path, {"t": TIME, "x": 0.35 + 0.02 * TIME, "y": 0.3 - 0.03 * TIME})
+    whole = whole_motion(robot, read_motion(robot, path, frame="tip"), pose)
+    assert whole.still == ("finger_joint",)
+    np.testing.assert_array_equal(whole.joints.q[:, 2], 0.3)
+    np.testing.assert_array_equal(whole.joints.v[:, 2], 0.0)

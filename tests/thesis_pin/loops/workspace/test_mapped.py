@@ -302,3 +302,30 @@ def test_progress_ends_at_the_whole(five_bar):
         progress=lambda done, total: seen.append((done, total)),
     )
     assert seen[-1] == (9, 9)
+
+
+def test_fingers_and_other_legs_stay_at_the_pose_and_a_free_root_is_held():
+    import pinocchio as pin
+
+    from thesis_pin.loops.checking.assembly import assembly
+
+    solo = load("example:solo12", root_joint=pin.JointModelFreeFlyer())
+    fixed = load("example:solo12")
+    xs, zs = np.linspace(0.15, 0.25, 3), np.linspace(-0.25, -0.15, 3)
+    pose = assembly(fixed).q.copy()
+    pose[1:3] = 0.6, -1.2
+    spaces = [
+        evaluate_workspace(
+            robot, {"x": xs, "z": zs}, at={"y": 0.15}, frame="FL_FOOT", pose=[*root, *pose]
+        )
+        for robot, root in ((fixed, []), (solo, [0.0, 1.0, 2.0, 0.0, 0.0, 0.6, 0.8]))
+    ]
+    assert [space.rooted for space in spaces] == [False, True]
+    assert spaces[0].reachable.all()
+    np.testing.assert_allclose(spaces[0].condition, spaces[1].condition, rtol=1e-9)
+    np.testing.assert_allclose(spaces[0].q, spaces[1].q, atol=1e-9)
+    others = [k for k, name in enumerate(fixed.model.names[1:]) if not name.startswith("FL")]
+    np.testing.assert_array_equal(
+        spaces[0].q[..., others], np.broadcast_to(pose[others], (3, 3, 9))
+    )
+    assert set(spaces[0].still) == {fixed.model.names[1 + k] for k in others}

@@ -1,0 +1,64 @@
+"""A balance report of any robot as a page one can mail: view, plots, tables."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from thesis_pin.pages.balance_scene import scene
+from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
+from thesis_pin.pages.scene import thinned
+from thesis_pin.pages.torque import MOST_SAMPLES
+from thesis_pin.report.balance.curves import plots
+from thesis_pin.report.balance.document import BalanceReport
+from thesis_pin.report.balance.tables import feet_table
+from thesis_pin.report.tables import Table
+from thesis_pin.report.torque.tables import loops_table, motors_table
+from thesis_pin.report.torque.uncertainty import open_table
+from thesis_pin.report.uncertainty.document import columns_table
+
+
+def balance_page(report: BalanceReport) -> bytes:
+    """A balance report as one self-contained HTML file.
+
+    Args:
+        report: The report; plots show at most 1 201 of its samples.
+    """
+    time, held = report.time, report.held
+    span = "held" if held else f"{time[-1] - time[0]:.4g} s, {len(time)} samples"
+    return html(
+        Page(
+            title=f"{report.robot.model.name}: {report.motors.motion.name}",
+            subtitle=f"{span}, {len(report.names)} feet, {len(report.motors.names)} motors",
+            good=report.within_limits,
+            verdict=[*report.doubts(), *report.verdict(), *report.warnings()],
+            tiles=_tiles(report),
+            plots=plots(report, thinned(time, MOST_SAMPLES)),
+            tables=_tables(report),
+            scene=scene(report),
+        )
+    )
+
+
+def _tiles(report: BalanceReport) -> list[Tile]:
+    found, least = report.found, report.least_margin.value
+    tiles = [Tile("the floor can give it", f"{report.given.mean():.0%}", report.balanced)]
+    if np.isfinite(least) and report.level:
+        tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", least > 0))
+    most = max(report.peak_friction)
+    tiles.append(Tile("friction in use", f"{most:.0%}", most <= 1))
+    tiles.append(Tile("largest force on a foot", f"{found.normal_force.max():.4g} N"))
+    torque = float(np.abs(found.torque).max(initial=0.0))
+    use = float(report.motors.effort_use.max(initial=0.0))
+    share = f" ({use:.0%} of its limit)" if use else ""
+    tiles.append(Tile("largest torque", f"{torque:.4g}{share}", use <= 1 if use else None))
+    return tiles
+
+
+def _tables(report: BalanceReport) -> list[Table]:
+    motors = report.motors
+    loops = [loops_table(motors)] if report.robot.loops else []
+    held, variants, opened = motors.headlines, motors.motion.variants, list[Table]()
+    if held is not None and variants is not None:
+        opened = [open_table(held, motors.names), columns_table(variants.columns, variants.rate)]
+    closing = (parameters_table(report.parameters), software())
+    return [feet_table(report), motors_table(motors), *opened, *loops, *closing]

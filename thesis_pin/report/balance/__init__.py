@@ -1,0 +1,1 @@
+"""The balance report of any robot on its feet: numbers, verdict, documents, curves, figures."""

@@ -1,0 +1,121 @@
+"""What a balance report's figures and page draw, as data."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thesis_pin.report.balance.document import BalanceReport
+from thesis_pin.report.curves import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PALETTE,
+    VERMILLION,
+    Area,
+    Curve,
+    Limit,
+    Plot,
+)
+from thesis_pin.report.torque import curves
+
+Samples = NDArray[np.intp]
+
+MOST_POLYGONS = 12
+"""Stances that one picture can show apart."""
+
+
+def ground(report: BalanceReport, keep: Samples) -> Plot:
+    """Soles, support polygons and the way of the zero-moment point on the floor."""
+    found, floor = report.found, report.found.floor
+    areas = []
+    for rows, polygon in found.support_polygons[:MOST_POLYGONS]:
+        if len(rows) and len(polygon) > 2:
+            areas.append(Area("support polygon", polygon, GREEN))
+    for k, foot in enumerate(found.feet):
+        standing = np.flatnonzero(found.support[:, k])
+        if foot.kind == "sole" and standing.size:
+            for sample in sorted({int(standing[0]), int(standing[-1])}):
+                corners = floor.flat(found.stance.corners[k][sample])
+                areas.append(Area("soles", corners, BLUE, filled=False))
+    zmp = floor.flat(found.zero_moment_point[keep])
+    com = floor.flat(found.stance.com[keep])
+    points: Literal["dot"] | None = "dot" if report.held else None
+    curves_ = [
+        Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=points, x=zmp[:, 0]),
+        Curve("centre of mass, from above", com[:, 1], ORANGE, "dash", points, com[:, 0]),
+    ]
+    for k, foot in enumerate(found.feet):
+        if foot.kind != "sole" and found.support[:, k].any():
+            flat = floor.flat(found.stance.origin[found.support[:, k], k])
+            curves_.append(Curve("points of contact", flat[:, 1], BLUE, marks="dot", x=flat[:, 0]))
+    return Plot(
+        "On the floor",
+        "Where the load acts, among what bears it; in the floor's own axes.",
+        "y [m]",
+        curves_,
+        across="x [m]",
+        areas=areas,
+    )
+
+
+def forces(report: BalanceReport, keep: Samples) -> list[Plot]:
+    """Normal force of each foot, and the share of its friction in use."""
+    found = report.found
+    return [
+        Plot(
+            title,
+            text,
+            label,
+            [
+                Curve(name, values[keep, k], PALETTE[k % 6], ("solid", "dash")[k // 6 % 2])
+                for k, name in enumerate(report.names)
+            ],
+            report.time[keep],
+            limits=limits,
+        )
+        for title, text, label, values, limits in (
+            (
+                "Normal force",
+                "Out of the floor, on each foot.",
+                "force [N]",
+                found.normal_force,
+                [],
+            ),
+            (
+                "Friction in use",
+                "Tangential over admissible force of each foot.",
+                "share [-]",
+                found.friction_used,
+                [Limit("slips", 1.0)],
+            ),
+        )
+    ]
+
+
+def margin(report: BalanceReport, keep: Samples) -> Plot:
+    """Margin of the zero-moment point."""
+    found = report.found
+    inside = np.where(np.isfinite(found.margin), found.margin, np.nan)[keep] * 1e3
+    return Plot(
+        "Margin",
+        "Distance of the zero-moment point inside the support polygon, negative outside.",
+        "margin [mm]",
+        [Curve("margin", inside, VERMILLION)],
+        report.time[keep],
+        limits=[Limit("tips", 0.0)],
+    )
+
+
+def plots(report: BalanceReport, keep: Samples) -> list[Plot]:
+    """Every plot of a report's page."""
+    if report.held:
+        return [ground(report, keep)]
+    return [
+        ground(report, keep),
+        margin(report, keep),
+        *forces(report, keep),
+        *curves.plots(report.motors, keep),
+    ]
