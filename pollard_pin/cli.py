@@ -112,7 +112,7 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
         metavar="N",
         help="points an axis (default: 101)",
     )
-    add_jobs(words, "threads")
+    add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
 
 
