@@ -6,14 +6,13 @@ with their verdicts: :data:`thesis_pin.audit.rows.HOLDS`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 GRAVITY: float = 9.81
 """Size of gravity, Pinocchio's default [m/s²]. Source: Scout thesis, 4.1; Pollard thesis, 3.3."""
 
 
-@dataclass(frozen=True)
-class Tolerances:
+class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times as long to make
     """Thresholds used by the library; messages name the one they applied.
 
     Attributes:

@@ -30,20 +30,33 @@ def joint_reactions(
         torque but for what turns the motor's own rotor, zero in a passive joint.
     """
     model, data = robot.model, robot.model.createData()
-    frames = []
+    # Views into Pinocchio's memory, taken once: each access costs as much as its whole RNEA.
+    places = [data.oMi[joint].rotation for joint in range(model.njoints)]
+    carried = [data.f[joint].vector for joint in range(1, model.njoints)]
+    external = pin.StdVec_Force()
+    external.extend([pin.Force.Zero()] * model.njoints)
+    ends = []
     for names, sign in ((ANCHOR_FRAMES, 1.0), (ROD_TIP_FRAMES, -1.0)):
         for i, name in enumerate(names):
             frame = model.frames[model.getFrameId(name)]
             # From a force to the wrench about the joint's origin: itself, then point × force.
             lever = np.concatenate([np.eye(3), skew(frame.placement.translation)])
-            frames.append((frame.parentJoint, sign * lever, i))
-    result = np.empty((len(q), len(JOINT_NAMES), 6))
+            ends.append((frame.parentJoint, sign * lever, i))
+    loaded = list(dict.fromkeys(joint for joint, _, _ in ends))
+    turns = np.empty((len(loaded), len(q), 3, 3))
     for k in range(len(q)):
-        external = [pin.Force.Zero() for _ in range(model.njoints)]
         pin.forwardKinematics(model, data, q[k])
-        for joint, lever, i in frames:
-            external[joint] += pin.Force(lever @ (data.oMi[joint].rotation.T @ loop_force[k, i]))
+        for turn, joint in zip(turns, loaded, strict=True):
+            turn[k] = places[joint]
+    loads = np.zeros((len(loaded), len(q), 6))
+    for joint, lever, i in ends:
+        number = loaded.index(joint)
+        loads[number] += np.einsum("nji,nj->ni", turns[number], loop_force[:, i]) @ lever.T
+    pushes = [external[joint].vector for joint in loaded]
+    result = np.empty((len(q), len(JOINT_NAMES), 6))
+    for k, row in enumerate(result.reshape(len(q), -1)):
+        for push, load in zip(pushes, loads, strict=True):
+            push[:] = load[k]
         pin.rnea(model, data, q[k], v[k], a[k], external)
-        for joint in range(1, model.njoints):
-            result[k, joint - 1] = data.f[joint].vector
+        np.concatenate(carried, out=row)
     return result

@@ -46,14 +46,20 @@ class Found(NamedTuple):
     @property
     def angles(self) -> tuple[Any, ...]:
         """Twelve angles [rad], those of the arctangent: −π may stand for π."""
-        one, two = self.sides
-        return (self.shoulder[0], *self.forearm[:2], *self.wrist[:3], *one[:3], *two[:3])
+        return self.numbers[:12]
 
     @property
     def cosines(self) -> tuple[Any, ...]:
         """What the arccosines of the three chains are taken of."""
-        one, two = self.sides
-        return self.shoulder[1], one[3], two[3]
+        return self.numbers[12:]
+
+    @property
+    def numbers(self) -> tuple[Any, ...]:
+        """Angles, then cosines."""
+        first, cosine, *_ = self.shoulder
+        (a, b, c, one, *_), (d, e, f, two, *_) = self.sides
+        elbow, wrist = self.forearm[:2], self.wrist[:3]
+        return (first, *elbow, *wrist, a, b, c, d, e, f, cosine, one, two)
 
     @property
     def linkage(self) -> Linkage:
@@ -121,7 +127,7 @@ class ClosedForm:
             return self._free_shoulder(e0, radius, reached, lost, aside)
         cosine = reached / radius
         c = xp.clipped(cosine)
-        s = xp.sqrt((1.0 - c) * (1.0 + c))
+        s = xp.sqrt(1.0 - c * c)
         if e0 < 0:
             s = -s
         p, q = c / radius, s / radius
@@ -215,7 +221,7 @@ class ClosedForm:
         else:
             cosine = reached / radius
             c = xp.clipped(cosine)
-            s = xp.sqrt((1.0 - c) * (1.0 + c))
+            s = xp.sqrt(1.0 - c * c)
             if e < 0:
                 s = -s
             along, across = c * radius - arm, -s * radius

@@ -77,6 +77,8 @@ def one_branch(branch: object) -> Branch:
     Raises:
         BadInput: It isn't a :class:`Branch` of seven signs.
     """
+    if branch is DEFAULT_BRANCH:
+        return DEFAULT_BRANCH
     with suppress(TypeError):  # a sign that can't be hashed is no sign
         if isinstance(branch, Branch) and branch in _KNOWN:
             return branch

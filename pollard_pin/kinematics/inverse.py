@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -74,11 +73,11 @@ def inverse_kinematics(
     Raises:
         WrongShape, NotFinite: The pose isn't an array ``(..., 6)`` of finite numbers.
     """
-    if not _is_pose(pose):
-        pose = finite_array("pose", pose, 6)
-    single = squeeze and reference is None and pose.ndim == 1 and len(branches) == 1
-    if single and (found := _one(geometry, pose, branches[0])) is not None:
-        return found
+    if squeeze and reference is None and len(branches) == 1:
+        one = _one(geometry, pose, branches[0])
+        if one is not None:
+            return one
+    pose = finite_array("pose", pose, 6)
     stack, count = pose.shape[:-1], pose.size // 6
     flat, free = pose.reshape(count, 6), None
     if reference is not None:
@@ -87,8 +86,8 @@ def inverse_kinematics(
     work = _few if count < FEW else _many
     angles, cosines, loose = work(geometry, flat, branches, free)
     for k in loose:
-        one = np.zeros(12) if free is None else free[k]
-        angles[k], cosines[k] = _members(geometry, flat[k], branches, one)
+        kept = np.zeros(12) if free is None else free[k]
+        angles[k], cosines[k] = _members(geometry, flat[k], branches, kept)
     if geometry.turned:
         angles = fitted(angles, geometry.lower, geometry.upper)
     shape: tuple[int, ...] = (*stack, len(branches))
@@ -104,13 +103,6 @@ def inverse_kinematics(
     )
 
 
-def _is_pose(pose: ArrayLike) -> TypeGuard[np.ndarray]:
-    """Whether it is one pose as it should be: a tenth of the time of the full check."""
-    if not isinstance(pose, np.ndarray) or pose.dtype.char != "d" or pose.shape != (6,):
-        return False
-    return math.isfinite(sum(pose.tolist()))
-
-
 _CLOSES = 1.0 + TOLERANCES.reach
 _NONE = (math.nan,) * 12
 ZERO = (0.0,) * 12
@@ -120,17 +112,20 @@ _Solved = tuple[np.ndarray, np.ndarray, list[int]]
 and the poses with θ21 or θ43 free."""
 
 
-def _one(geometry: Geometry, pose: np.ndarray, branch: Branch) -> Solutions | None:
-    """One pose on one branch by floats; None where it takes a closer look."""
-    chunk = ClosedForm(FLOATS, geometry, pose.tolist(), ZERO)
-    found = chunk.solve(branch)
-    angles: tuple[Any, ...] = found.angles
-    one, two, three = found.cosines
-    if chunk.loose or geometry.turned or -math.pi in angles:
+def _one(geometry: Geometry, pose: ArrayLike, branch: Branch) -> Solutions | None:
+    """One pose on one branch by floats; None for what takes a closer look."""
+    if not isinstance(pose, np.ndarray) or pose.shape != (6,) or pose.dtype.char != "d":
         return None
-    if not (abs(one) <= _CLOSES and abs(two) <= _CLOSES and abs(three) <= _CLOSES):
-        angles = _NONE
-    both = np.array((*angles, one, two, three))
+    numbers = pose.tolist()
+    if not math.isfinite(sum(numbers)):
+        return None
+    chunk = ClosedForm(FLOATS, geometry, numbers, ZERO)
+    found = chunk.solve(branch).numbers
+    if chunk.loose or geometry.turned or -math.pi in found:
+        return None
+    if not all(-_CLOSES <= cosine <= _CLOSES for cosine in found[12:]):
+        found = _NONE + found[12:]
+    both = np.array(found)
     return Solutions(geometry, (branch,), pose, both[:12], both[12:])
 
 

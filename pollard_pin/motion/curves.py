@@ -66,7 +66,8 @@ def appendix_b(
     law = assumed.motion.timing if timing is None else timing
     timing_law(law, seconds, np.zeros(1))
 
-    curve = partial(_appendix_b_curve, np.concatenate([place, tool]))
+    pose = np.concatenate([place, tool])
+    curve = partial(_appendix_b_curve, pose, pose_rotation(pose))
     return ToolPath(
         "appendix B",
         seconds,
@@ -81,7 +82,7 @@ def appendix_b(
     )
 
 
-def _appendix_b_curve(origin: np.ndarray, s: np.ndarray) -> Sampled:
+def _appendix_b_curve(origin: np.ndarray, tool: np.ndarray, s: np.ndarray) -> Sampled:
     u, span = _REACH * (2 * s - 1), 2 * _REACH
     value, first, second = np.zeros((3, 3, len(s)))  # components first: each is one array
     value[0], value[1], value[2] = -0.001 * u**2, u, 100 * np.sin(0.3 * u)
@@ -89,7 +90,7 @@ def _appendix_b_curve(origin: np.ndarray, s: np.ndarray) -> Sampled:
     second[0], second[2] = -0.002, -0.09 * value[2]
     value, first, second = value * _MM, first * (_MM * span), second * (_MM * span**2)
     points = value.T + origin[:3], first.T, second.T
-    rotation, *rates = turning(pose_rotation(origin), np.zeros(3), s)
+    rotation, *rates = turning(tool, np.zeros(3), s)
     return BodyMotion(rotation, *points, *rates), np.broadcast_to(origin[3:], (len(s), 3))
 
 

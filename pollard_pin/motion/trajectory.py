@@ -143,11 +143,12 @@ neither jump by a turn nor leave the limits, or else may."""
 
 def _usual(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Solved | None:
     """A motion whose samples are reachable and regular; None if one takes a closer look."""
-    count, geometry, long = len(motion.time), robot.geometry, len(motion.time) >= LONG
+    count, geometry = len(motion.time), robot.geometry
+    long = count >= LONG
     # Angles, rates, accelerations: one array of 4 MB or more comes in large pages.
     whole, cosines = np.empty((1 if long else 3, count, 12)), np.empty((count, 3))
     angles, rates = whole[0], whole[1:]
-    least, most = np.full((2, 12), [[np.inf], [-np.inf]])
+    least, most = np.full(12, np.inf), np.full(12, -np.inf)
     for xp, _, piece in pieces(count):
         found = usual(xp, geometry, components(motion.pose, piece), branch)
         if found is None:
@@ -158,13 +159,12 @@ def _usual(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Solved | None
             both = motion_rates(geometry, found[2], motion.tool, piece)
             put(rates[0], piece, both[0])
             put(rates[1], piece, both[1])
-        if isinstance(found[0], np.ndarray):
+        if isinstance(found[0], np.ndarray):  # rows, of which these cost least
             least = np.minimum(least, found[0].min(axis=1))
             most = np.maximum(most, found[0].max(axis=1))
     if count < FEW:
-        least, most = angles.min(axis=0, initial=np.inf), angles.max(axis=0, initial=-np.inf)
-    slack = TOLERANCES.joint_limit
-    if not (robot.lower - slack <= least).all() or not (most <= robot.upper + slack).all():
+        least, most = (angles, angles) if count == 1 else (angles.min(axis=0), angles.max(axis=0))
+    if not (np.maximum(robot.lower - least, most - robot.upper) <= TOLERANCES.joint_limit).all():
         return None
     solutions = Solutions(geometry, (branch,), motion.pose, angles, cosines)
     return solutions, rates, bool((most - least < np.pi).all())

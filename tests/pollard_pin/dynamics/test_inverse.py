@@ -264,3 +264,22 @@ def test_accelerations_that_open_a_ball_joint_are_refused(robot, rng):
         bent[6, joint] += 1e-3 * (1 + np.abs(a[6]).max() + np.abs(v[6]).max() ** 2)
         with pytest.raises(BadInput, match="sample 6: the accelerations open ball joint"):
             inverse_dynamics_at(robot, q, v, bent)
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("count", [1, 40])
+def test_rates_beyond_all_measure_are_refused(pollard, rng, count):
+    """Their squares overflow, and what isn't a number isn't closed."""
+    _, _, _, q, v, a = closed_motion(pollard, rng, count)
+    v[0] *= 1e200
+    with pytest.raises(BadInput, match="sample 0: the"):
+        inverse_dynamics_at(pollard, q, v, a)
+
+
+def test_a_single_motion_that_opens_a_ball_joint_is_refused_as_in_a_stack(robot, rng):
+    _, _, _, q, v, a = closed_motion(robot, rng, 20)
+    inverse_dynamics_at(robot, q[0], v[0], a[0])
+    for name, state in (("rates", (q, v + 1e-3, a)), ("accelerations", (q, v, a + 1.0))):
+        for some in (0, slice(None)):
+            with pytest.raises(BadInput, match=f"sample 0: the {name} open ball joint"):
+                inverse_dynamics_at(robot, *(one[some] for one in state))

@@ -97,3 +97,21 @@ def test_a_word_too_many_is_named_wherever_it_stands(capsys):
         parser.parse_args(["check", "FILE", "--json", "out", "MORE"])
     assert end.value.code == 2
     assert "unrecognized arguments: MORE" in capsys.readouterr().err
+
+
+def test_a_verb_parses_alike_without_the_others(capsys):
+    from scout_pin.cli import COMMAND
+
+    words = ["--debug", "gait", "--samples", "11", "--cycle"]
+    alone, among = (vars(COMMAND.parser(only).parse_args(words)) for only in ("gait", None))
+    assert alone == among
+    for wrong in (["gait", "--sample", "3"], ["gait", "extra"], ["gait", "--help"]):
+        said = []
+        for only in ("gait", None):
+            with pytest.raises(SystemExit):
+                COMMAND.parser(only).parse_args(wrong)
+            said.append(capsys.readouterr())
+        assert said[0] == said[1]
+    with pytest.raises(SystemExit):
+        COMMAND.main(["--help", "gait"])
+    assert "convert" in capsys.readouterr().out
