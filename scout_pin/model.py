@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from scout_pin import coordinates
 from scout_pin.implausible import implausible
-from scout_pin.kinematics import choosing, forward
+from scout_pin.kinematics import choosing, following, forward
 from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.branches import Numbers, allowed_branches
 from scout_pin.kinematics.geometry import LegGeometry
@@ -27,7 +27,7 @@ from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.shipped import is_shipped
-from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, together
+from thesis_pin.numeric.arrays import finite_array, pose_array, together
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.rotations import invert, quaternions
 from thesis_pin.numeric.trajectory import BodyMotion
@@ -186,6 +186,19 @@ class Scout(LoadedRobot):
         """
         return kinematics.leg_inverse_kinematics(self._leg(side), torso_to_foot, reference)
 
+    def leg_angles(
+        self,
+        side: str,
+        torso_to_foot: ArrayLike,
+        branch: str | None = None,
+        reference: ArrayLike | None = None,
+    ) -> np.ndarray:
+        """One valid branch a pose, for one leg alone: ``(..., 6)``.
+
+        See :func:`scout_pin.kinematics.following.leg_angles`.
+        """
+        return following.leg_angles(self._leg(side), torso_to_foot, branch, reference)
+
     def inverse_kinematics(
         self,
         torso: ArrayLike,
@@ -247,7 +260,7 @@ class Scout(LoadedRobot):
             sides = choosing.both_legs(legs, targets, allowed)
         else:
             sides = [
-                choosing.one_branch(leg, side, target, given[..., part], only)
+                following.one_branch(leg, side, target, given[..., part], only)
                 for leg, side, target, part, only in zip(
                     legs, SIDES, targets, (slice(0, 6), slice(6, 12)), allowed, strict=True
                 )
@@ -295,22 +308,18 @@ class Scout(LoadedRobot):
         feet = (left_foot, right_foot)
 
         def entries(number: int) -> Callable[[slice], np.ndarray]:
-            def of(part: slice) -> np.ndarray:
-                found = feet[number].part(part).entries_in(torso.part(part))
-                check_rigid(f"{SIDES[number]} foot", found, found.shape[1:], part.start)
-                return found
-
-            return of
+            return lambda part: feet[number].part(part).entries_in(torso.part(part))
 
         both = (entries(0), entries(1))
         if reference is None:
-            found = choosing.follow_both(legs, (left_foot.count, right_foot.count), both, allowed)
+            counts = (left_foot.count, right_foot.count)
+            found = choosing.follow_both(legs, counts, both, allowed, checked=False)
         else:
             starts = (reference[:6], reference[6:])
             found = [
-                choosing.follow_branch(leg, foot.count, of, start, only)
-                for leg, foot, of, start, only in zip(
-                    legs, feet, both, starts, allowed, strict=True
+                following.follow_branch(leg, foot.count, of, start, only, f"{side} foot")
+                for leg, side, foot, of, start, only in zip(
+                    legs, SIDES, feet, both, starts, allowed, strict=True
                 )
             ]
         angles = [one for one in found if one is not None]

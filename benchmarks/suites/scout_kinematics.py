@@ -15,10 +15,13 @@ from peers.newton import Leg
 from processes import measured_child
 
 import scout_pin
+from scout_pin.kinematics.branches import BRANCHES, taken_branches
+from scout_pin.kinematics.following import leg_angles
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.inverse import leg_inverse_kinematics
 from scout_pin.kinematics.rates import leg_rates
 from scout_pin.motion.trajectory import joint_trajectory
+from thesis_pin.report.branches import label
 
 EVERY = "leg IK, all 8 branches"
 ANGLES = "angles of the nearest branch [rad]"
@@ -53,6 +56,7 @@ def rows(scale: Scale) -> Iterator[Row]:
             _equal_to_eaik(robot, poses[: min(size, 20)]),
             (Goal(1.6),) if size == 1 else (Goal(1 / 20),) if size >= 10_000 else (),
         )
+    yield _one_branch(robot, poses[:1], theta[:1])
     stack = partial(leg_inverse_kinematics, leg, poses[: scale.many])
 
     def gap(theirs: list[np.ndarray]) -> float:
@@ -70,6 +74,24 @@ def rows(scale: Scale) -> Iterator[Row]:
     yield Row(EVERY, scale.many, stack, *fsolve)
     yield _without_wide_loops(scale)
     yield _rates(robot, alone, scale)
+
+
+def _one_branch(robot: scout_pin.Scout, poses: np.ndarray, theta: np.ndarray) -> Row:
+    """The branch that made a pose, against all branches of EAIK."""
+    leg, pose = robot.legs["left"], pin.SE3(poses[0])
+    signs = label(BRANCHES[int(taken_branches(leg, theta)[0])])
+
+    def difference() -> float:
+        return float(np.abs(leg_angles(leg, pose, signs) - theta[0]).max())
+
+    return Row(
+        "leg IK, one branch",
+        1,
+        partial(leg_angles, leg, pose, signs),
+        _eaik(robot, poses),
+        Equal("angles that made the pose [rad]", difference, 1e-9),
+        (Goal(1.0),),
+    )
 
 
 def _eaik(robot: scout_pin.Scout, poses: np.ndarray) -> Peer:

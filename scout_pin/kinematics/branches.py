@@ -27,7 +27,9 @@ KNEES = ("forward", "backward")
 Legs = tuple[LegGeometry, LegGeometry]
 Numbers = tuple[int, ...]
 
-_NUMBERS = {label(signs): k for k, signs in enumerate(BRANCHES)}
+LABELS = {label(signs): k for k, signs in enumerate(BRANCHES)}
+"""Number of a branch by its signs, as ``"+-+"``."""
+
 EVERY: Numbers = tuple(range(len(BRANCHES)))
 
 SHAPES: dict[bool, Numbers] = {
@@ -59,7 +61,7 @@ def branch_words(branch: str | Sequence[str] | None) -> tuple[str | None, str | 
         return None, None
     words = branch.split(",") if isinstance(branch, str) else branch
     known = isinstance(words, list | tuple) and all(isinstance(one, str) for one in words)
-    if not known or len(words) not in (1, 2) or not {*words} <= {*KNEES, *_NUMBERS}:
+    if not known or len(words) not in (1, 2) or not {*words} <= {*KNEES, *LABELS}:
         raise BadInput(
             f"branch is {shown(branch)}",
             allowed='three signs for both legs, as "+-+", or for each, as "+++,-+-"; '
@@ -86,16 +88,27 @@ def allowed_branches(legs: Legs, branch: str | Sequence[str] | None) -> tuple[Nu
         BadInput: There is no such branch, or the leg's knee has no forward.
     """
     left, right = (
-        _numbers(leg, word) for leg, word in zip(legs, branch_words(branch), strict=True)
+        leg_branches(leg, word) for leg, word in zip(legs, branch_words(branch), strict=True)
     )
     return left, right
 
 
-def _numbers(leg: LegGeometry, word: str | None) -> Numbers:
+def leg_branches(leg: LegGeometry, word: str | None) -> Numbers:
+    """Numbers of the branches one leg may take: of a label, a way of the knee, or None for all.
+
+    Raises:
+        BadInput: There is no such branch, or the leg's knee has no forward.
+    """
     if word is None:
         return EVERY
-    if word in _NUMBERS:
-        return (_NUMBERS[word],)
+    if not isinstance(word, str) or word not in (*KNEES, *LABELS):
+        raise BadInput(
+            f"branch is {shown(word)}",
+            allowed='three signs, as "+-+"; or the way the knee bends: forward, backward',
+            remedy="scout-pin ik lists the branches of a pose",
+        )
+    if word in LABELS:
+        return (LABELS[word],)
     if abs(leg.forward_part) < TOLERANCES.singular:
         raise BadInput(
             f"the {leg.names[0].split('_')[0]} knee has no way {shown(word)}: the axis of "

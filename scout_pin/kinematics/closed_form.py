@@ -29,6 +29,7 @@ from scout_pin.kinematics.signs import (
     TILT,
     TURN_6,
     YAW,
+    wrap_below,
 )
 from thesis_pin.numeric.elementwise import Number, blocks
 from thesis_pin.numeric.vectors import cross
@@ -190,19 +191,27 @@ class ClosedForm:
         return rows, gap
 
     def branch(self, number: int) -> tuple[np.ndarray, np.ndarray]:
-        """γ of one branch [rad], ``(6, n)``, and by how much hip to ankle misses [m], ``(n,)``."""
+        """One branch, whether it exists or not: then its knee counts as straight or folded.
+
+        Returns:
+            Its angles θ in (−π, π] [rad], ``(6, n)``, and by how much hip to ankle misses [m],
+            ``(n,)``.
+        """
         axis, two, bend = BRANCHES[number]
         knee, thigh, ankle, gap = (one[0] for one in self.triangles(np.array([float(two)])))
-        gamma = np.empty((6, len(gap)))
-        np.add(self.yaw, 0.0 if axis == two else math.pi, out=gamma[0])
-        np.multiply(self.tilt if axis > 0 else math.pi - self.tilt, two, out=gamma[1])
-        np.subtract(axis * ankle, bend * thigh, out=gamma[2])
-        np.multiply(knee, bend, out=gamma[3])
-        foot = self.foot if two > 0 else self.foot + math.pi
-        np.subtract(axis * foot, gamma[2], out=gamma[4])
-        gamma[4] -= gamma[3]
-        np.add(self.turn_6, 0.0 if axis > 0 else math.pi, out=gamma[5])
-        return gamma, gap
+        theta = np.empty((6, len(gap)))
+        np.add(self.yaw, 0.0 if axis == two else math.pi, out=theta[0])
+        np.multiply(self.tilt if axis > 0 else math.pi - self.tilt, two, out=theta[1])
+        np.multiply(ankle, axis, out=theta[2])
+        (np.subtract if bend > 0 else np.add)(theta[2], thigh, out=theta[2])
+        np.multiply(knee, bend, out=theta[3])
+        np.multiply(self.foot if two > 0 else self.foot + math.pi, axis, out=theta[4])
+        theta[4] -= theta[2]
+        theta[4] -= theta[3]
+        np.add(self.turn_6, 0.0 if axis > 0 else math.pi, out=theta[5])
+        theta -= (self.leg.beta + math.pi)[:, None]
+        wrap_below(theta, np.empty(theta.shape))
+        return theta, gap
 
 
 def _placed(leg: LegGeometry, entries: np.ndarray) -> np.ndarray:

@@ -12,6 +12,7 @@ from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.rotations import rotation
 from thesis_pin.numeric.turns import need_turns
+from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -102,6 +103,12 @@ class LegGeometry:
     def betas(self) -> tuple[float, ...]:
         """:attr:`beta` as floats in (−π, π]."""
         return tuple(wrap(self.beta).tolist())
+
+    @cached_property
+    def bounds(self) -> tuple[tuple[float, float], ...]:
+        """Joint limits with their tolerance as floats, lower and upper [rad]."""
+        lower = (self.lower - TOLERANCES.joint_limit).tolist()
+        return tuple(zip(lower, (self.upper + TOLERANCES.joint_limit).tolist(), strict=True))
 
     @cached_property
     def sums(self) -> np.ndarray:

@@ -81,9 +81,19 @@ def sum_angles(sums: np.ndarray, summands: np.ndarray, out: np.ndarray | None = 
         angles = theta[part]
         turns = work[: len(angles)]
         np.matmul(summands[part], sums, out=angles)  # θ − π; ∞ where there is none
-        np.multiply(angles, 1.0 / TURN, out=turns)
-        np.ceil(turns, out=turns)
-        turns *= TURN
-        angles -= turns  # ∞ − ∞ is NaN
-        angles += math.pi
+        wrap_below(angles, turns)
     return theta
+
+
+def wrap_below(theta: np.ndarray, work: np.ndarray) -> None:
+    """Angles of which π has been taken away brought into (−π, π], in place; ∞ becomes NaN.
+
+    Args:
+        theta: θ − π, then θ [rad].
+        work: Is written over, same shape: in fresh memory it takes twice as long.
+    """
+    np.multiply(theta, 1.0 / TURN, out=work)
+    np.ceil(work, out=work)
+    work *= TURN
+    theta -= work
+    theta += math.pi

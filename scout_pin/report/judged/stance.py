@@ -17,7 +17,7 @@ from scout_pin.kinematics.branches import (
     members,
     taken_branches,
 )
-from scout_pin.kinematics.choosing import distances, follow_branch
+from scout_pin.kinematics.following import distances, follow_branch
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.specification import SIDES

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scout_pin.kinematics.choosing import choose_branch
+from scout_pin.kinematics.following import choose_branch
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.inverse import BRANCHES, leg_inverse_kinematics
