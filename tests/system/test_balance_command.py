@@ -38,7 +38,7 @@ def test_one_foot_of_talos_tips_with_the_amount_in_the_json(capfd):
 
 
 def test_a_table_beside_the_robot_is_its_motion_and_coarse_ones_carry_no_verdict(capfd, tmp_path):
-    code, out, _ = balance([ANYMAL, TROT, "--json", tmp_path / "a.json"], capfd)
+    code, _, _ = balance([ANYMAL, TROT, "--json", tmp_path / "a.json"], capfd)
     assert code == 0
     document = json.loads((tmp_path / "a.json").read_bytes())
     assert document["summary"]["balanced"] is True
