@@ -326,7 +326,7 @@ class Scout(LoadedRobot):
         if len(angles) < 2:
             places = (torso.placement, left_foot.placement, right_foot.placement)
             return self.inverse_kinematics(*places, reference, branch=branch)
-        return np.concatenate(angles, axis=1)
+        return np.concatenate([one.T for one in angles]).T
 
     def leg_forward_kinematics(self, side: str, theta: ArrayLike) -> np.ndarray:
         """Sole in the torso frame from six angles, ``(..., 6)`` → ``(..., 4, 4)``."""
