@@ -118,7 +118,7 @@ def _one(geometry: Geometry, pose: ArrayLike, branch: Branch) -> Solutions | Non
     if not math.isfinite(sum(numbers)):
         return None
     chunk = ClosedForm(FLOATS, geometry, numbers, ZERO)
-    found = chunk.solve(branch).numbers
+    found = chunk.solve(branch)
     if chunk.loose or geometry.turned:
         return None
     return Solutions(geometry, (branch,), pose, found)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pollard_pin.coordinates import pose_rotation
+from pollard_pin.kinematics.closed_form import Found
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.reach import why_not
 from pollard_pin.kinematics.screws import Posture
@@ -56,14 +57,14 @@ class Solutions:
         geometry: The robot's lengths.
         branches: Labels, in the order of that axis.
         pose: The poses asked for, shape ``(..., 6)`` or ``(..., 1, 6)``.
-        solved: What the closed form found; of a single pose its numbers, of which arrays are
-            made when asked for.
+        solved: What the closed form found; of a single pose as it is, in floats, of which
+            arrays are made when asked for.
     """
 
     geometry: Geometry
     branches: tuple[Branch, ...]
     pose: np.ndarray
-    solved: Solved | tuple[float, ...]
+    solved: Solved | Found
 
     @property
     def angles(self) -> np.ndarray:
@@ -85,7 +86,7 @@ class Solutions:
     def _arrays(self) -> Solved:
         if isinstance(self.solved, Solved):
             return self.solved
-        numbers = np.array(self.solved)
+        numbers = np.array(self.solved.numbers)
         angles, cosines = half_open(numbers[:12]), numbers[12:]
         if not (np.abs(cosines) <= CLOSES).all():
             angles[:] = np.nan
