@@ -35,8 +35,7 @@ from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
 _MOST = 2048  # samples of double support looked at
 _SPEEDS = 7  # speeds tried on a stretch
-_FEW = 64  # samples of a block that are looked at before the others,
-_MANY = 512  # if there are more than these
+_FEW = 64  # samples of a block that are looked at before the others
 _CONES = 128  # samples held against some hundred facets at a time
 
 
@@ -81,8 +80,8 @@ class Speeds:
         for torques in self._torques():
             for cause in taken:
                 growth = self._growth(torques.samples, cause)
-                # What a few samples forbid needs no telling of the others, if they are many.
-                for step in (len(growth) // _FEW, 1) if len(growth) > _MANY else (1,):
+                # What a few samples forbid needs no telling of the others.
+                for step in (1 + len(growth) // _FEW, 1):
                     some = slice(None, None, step)
                     here, more = torques.part(some), growth[some]
                     passing = self._passing(here, more, taken[cause])
