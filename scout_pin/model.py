@@ -308,6 +308,9 @@ class Scout(LoadedRobot):
         feet = (left_foot, right_foot)
 
         def entries(number: int) -> Callable[[slice], np.ndarray]:
+            if torso.count == 1:  # asked for twice, and dearer than the rest
+                found = feet[number].entries_in(torso)
+                return lambda part: found
             return lambda part: feet[number].part(part).entries_in(torso.part(part))
 
         both = (entries(0), entries(1))
