@@ -243,14 +243,11 @@ def leg_angles(
         BadInput: Wrong shape, NaN, not a rigid placement, or no such branch.
     """
     if reference is None and type(branch) is str and branch in LABELS:
-        plain = single_pose(torso_to_foot)
-        found = plain and one_pose.one_branch(leg, plain[0], LABELS[branch], plain[1])
-        if found and found[1] <= TOLERANCES.reach:
-            for theta, (lower, upper) in zip(found[0], leg.bounds, strict=True):
-                if not lower <= theta <= upper:
-                    break
-            else:
-                return np.array(found[0])
+        pose, rigid = single_pose(torso_to_foot)
+        if pose is not None:
+            theta = one_pose.one_branch(leg, pose, LABELS[branch], rigid)
+            if theta is not None:
+                return np.array(theta)
     only = leg_branches(leg, branch)
     target = pose_array("torso_to_foot", torso_to_foot)
     start = np.zeros(6) if reference is None else finite_array("reference", reference, 6)

@@ -59,9 +59,9 @@ def leg_inverse_kinematics(
     Raises:
         BadInput: Wrong shape, NaN or not a rigid placement.
     """
-    if reference is None and (plain := single_pose(torso_to_foot)) is not None:
-        pose, rigid = plain
-        if (found := one_pose.summands(leg, pose, rigid)) is not None:
+    if reference is None:
+        pose, rigid = single_pose(torso_to_foot)
+        if pose is not None and (found := one_pose.summands(leg, pose, rigid)) is not None:
             return LegSolutions(leg, pose, found)
     look_closer = None
     if _plain_stack(torso_to_foot):
@@ -77,13 +77,12 @@ def leg_inverse_kinematics(
     return every_branch(leg, target, reference, look_closer)
 
 
-def single_pose(pose: ArrayLike) -> tuple[np.ndarray, bool] | None:
-    """A matrix ``(4, 4)`` and whether it is known to be rigid; None if it's another thing."""
+def single_pose(pose: ArrayLike) -> tuple[np.ndarray | None, bool]:
+    """A matrix ``(4, 4)``, None if it's another thing, and whether it is known to be rigid."""
     if type(pose) is np.ndarray:
         plain = pose.shape == (4, 4) and pose.dtype == np.float64
-        return (pose.copy(), False) if plain else None
-    matrix = getattr(pose, "homogeneous", None)
-    return (matrix, True) if type(matrix) is np.ndarray and matrix.shape == (4, 4) else None
+        return (pose.copy() if plain else None), False
+    return getattr(pose, "homogeneous", None), True
 
 
 def _plain_stack(pose: ArrayLike) -> bool:
