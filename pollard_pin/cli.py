@@ -10,6 +10,7 @@ from thesis_pin.command import common
 from thesis_pin.command.options import (
     add_branch,
     add_euler,
+    add_jobs,
     add_json,
     add_robot,
     add_smooth,
@@ -111,9 +112,7 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
         metavar="N",
         help="points an axis (default: 101)",
     )
-    words.add_argument(
-        "--jobs", type=count("--jobs", 1), default=2, metavar="N", help="threads (default: 2)"
-    )
+    add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
 
 

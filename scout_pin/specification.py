@@ -35,6 +35,7 @@ from thesis_pin.model.strict import (
     Vector3,
 )
 from thesis_pin.numeric.checks import choice
+from thesis_pin.numeric.planar import clearly_simple
 from thesis_pin.sizing.actuator import Actuator
 
 SCOUT_PATH = Path(__file__).parent / "specifications" / "scout.toml"
@@ -133,7 +134,9 @@ class Link(Strict):
 
 
 def _simple(sole: tuple[Vector2, ...]) -> tuple[Vector2, ...]:
-    from shapely import Polygon
+    if clearly_simple(sole):
+        return sole
+    from shapely import Polygon  # tells exactly
 
     polygon = Polygon(sole)
     if not polygon.is_valid or polygon.area == 0:

@@ -42,6 +42,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
         stance_near: How far from its place a foot may be that a log's first or last row of
             a stance has standing: a switch under the sole closes that early [m].
         stance_near_tilt: The same of its angles [rad].
+        kept_turn: How far a frame may stand otherwise than a table says once and for all, where the
+            robot has no motor for that [rad]: angles written to a tenth of a degree.
         sole_misfit: How far from its place joint angles may put a standing sole: servos of 1°
             and legs of 0.3 m make 5 mm; another robot, or degrees for radians, more [m].
         sole_misfit_tilt: The same of its angles [rad].
@@ -175,6 +177,7 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     node_step: float = 0.1
     stance_near: float = 1e-3
     stance_near_tilt: float = 1e-2
+    kept_turn: float = 2e-3
     sole_misfit: float = 1e-2
     sole_misfit_tilt: float = 1e-1
     inertia_unfelt: float = 1e-4

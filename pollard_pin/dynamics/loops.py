@@ -9,7 +9,7 @@ import numpy as np
 from pollard_pin.kinematics.geometry import Geometry, SideNumbers
 from pollard_pin.kinematics.linkage import Linkage, Three, in_arm
 from thesis_pin.errors import BadInput
-from thesis_pin.numeric.elementwise import Elementwise, Numbers
+from thesis_pin.numeric.elementwise import FLOATS, Elementwise, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -48,7 +48,8 @@ def refuse_open_loops(
 
 def _beyond(xp: Elementwise, square: Any, limit: float) -> bool:
     """Whether some square passes that of a limit, or is none: NaN compares false."""
-    return xp.some(xp.where(square <= limit * limit, 0.0, 1.0) != 0.0)
+    largest = square if xp is FLOATS else square.max()
+    return not largest <= limit * limit
 
 
 def _refuse(gap: Three, v: Numbers, a: Numbers, i: int, what: str, first: int) -> None:

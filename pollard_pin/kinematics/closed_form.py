@@ -56,10 +56,9 @@ class Found(NamedTuple):
     @property
     def numbers(self) -> tuple[Any, ...]:
         """Angles, then cosines."""
-        first, cosine, *_ = self.shoulder
-        (a, b, c, one, *_), (d, e, f, two, *_) = self.sides
-        elbow, wrist = self.forearm[:2], self.wrist[:3]
-        return (first, *elbow, *wrist, a, b, c, d, e, f, cosine, one, two)
+        shoulder, forearm, wrist, (one, two) = self
+        angles = shoulder[:1] + forearm[:2] + wrist[:3] + one[:3] + two[:3]
+        return (*angles, shoulder[1], one[3], two[3])
 
     @property
     def linkage(self) -> Linkage:
@@ -200,40 +199,42 @@ class ClosedForm:
         return theta, xp.atan2(bend, along), turned, c, s, bend, (along, second, third)
 
     def _side(self, shoulder: _Shoulder, forearm: _Forearm, i: int, e: int, f: int) -> _Side:
-        xp, g = self.xp, self.geometry
+        xp, g, sqrt, atan2 = self.xp, self.geometry, self.xp.sqrt, self.xp.atan2
         ax, ay, az, y_10, drop, arm, _, excess, cb, sb = g.sides[i]
-        _, _, c21, s21, *_ = shoulder
+        c21, s21 = shoulder[2], shoulder[3]
         _, _, _, _, ca, sa, c54, s54 = forearm
         lever_p, lever_y = ax * c54 - ay * s54, ax * s54 + ay * c54
         dx = g.x_32 * c21 + (ca * lever_p + az * sa)
         dy = lever_y - y_10
         h = drop - g.x_32 * s21 + (az * ca - sa * lever_p)
         square = dx * dx + dy * dy
-        radius = xp.sqrt(square)
+        radius = sqrt(square)
         reached = (square + (h * h + excess)) / (2 * arm)
         if xp.some(lost := radius <= _REACH):  # above its base: θ21i is free if the rod fits
             above = lost & (abs(reached) <= _REACH)
             cosine = xp.where(above, 1.0, self._ratio(reached, radius))
-            theta = xp.atan2(dy, dx) + e * xp.acos(xp.clipped(cosine))
+            theta = atan2(dy, dx) + e * xp.acos(xp.clipped(cosine))
             theta = xp.where(above, self.free[6 + 3 * i], theta)
             c, s = xp.cosine_sine(theta)
             along, across = c * dx + s * dy - arm, c * dy - s * dx
         else:
             cosine = reached / radius
             c = xp.clipped(cosine)
-            s = xp.sqrt(1.0 - c * c)
+            s = sqrt(1.0 - c * c)
             if e < 0:
                 s = -s
             along, across = c * radius - arm, -s * radius
             p, q = c / radius, s / radius
             c, s = p * dx - q * dy, p * dy + q * dx
-            theta = xp.atan2(s, c)
+            theta = atan2(s, c)
         b, d = cb * across + sb * h, cb * h - sb * across
-        span: Any = xp.sqrt(along * along + d * d)
-        pitch = xp.atan2(-d, along) if f > 0 else xp.atan2(d, -along)
-        if f < 0:
-            span = -span
-        if xp.some(along_axis := abs(span) < _SINGULAR):  # the rod lies along the axis of θ65i
-            pitch = xp.where(along_axis, self.free[7 + 3 * i], pitch)
-        rod = (along, across, h, b, d, span)
-        return (theta, pitch, xp.atan2(b, span), cosine, c, s, lever_p, lever_y, *rod)
+        span: Any = sqrt(along * along + d * d)
+        stuck = span < _SINGULAR  # the rod lies along the axis of θ65i
+        if f > 0:
+            pitch = atan2(-d, along)
+        else:
+            pitch, span = atan2(d, -along), -span
+        if xp.some(stuck):
+            pitch = xp.where(stuck, self.free[7 + 3 * i], pitch)
+        yaw = atan2(b, span)
+        return theta, pitch, yaw, cosine, c, s, lever_p, lever_y, along, across, h, b, d, span

@@ -24,7 +24,7 @@ from pollard_pin.kinematics.closed_form import ClosedForm
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.linkage import Linkage
 from pollard_pin.kinematics.regular import singular
-from pollard_pin.kinematics.solutions import Solutions
+from pollard_pin.kinematics.solutions import CLOSES, Solutions, Solved, half_open
 from thesis_pin.numeric.arrays import finite_array, spread, wrap
 from thesis_pin.numeric.elementwise import (
     ARRAYS,
@@ -35,7 +35,7 @@ from thesis_pin.numeric.elementwise import (
     Numbers,
     blocks,
 )
-from thesis_pin.numeric.turns import TURN, fitted
+from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
 
 _TRIED = 720
@@ -98,16 +98,14 @@ def inverse_kinematics(
         geometry,
         tuple(branches),
         target,
-        angles.reshape(*shape, 12),
-        cosines.reshape(*shape, 3),
+        Solved(angles.reshape(*shape, 12), cosines.reshape(*shape, 3)),
     )
 
 
-_CLOSES = 1.0 + TOLERANCES.reach
 _NONE = (math.nan,) * 12
 ZERO = (0.0,) * 12
 
-_Solved = tuple[np.ndarray, np.ndarray, list[int]]
+_Stack = tuple[np.ndarray, np.ndarray, list[int]]
 """Angles ``(n, branches, 12)``, NaN where a chain doesn't close, cosines ``(n, branches, 3)``,
 and the poses with θ21 or θ43 free."""
 
@@ -120,18 +118,15 @@ def _one(geometry: Geometry, pose: ArrayLike, branch: Branch) -> Solutions | Non
     if not math.isfinite(sum(numbers)):
         return None
     chunk = ClosedForm(FLOATS, geometry, numbers, ZERO)
-    found = chunk.solve(branch).numbers
-    if chunk.loose or geometry.turned or -math.pi in found:
+    found = chunk.solve(branch)
+    if chunk.loose or geometry.turned:
         return None
-    if not all(-_CLOSES <= cosine <= _CLOSES for cosine in found[12:]):
-        found = _NONE + found[12:]
-    both = np.array(found)
-    return Solutions(geometry, (branch,), pose, both[:12], both[12:])
+    return Solutions(geometry, (branch,), pose, found)
 
 
 def _few(
     geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray | None
-) -> _Solved:
+) -> _Stack:
     """A few poses, by floats."""
     angles: list[Number] = []  # one list for all: an array costs more to begin than to fill
     cosines: list[Number] = []
@@ -141,7 +136,7 @@ def _few(
         every = chunk.every(branches) if len(branches) > 1 else (chunk.solve(branches[0]),)
         for found in every:
             cosine = found.cosines
-            closed = all(-_CLOSES <= one <= _CLOSES for one in cosine)
+            closed = all(-CLOSES <= one <= CLOSES for one in cosine)
             angles += found.angles if closed else _NONE
             cosines += cosine
         if chunk.loose:
@@ -151,16 +146,9 @@ def _few(
     return rows, np.array(cosines).reshape(*shape, 3), loose
 
 
-def half_open(angles: np.ndarray) -> np.ndarray:
-    """Arctangents in (−π, π], in place: of −0.0 they make −π."""
-    if not angles.min(initial=0.0) > -np.pi:
-        angles[angles <= -np.pi] += TURN
-    return angles
-
-
 def _many(
     geometry: Geometry, poses: np.ndarray, branches: Sequence[Branch], free: np.ndarray | None
-) -> _Solved:
+) -> _Stack:
     """Many poses, by arrays, in blocks."""
     count, loose = len(poses), []
     angles, cosines = np.empty((count, len(branches), 12)), np.empty((count, len(branches), 3))
@@ -169,7 +157,7 @@ def _many(
         chunk = ClosedForm(ARRAYS, geometry, np.ascontiguousarray(poses[part].T), kept)
         for b, found in enumerate(chunk.every(branches)):
             rows, cosine = half_open(np.array(found.angles)), np.array(found.cosines)
-            beyond = ~(np.abs(cosine).max(axis=0) <= _CLOSES)
+            beyond = ~(np.abs(cosine).max(axis=0) <= CLOSES)
             if beyond.any():
                 rows[:, beyond] = np.nan
             angles[part, b], cosines[part, b] = rows.T, cosine.T

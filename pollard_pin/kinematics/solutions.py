@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from pollard_pin.coordinates import pose_rotation
+from pollard_pin.kinematics.closed_form import Found
 from pollard_pin.kinematics.geometry import Branch, Geometry
+from pollard_pin.kinematics.reach import why_not
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.errors import SingularPose, Unreachable, WrongShape
 from thesis_pin.numeric.checks import element
 from thesis_pin.numeric.elementwise import LONG
 from thesis_pin.numeric.long import gathered
+from thesis_pin.numeric.turns import TURN
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -25,7 +28,22 @@ def _kept(beyond: np.ndarray) -> np.ndarray:
     return np.asarray(np.all(beyond <= TOLERANCES.joint_limit, axis=-1))
 
 
-_CONDITIONS = ("chain 0", "chain 1", "chain 2")
+CLOSES = 1.0 + TOLERANCES.reach
+"""Cosine up to which a chain closes: it reaches the boundary."""
+
+
+def half_open(angles: np.ndarray) -> np.ndarray:
+    """Arctangents in (−π, π], in place: of −0.0 they make −π."""
+    if not angles.min(initial=0.0) > -np.pi:
+        angles[angles <= -np.pi] += TURN
+    return angles
+
+
+class Solved(NamedTuple):
+    """The arrays of :class:`Solutions`, as they are described there."""
+
+    angles: np.ndarray
+    cosines: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -39,17 +57,40 @@ class Solutions:
         geometry: The robot's lengths.
         branches: Labels, in the order of that axis.
         pose: The poses asked for, shape ``(..., 6)`` or ``(..., 1, 6)``.
-        angles: Joint angles [rad], shape ``(..., 12)``; NaN if unreachable. In (−π, π], or
-            where a joint's limits hold only that, whole turns from it.
-        cosines: What the arccosines of chains 0, 1, 2 are taken of, shape ``(..., 3)``:
-            a chain closes if its own is within ±1 (NaN after a chain that doesn't).
+        solved: What the closed form found; of a single pose as it is, in floats, of which
+            arrays are made when asked for.
     """
 
     geometry: Geometry
     branches: tuple[Branch, ...]
     pose: np.ndarray
-    angles: np.ndarray
-    cosines: np.ndarray
+    solved: Solved | Found
+
+    @property
+    def angles(self) -> np.ndarray:
+        """Joint angles [rad], shape ``(..., 12)``; NaN if unreachable.
+
+        In (−π, π], or where a joint's limits hold only that, whole turns from it.
+        """
+        return self._arrays.angles
+
+    @property
+    def cosines(self) -> np.ndarray:
+        """What the arccosines of chains 0, 1, 2 are taken of, shape ``(..., 3)``.
+
+        A chain closes if its own is within ±1 (NaN after a chain that doesn't).
+        """
+        return self._arrays.cosines
+
+    @cached_property
+    def _arrays(self) -> Solved:
+        if isinstance(self.solved, Solved):
+            return self.solved
+        numbers = np.array(self.solved.numbers)
+        angles, cosines = half_open(numbers[:12]), numbers[12:]
+        if not (np.abs(cosines) <= CLOSES).all():
+            angles[:] = np.nan
+        return Solved(angles, cosines)
 
     @cached_property
     def margin(self) -> np.ndarray:
@@ -154,7 +195,8 @@ class Solutions:
         index = element(index, self.reachable.shape, axes)
         cosines = self.cosines[index]
         if not self.reachable[index]:
-            return "unreachable: " + self._gap(index, cosines)
+            pose = np.broadcast_to(self.pose, (*self.reachable.shape, 6))[index]
+            return "unreachable: " + why_not(self.geometry, pose, cosines)
         beyond = self.beyond_limits[index]
         text = f"reachable with margin {float(self.margin[index]):.3f}"
         if not self.valid[index]:
@@ -167,36 +209,6 @@ class Solutions:
             )
         singular = str(self.singularity[index])
         return text + (f" (singular: {singular})" if singular else "")
-
-    def _gap(self, index: tuple[int, ...], cosines: np.ndarray) -> str:
-        broken = int(np.argmax(~(np.abs(cosines) <= 1.0)))
-        geometry = self.geometry
-        if broken:
-            side = broken - 1
-            arm, rod = float(geometry.x_43[side]), float(geometry.x_87[side])
-            far = "too far from" if cosines[broken] > 0 else "too near to"
-            return (
-                f"{_CONDITIONS[broken]} can't close: its ball joint would be {far} its base for "
-                f"an arm of {arm:g} m that turns about a vertical axis and a rod of {rod:g} m "
-                f"(cosine {cosines[broken]:.4f}, allowed ±1)"
-            )
-        pose = np.broadcast_to(self.pose, (*self.reachable.shape, 6))[index]
-        wrist = pose[:3] - geometry.x_1918 * pose_rotation(pose)[:, 0]
-        beside = abs(float(wrist[1]))
-        if beside >= geometry.forearm:
-            return (
-                f"the wrist would be {beside:.3f} m beside the plane in which the upper arm moves, "
-                f"and the forearm is {geometry.forearm:.3f} m long"
-            )
-        reach = math.sqrt(geometry.forearm**2 - beside**2)
-        distance = math.hypot(wrist[0], wrist[2] - geometry.z_10)
-        low, high = abs(geometry.x_32 - reach), geometry.x_32 + reach
-        near = "near to" if distance < low else "far from"
-        return (
-            f"the wrist would be too {near} the shoulder: {distance:.3f} m from its axis, where "
-            f"upper arm and forearm span {low:.3f} to {high:.3f} m (wrist {beside:.3f} m to the "
-            "side)"
-        )
 
     def require_one(self, *, allow_singular: bool = False) -> Solutions:
         """Return itself, or raise if one pose has no valid, regular solution on any branch.

@@ -13,7 +13,7 @@ from pollard_pin.kinematics.inverse import usual
 from pollard_pin.kinematics.linkage import Linkage
 from pollard_pin.kinematics.rates import motion_rates, stack_rates
 from pollard_pin.kinematics.regular import check_regular
-from pollard_pin.kinematics.solutions import Solutions
+from pollard_pin.kinematics.solutions import Solutions, Solved
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
@@ -136,12 +136,12 @@ def _solve(
     return LongSolvedTrajectory(robot, motion, q, solutions)
 
 
-_Solved = tuple[Solutions, np.ndarray | tuple[np.ndarray, ...], bool]
+_Motion = tuple[Solutions, np.ndarray | tuple[np.ndarray, ...], bool]
 """Solutions; rates and accelerations ``(n, 12)``, none for very many samples; whether the angles
 neither jump by a turn nor leave the limits, or else may."""
 
 
-def _usual(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Solved | None:
+def _usual(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Motion | None:
     """A motion whose samples are reachable and regular; None if one takes a closer look."""
     count, geometry = len(motion.time), robot.geometry
     long = count >= LONG
@@ -166,11 +166,11 @@ def _usual(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Solved | None
         least, most = (angles, angles) if count == 1 else (angles.min(axis=0), angles.max(axis=0))
     if not (np.maximum(robot.lower - least, most - robot.upper) <= TOLERANCES.joint_limit).all():
         return None
-    solutions = Solutions(geometry, (branch,), motion.pose, angles, cosines)
+    solutions = Solutions(geometry, (branch,), motion.pose, Solved(angles, cosines))
     return solutions, rates, bool((most - least < np.pi).all())
 
 
-def _any(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Solved:
+def _any(robot: Pollard, motion: ToolMotion, branch: Branch) -> _Motion:
     """Whatever can be solved, or the reason why it can't."""
     solutions = robot.inverse_kinematics(motion.pose, branch).require("path sample", motion.time)
     geometry, angles = robot.geometry, solutions.angles

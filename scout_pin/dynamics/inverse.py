@@ -18,7 +18,8 @@ import pinocchio as pin
 
 from scout_pin.coordinates import fill_root
 from scout_pin.dynamics.load_sharing import share_load
-from scout_pin.kinematics.screws import LegScrews
+from scout_pin.kinematics.geometry import LegGeometry
+from scout_pin.kinematics.screws import Joints, LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.motion.trajectory import fill_rates, followed
@@ -93,14 +94,9 @@ def inverse_dynamics(
     violation = np.full(count, np.nan)
     room = _Room(robot, min(count, BLOCK))
     for part in blocks(count):
-        kept = forces[part], wrench[part], violation[part]
-        some = None if joints is None else joints.part(part)
-        _fill(
-            kept,
-            robot,
-            motion.part(part),
-            room.block(robot, motion.part(part), q[part], some, part.start),
-        )
+        kept, here = (forces[part], wrench[part], violation[part]), motion.part(part)
+        given = None if joints is None else joints.part(part)
+        _fill(kept, robot, here, room.block(robot, here, q[part], given, part.start))
     return MotionContactDynamics(
         torque=forces[:, 6:],
         wrench=wrench,
@@ -183,10 +179,11 @@ def _fill(
         standing = _consecutive(supports[k])
         if standing is None:
             continue
-        known = block.screws[k]
-        screws = known.part(standing) if known else LegScrews(robot.legs[side], q[standing, mine])
         force, moment = shares[k][:3, standing], shares[k][3:, standing]
-        for joint, taken in enumerate(screws.torques(force, moment), 6 + mine.start):
+        torques = _leg_torques(
+            robot.legs[side], block.screws[k], q[:, mine], standing, force, moment
+        )
+        for joint, taken in enumerate(torques, 6 + mine.start):
             forces[standing, joint] -= taken
         # From the torso's axes to the world's, and from its origin to the sole's.
         force, moment = into(back[:, :, standing], force), into(back[:, :, standing], moment)
@@ -196,6 +193,22 @@ def _fill(
     friction = robot.specification.assumptions.joint_friction
     if friction.viscous or friction.coulomb:
         forces[:, 6:] += joint_friction(robot, block.v[6:].T, block.resting)
+
+
+def _leg_torques(
+    leg: LegGeometry,
+    known: LegScrews | None,
+    q: np.ndarray,
+    standing: slice | np.ndarray,
+    force: np.ndarray,
+    moment: np.ndarray,
+) -> Joints:
+    """Torques of the floor's wrench on a leg at the samples where it stands."""
+    if len(q) == 1:  # by floats, a third of the time of a single sample
+        screws = known or LegScrews.single(leg, q[0].tolist())
+        return screws.torques(force[:, 0].tolist(), moment[:, 0].tolist())
+    screws = known.part(standing) if known else LegScrews(leg, q[standing])
+    return screws.torques(force, moment)
 
 
 def _consecutive(yes: np.ndarray) -> slice | np.ndarray | None:

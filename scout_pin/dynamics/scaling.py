@@ -144,6 +144,8 @@ class DoubleSupport:
         torque, broken = self.free.at(some, s), np.zeros(len(some), dtype=bool)
         constant, linear = self.friction
         limited = np.flatnonzero((s**2 < self.free.low[some]) | (s**2 > self.free.high[some]))
+        if not limited.size:
+            return torque, broken
         rows = some[limited]
         found, possible = self.static.plus(self.dynamic, s**2, rows).least_torques()
         broken[limited] = ~possible

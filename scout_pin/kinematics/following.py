@@ -160,8 +160,7 @@ def distances(leg: LegGeometry, matrices: Entries, reference: np.ndarray | None)
     Where a branch doesn't reach the knee counts as straight or folded.
     """
     start, entries = np.zeros(6) if reference is None else reference, matrices(slice(0, 1))
-    pose = np.vstack([entries[:12].reshape(3, 4), [[0.0, 0.0, 0.0, 1.0]]])
-    if (found := one_pose.summands(leg, pose, True)) is not None:
+    if (found := one_pose.summands(leg, _pose(entries), True)) is not None:
         summands = np.array(found[:SUMMANDS])
     else:
         summands = ClosedForm(leg, entries, _free(leg, reference)).summands()[0][:, 0]
@@ -193,13 +192,19 @@ def along_branch(
     """
     free = _free(leg, reference)
     lower, upper = leg.lower - TOLERANCES.joint_limit, leg.upper + TOLERANCES.joint_limit
-    theta = np.empty((count, 6))
+    theta = np.empty((6, count))  # joints first, as rates and dynamics want them
     for part in blocks(count):
         entries = matrices(part)
-        form = ClosedForm(leg, entries, free)
-        if unchecked is not None and not form.surely_rigid():
-            check_rigid(unchecked, entries, entries.shape[1:], part.start)
-        angles, excess = form.branch(number)
+        plain = None
+        if count == 1:  # by floats: a third of the time of a gait's single sample
+            plain = one_pose.one_branch(leg, _pose(entries), number, unchecked is None)
+        if plain is not None:
+            angles, excess = np.array(plain[0])[:, None], np.array(plain[1])
+        else:
+            form = ClosedForm(leg, entries, free)
+            if unchecked is not None and not form.surely_rigid():
+                check_rigid(unchecked, entries, entries.shape[1:], part.start)
+            angles, excess = form.branch(number)
         if leg.turned:
             angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
         if not (
@@ -208,8 +213,15 @@ def along_branch(
             and (angles.max(axis=1) <= upper).all()
         ):
             return None
-        theta[part] = angles.T
-    return theta
+        theta[:, part] = angles
+    return theta.T
+
+
+def _pose(entries: np.ndarray) -> np.ndarray:
+    """The first of some placements, entries first, as a matrix ``(4, 4)``."""
+    pose = np.eye(4)
+    pose[:3] = entries[:12, 0].reshape(3, 4)
+    return pose
 
 
 def _free(leg: LegGeometry, reference: np.ndarray | None) -> Free:

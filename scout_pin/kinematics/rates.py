@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.kinematics.screws import Joints, LegScrews
+from scout_pin.kinematics.screws import Components, Joints, LegScrews
 from thesis_pin.errors import WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import instance
@@ -64,7 +64,17 @@ def solve(
     screws: LegScrews, foot: BodyMotion, torso: BodyMotion | None = None
 ) -> tuple[Joints, Joints]:
     """Rates and accelerations of one block of samples that :func:`leg_rates` has checked."""
-    velocity, omega, acceleration, alpha = _ankle(screws.leg, foot, torso)
+    return from_ankle(screws, *_ankle(screws.leg, foot, torso))
+
+
+def from_ankle(
+    screws: LegScrews,
+    velocity: np.ndarray | Components,
+    omega: np.ndarray | Components,
+    acceleration: np.ndarray | Components,
+    alpha: np.ndarray | Components,
+) -> tuple[Joints, Joints]:
+    """Rates and accelerations from the motion of p5 and the foot, seen from the torso."""
     rate = screws.solve(screws.components(velocity), screws.components(omega))
     linear, angular = screws.bias(rate)
     p, w = screws.components(acceleration), screws.components(alpha)

@@ -11,6 +11,8 @@ Source: Scout thesis, equations (3.16) and (3.24).
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
@@ -37,7 +39,17 @@ class LegScrews:
         angles[4] += angles[3]
         self._set(leg, *cosine_sine(angles))
 
-    def _set(self, leg: LegGeometry, cosines: np.ndarray, sines: np.ndarray) -> None:
+    @classmethod
+    def single(cls, leg: LegGeometry, theta: Sequence[float]) -> LegScrews:
+        """The screws at one configuration, all of floats."""
+        gamma = [angle + beta for angle, beta in zip(theta[:5], leg.betas, strict=False)]
+        gamma[3] += gamma[2]
+        gamma[4] += gamma[3]
+        one = cls.__new__(cls)
+        one._set(leg, [math.cos(angle) for angle in gamma], [math.sin(angle) for angle in gamma])
+        return one
+
+    def _set(self, leg: LegGeometry, cosines: Any, sines: Any) -> None:
         """From cosines and sines of γ1, γ2, γ3, γ3 + γ4, γ3 + γ4 + γ5, ``(5, n)`` each."""
         self.leg, self._turns = leg, (cosines, sines)
         self.c1, self.c2, self.c3, self.c34, self.c345 = cosines
@@ -49,10 +61,12 @@ class LegScrews:
     def part(self, samples: Samples) -> LegScrews:
         """The screws at some of the configurations."""
         some = LegScrews.__new__(LegScrews)
-        some._set(self.leg, *(turns[:, samples] for turns in self._turns))
+        some._set(
+            self.leg, *(np.asarray(turns).reshape(5, -1)[:, samples] for turns in self._turns)
+        )
         return some
 
-    def components(self, vector: np.ndarray | Components) -> Components:
+    def components(self, vector: np.ndarray | Sequence[Any]) -> Components:
         """Components along i3, j3, e of vectors in the torso's axes, ``(3, n)``."""
         x, y, z = vector
         radial = self.c1 * x + self.s1 * y
@@ -115,12 +129,14 @@ class LegScrews:
         foot = (j * (q345 - e) - turn * s, turn * c - i * q345, both + i * s - j * c)
         return point, foot
 
-    def torques(self, force: np.ndarray | Components, moment: np.ndarray | Components) -> Joints:
+    def torques(
+        self, force: np.ndarray | Sequence[float], moment: np.ndarray | Sequence[float]
+    ) -> Joints:
         """Joint torques of a wrench on the foot: z_j · (moment about p_j).
 
         Args:
-            force: In the torso's axes [N], shape ``(3, n)``.
-            moment: About the torso's origin, in its axes [N·m], shape ``(3, n)``.
+            force: In the torso's axes [N], shape ``(3, n)``, or three floats.
+            moment: About the torso's origin, in its axes [N·m], likewise.
         """
         leg, (fx, fy, fz) = self.leg, force
         about_z = moment[2] - leg.x_0 * fy  # about p2

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
+from scout_pin.kinematics import one_sample
 from scout_pin.kinematics.rates import solve
 from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
@@ -133,6 +134,8 @@ def fill_rates(
     Raises:
         SingularPose: A leg's Jacobian has lost rank.
     """
+    if len(q) == 1:
+        return _fill_one(robot, motion, q[0].tolist(), out, first)
     screws: list[LegScrews | None] = []
     for side, mine in zip(SIDES, _LEGS, strict=True):
         if _rests(motion, side):
@@ -146,6 +149,31 @@ def fill_rates(
         for rows, found in zip(out, solve(leg, _foot(motion, side), motion.torso), strict=True):
             for row, joint in zip(rows[mine], found, strict=True):
                 row[:] = joint
+    return screws[0], screws[1]
+
+
+def _fill_one(
+    robot: Scout,
+    motion: GaitMotion,
+    q: Sequence[float],
+    out: tuple[np.ndarray, np.ndarray],
+    first: int,
+) -> tuple[LegScrews | None, LegScrews | None]:
+    """:func:`fill_rates` of a single sample, a fifth of the time by floats."""
+    torso = one_sample.numbers(motion.torso)
+    still, screws = one_sample.rests(torso), list[LegScrews | None]()
+    for side, mine in zip(SIDES, _LEGS, strict=True):
+        foot = one_sample.numbers(_foot(motion, side))
+        if still and one_sample.rests(foot):
+            screws.append(None)
+            for rows in out:
+                rows[mine] = 0.0
+            continue
+        leg = LegScrews.single(robot.legs[side], q[mine])
+        leg.refuse_singular(first)
+        screws.append(leg)
+        for rows, found in zip(out, one_sample.solve(leg, foot, torso), strict=True):
+            rows[mine, 0] = found
     return screws[0], screws[1]
 
 

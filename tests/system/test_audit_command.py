@@ -1,5 +1,12 @@
 """``scout-pin audit`` answers, explains, and refuses what it doesn't know."""
 
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
 import orjson
 import pytest
 
@@ -68,3 +75,26 @@ def test_a_file_that_can_not_be_written_is_refused(tmp_path, capsys):
     target = tmp_path / "missing" / "audit.json"
     assert main(["audit", "--equation", "6.2:ZMP_x", "--json", str(target)]) == 3
     assert "can't write" in capsys.readouterr().err
+
+
+def test_ctrl_c_ends_the_processes_that_share_the_work_in_one_line():
+    root = str(Path(__file__).parents[2])
+    code = "import sys; from scout_pin.cli import main; sys.exit(main(['audit', '--jobs', '2']))"
+    run = subprocess.Popen(
+        [sys.executable, "-c", code],
+        env=os.environ | {"PYTHONPATH": root},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,  # Ctrl-C is sent to all processes of a terminal's job
+    )
+    words = ["pgrep", "-g", str(run.pid), "-f", "spawn_main"]
+    end = time.monotonic() + 60
+    while not subprocess.run(words, capture_output=True).stdout and time.monotonic() < end:
+        time.sleep(0.02)
+    os.killpg(run.pid, signal.SIGINT)
+    out, err = run.communicate(timeout=60)
+    assert (run.returncode, out, err) == (130, "", "scout-pin: interrupted\n")
+    while (left := subprocess.run(words, capture_output=True).stdout) and time.monotonic() < end:
+        time.sleep(0.02)
+    assert not left

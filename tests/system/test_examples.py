@@ -11,6 +11,8 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 SCRIPTS = sorted(EXAMPLES.glob("*.py"))
 
 SAYS = {
+    "anymal_trot": "The robot keeps its balance.",
+    "talos_lean": "It stands from 1.5° to 11.0° of its ankle.",
     "any_robot_torques": "the closest is chain1_shoulder with 8%",
     "delta_workspace": "No motor exceeds its limits; the closest is motor_1",
     "scout_explicit_model": "8.81468 N stay unbalanced",

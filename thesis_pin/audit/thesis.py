@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 
-from thesis_pin.audit.rows import AuditReport, Effect
+from thesis_pin.audit.rows import AuditReport, Effect, Row
 from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.verdicts import Claims, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
+from thesis_pin.numeric.checks import whole
+from thesis_pin.numeric.workers import shared
 
 Progress = Callable[[Iterable[Equation], int], Iterable[Equation]]
 """Wraps a loop over so many equations, for a progress bar."""
@@ -69,6 +73,7 @@ class Thesis:
         *,
         only: Iterable[str] | None = None,
         with_effects: bool = True,
+        jobs: int = 1,
         progress: Progress | None = None,
     ) -> AuditReport:
         """Audit the thesis.
@@ -77,27 +82,89 @@ class Thesis:
             equations: The equations; None for the thesis's own.
             only: Ids to audit; None for all.
             with_effects: Follow each failing line to see what it does.
+            jobs: Processes that share the work; the rows are the same. With more than one, a
+                script has to call this below ``if __name__ == "__main__"``.
             progress: Wraps the loop over equations.
         """
-        equations = equations or self.catalogue()
+        jobs = whole("jobs", jobs, 1)
+        given, equations = equations, equations or self.catalogue()
         chosen = equations.equations if only is None else [equations[name] for name in only]
-        ground = self.ground(equations)
-        claims = {name: functools.cache(claim) for name, claim in ground.claims.items()}
-        rows = []
-        for equation in progress(chosen, len(chosen)) if progress else chosen:
-            row = judge(equations, equation, ground.references(equation), claims, self.name)
-            if row.failed and not row.effect:
-                effect = ground.effect(equation) if with_effects else {}
-                if not effect and row.residual_printed == math.inf:
-                    effect = {"this line": "can't be computed"}
-                row = replace(row, effect=effect)
-            rows.append(row)
+        here = _Judge(self, equations, with_effects)
+        workers = min(jobs, len(chosen) // _TOGETHER)
+        rows: dict[str, Row] = {}
+
+        def judged() -> Generator[Equation]:
+            if workers < 2:
+                for equation in chosen:
+                    yield equation
+                    rows[equation.id] = here.row(equation)
+                return
+            begin = functools.partial(_begin, self, given, with_effects)
+            with closing(shared(_rows, _tasks(chosen), workers, begin)) as results:
+                for row in itertools.chain.from_iterable(results):
+                    rows[row.id] = row
+                    yield equations[row.id]
+
+        with closing(judged()) as each:
+            for _ in progress(each, len(chosen)) if progress else each:
+                pass
         return AuditReport(
             self.name,
-            tuple(rows),
+            tuple(rows[equation.id] for equation in chosen),
             self.numbers,
-            ground.states,
+            here.ground.states,
             self.causes,
             self.beyond(equations),
             self.effects,
         )
+
+
+class _Judge:
+    """Judges lines of a thesis; what their checks and effects share is worked out once."""
+
+    def __init__(self, thesis: Thesis, equations: Catalogue, with_effects: bool) -> None:
+        self.name, self.equations, self.with_effects = thesis.name, equations, with_effects
+        self.ground = thesis.ground(equations)
+        self.claims = {name: functools.cache(claim) for name, claim in self.ground.claims.items()}
+
+    def row(self, equation: Equation) -> Row:
+        """The audit's answer on one equation."""
+        environment = self.ground.references(equation)
+        row = judge(self.equations, equation, environment, self.claims, self.name)
+        if not row.failed or row.effect:
+            return row
+        effect = self.ground.effect(equation) if self.with_effects else {}
+        if not effect and row.residual_printed == math.inf:
+            effect = {"this line": "can't be computed"}
+        return replace(row, effect=effect)
+
+
+# -- several processes ------------------------------------------------------------------
+
+_TOGETHER = 64
+"""Lines a process takes at once: neighbours, which share most of what they need."""
+
+_here: list[_Judge] = []
+"""The judge of a process that shares an audit; empty in all others."""
+
+
+def _tasks(chosen: Sequence[Equation]) -> list[list[str]]:
+    """Ids in the order in which processes take them: checks in code first, which take longest.
+
+    Lines of one check stay together, as it is run once.
+    """
+    claims: dict[str, list[str]] = {}
+    for equation in chosen:
+        claims.setdefault(equation.claim, []).append(equation.id)
+    lines = claims.pop("", [])
+    parts = (lines[k : k + _TOGETHER] for k in range(0, len(lines), _TOGETHER))
+    return [*claims.values(), *parts]
+
+
+def _begin(thesis: Thesis, equations: Catalogue | None, with_effects: bool) -> None:
+    _here[:] = [_Judge(thesis, equations or thesis.catalogue(), with_effects)]
+
+
+def _rows(names: list[str]) -> list[Row]:
+    (judge,) = _here
+    return [judge.row(judge.equations[name]) for name in names]

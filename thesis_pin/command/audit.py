@@ -38,7 +38,11 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
         if arguments.equation is not None
         else None
     )
-    report = thesis.audit(only=only, progress=lambda rows, total: track(rows, "auditing", total))
+    report = thesis.audit(
+        only=only,
+        jobs=arguments.jobs,
+        progress=lambda rows, total: track(rows, "auditing", total),
+    )
     if arguments.html:
         put(arguments.html, page(report).encode())
     if arguments.markdown:

@@ -41,7 +41,8 @@ def _which_motion(words: Words) -> None:
         "motion",
         metavar="MOTION",
         help="CSV with t [s] and a column per motor or joint: NAME, NAME_rate, "
-        "NAME_acceleration (SI, or NAME_deg and the like); with --frame of x, y, z and the like",
+        "NAME_acceleration (SI, or NAME_deg and the like), of a free root base_x to base_yaw; "
+        "with --frame of x, y, z and the like",
     )
     add_smooth(words)
     add_frame(words)

@@ -262,6 +262,17 @@ def add_convert(words: Words) -> None:
     add_json(words, "what was written")
 
 
+def add_jobs(words: Words) -> None:
+    """How many threads or processes share the work."""
+    words.add_argument(
+        "--jobs",
+        type=count("--jobs", 1),
+        default=2,
+        metavar="N",
+        help="threads or processes that share the work (default: 2)",
+    )
+
+
 def add_audit(words: Words) -> None:
     """The options of the verb ``audit``."""
     words.add_argument(
@@ -271,6 +282,7 @@ def add_audit(words: Words) -> None:
     add_json(words, "all rows")
     words.add_argument("--html", metavar="FILE|-", help="write a page with rendered formulas")
     words.add_argument("--markdown", metavar="FILE|-", help="write the audit as a document")
+    add_jobs(words)
 
 
 def refuse_beside(arguments: argparse.Namespace, flag: str, others: tuple[str, ...]) -> None:

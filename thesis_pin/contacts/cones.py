@@ -24,6 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from thesis_pin.contacts.facets import cone_facets
 from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import real
@@ -70,23 +71,23 @@ class Contact:
         Args:
             outline: Corners [m], shape ``(n, 2)``.
             friction: Friction coefficient.
-            facets: Its :attr:`facets`, if they are known from an earlier time; they take SciPy's
-                Qhull to find.
+            facets: Its :attr:`facets`, if they are known from an earlier time; they take some
+                milliseconds to find.
         """
         outline = corners("outline", outline)
         friction = real("friction", friction, low=1e-6)
         hull = outline[convex_hull(outline)]
         length = float(np.linalg.norm(np.ptp(outline, axis=0))) / 2
         angle = 2 * np.pi * np.arange(FRICTION_EDGES) / FRICTION_EDGES
-        edges = np.stack(
-            [friction * np.cos(angle), friction * np.sin(angle), np.ones(FRICTION_EDGES)], axis=-1
-        )
+        tilts = friction * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        edges = np.column_stack([tilts, np.ones(FRICTION_EDGES)])
         edge = np.column_stack([hull, np.zeros(len(hull))])
         forces = np.tile(edges, (len(edge), 1))
         moments = np.cross(np.repeat(edge, FRICTION_EDGES, axis=0), forces)
         rays = np.concatenate([forces * length, moments], axis=1)
-        found = _facets(rays) if facets is None else facets
-        return cls(outline, hull, friction, length, rays, found)
+        if facets is None:
+            facets = cone_facets(hull, tilts, length, rays)
+        return cls(outline, hull, friction, length, rays, facets)
 
     def scale(self, wrench: np.ndarray) -> np.ndarray:
         """Wrenches with forces multiplied by :attr:`length` [N·m], ``(..., 6)``."""
@@ -141,20 +142,6 @@ class Contact:
         loaded = wrench[..., 2] > 0
         force = np.where(loaded, wrench[..., 2], np.nan)
         return np.stack([-wrench[..., 4] / force, wrench[..., 3] / force], axis=-1)
-
-
-def _facets(rays: np.ndarray) -> np.ndarray:
-    """Unit outward normals of the cone of some rays."""
-    from scipy.spatial import ConvexHull
-
-    # All rays have the same normal force, so the cone is a five-dimensional
-    # polytope lifted to that height.
-    height = rays[0, 2]
-    section = ConvexHull(rays[:, [0, 1, 3, 4, 5]] / height)
-    normal, offset = section.equations[:, :5], section.equations[:, 5]
-    facets = np.column_stack([normal[:, :2], offset, normal[:, 2:]])
-    facets /= np.linalg.norm(facets, axis=1)[:, None]
-    return np.unique(facets.round(12), axis=0)
 
 
 def corners(name: str, points: ArrayLike) -> np.ndarray:

@@ -147,6 +147,8 @@ class MotionContactDynamics(ContactDynamics):
 
     def part(self, samples: Samples) -> ContactDynamics:
         """Some samples in full."""
+        if "_full" in vars(self):
+            return self._full.part(samples)
         base, wrench = self._base.part(samples), self.wrench[samples]
         sole_wrench, required = np.empty(wrench.shape), np.zeros((6, len(wrench)))
         turn = rows(base.rotation)

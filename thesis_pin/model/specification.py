@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from thesis_pin.errors import BadInput, Problem, SpecificationError
 from thesis_pin.model.limits import LIMITS, bounded
 from thesis_pin.model.limits import Key as Key
+from thesis_pin.model.plain import Doubt, plainly
 from thesis_pin.model.source import read_text
 from thesis_pin.model.strict import Assumption as Assumption
 from thesis_pin.model.strict import NotNegative as NotNegative
@@ -98,8 +99,6 @@ def validate(
     Raises:
         SpecificationError: With a :class:`Problem` for each thing wrong.
     """
-    from pydantic import ValidationError
-
     lines = lines or {}
 
     def place(key: Key) -> str:
@@ -112,10 +111,32 @@ def validate(
     data, problems = bounded(data)
     if problems:
         raise SpecificationError(kind, [told(*problem) for problem in problems])
+    result = _plainly(schema, data)
+    if result is None:
+        result = _by_pydantic(kind, schema, data, place)
+    if isinstance(result, Strict) and (wrong := [told(*one) for one in result.cross_check()]):
+        raise SpecificationError(kind, wrong)
+    return result
+
+
+def _plainly(schema: type[File], data: object) -> File | None:
+    """The object, if there is no doubt that data stand for one."""
+    if not issubclass(schema, Strict):
+        return None
+    try:
+        return cast(File, plainly(schema, data))
+    except Doubt:
+        return None
+
+
+def _by_pydantic(kind: str, schema: type[File], data: object, place: Callable[[Key], str]) -> File:
+    """The object, or every problem in words."""
+    from pydantic import ValidationError
+
     found: list[Problem] = []
     try:
         # Strict: true isn't 1 and "0.33" isn't 0.33. Files have lists where we have tuples.
-        result = cast(File, schema.model_validate(data, strict=True))
+        return cast(File, schema.model_validate(data, strict=True))
     except ValidationError as error:
         for detail in error.errors(include_url=False):
             key = _real_key(detail["loc"], data)
@@ -128,11 +149,6 @@ def validate(
             found.append(Problem(place(key), _dotted(key), message, value))
         unique = {(p.key, p.what): p for p in found}
         raise SpecificationError(kind, list(unique.values())) from None
-    if isinstance(result, Strict):
-        found = [told(*problem) for problem in result.cross_check()]
-    if found:
-        raise SpecificationError(kind, found)
-    return result
 
 
 def key_lines(text: str) -> dict[Key, int]:

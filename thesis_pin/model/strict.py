@@ -93,6 +93,11 @@ class Strict:
         return new
 
     @classmethod
+    def field_names(cls) -> tuple[str, ...]:
+        """Names of its fields, its bases' first."""
+        return cls._names
+
+    @classmethod
     def model_validate(cls, data: object, *, strict: bool | None = None) -> Self:
         """The object that data stand for, checked.
 

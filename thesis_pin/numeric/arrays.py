@@ -200,6 +200,17 @@ def thinned(time: np.ndarray, most: int) -> np.ndarray:
     return np.asarray(apart[ascending(even)])
 
 
+def median(values: ArrayLike) -> np.ndarray:
+    """``np.median`` along the first axis, without numpy.ma's import.
+
+    Args:
+        values: Without NaN, shape ``(n, ...)``, n ≥ 1.
+    """
+    ordered = np.sort(np.asarray(values, dtype=float), axis=0)
+    count = len(ordered)
+    return np.asarray((ordered[(count - 1) // 2] + ordered[count // 2]) / 2)
+
+
 def skew(vector: np.ndarray) -> np.ndarray:
     """Cross-product matrices: ``skew(a) @ b == a × b``; ``(..., 3)`` → ``(..., 3, 3)``."""
     matrix = np.zeros((*vector.shape[:-1], 3, 3))

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from thesis_pin.tolerances import TOLERANCES
+
+_FEW = 200
+"""Corners whose edges are all held against each other."""
 
 
 def convex_hull(points: np.ndarray) -> np.ndarray:
@@ -63,3 +68,39 @@ def depth(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
         inside &= edge[0] * from_corner[:, 1] - edge[1] * from_corner[:, 0] > 0
     distance = np.sqrt(squared)
     return np.asarray(np.where(inside, distance, -distance))
+
+
+def clearly_simple(polygon: Sequence[tuple[float, float]]) -> bool:
+    """Whether a polygon's border clearly neither crosses nor touches itself.
+
+    Args:
+        polygon: Corners in order.
+
+    Returns:
+        False also where only exact arithmetic could tell, and for very many corners.
+    """
+    count = len(polygon)
+    if not 3 <= count <= _FEW:
+        return False
+    points = np.array(polygon)
+    after = np.roll(points, -1, axis=0)
+    start, along, size = points, after - points, float(np.ptp(points, axis=0).max())
+    tiny = TOLERANCES.parallel * size**2
+    low, high = np.minimum(start, after), np.maximum(start, after)
+    boxes = (low[:, None] > high[None] + TOLERANCES.parallel * size).any(axis=2)
+    # On which side of each edge's line every corner lies, as twice an area, (edges, corners).
+    off = points[None] - start[:, None]
+    side = along[:, None, 0] * off[..., 1] - along[:, None, 1] * off[..., 0]
+    ahead = np.roll(side, -1, axis=1)
+    same = ((side > tiny) & (ahead > tiny)) | ((side < -tiny) & (ahead < -tiny))
+    turn = side[np.arange(count), (np.arange(count) + 2) % count]
+    onwards = (along * np.roll(along, -1, axis=0)).sum(axis=1) > 0
+    gap = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
+    beside = (gap <= 1) | (gap == count - 1)
+    area = float((points[:, 0] * after[:, 1] - points[:, 1] * after[:, 0]).sum())
+    return bool(
+        (boxes | boxes.T | same | same.T | beside).all()
+        and ((np.abs(turn) > tiny) | onwards).all()
+        and abs(area) > tiny
+        and (np.abs(along).max(axis=1) > 0).all()
+    )

@@ -43,14 +43,15 @@ def _tiles(report: BalanceReport) -> list[Tile]:
     found, least = report.found, report.least_margin.value
     tiles = [Tile("the floor can give it", f"{report.given.mean():.0%}", report.balanced)]
     if np.isfinite(least) and report.level:
-        tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", least > 0))
+        tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", report.balanced))
     most = max(report.peak_friction)
     tiles.append(Tile("friction in use", f"{most:.0%}", most <= 1))
     tiles.append(Tile("largest force on a foot", f"{found.normal_force.max():.4g} N"))
     torque = float(np.abs(found.torque).max(initial=0.0))
+    unit = f" {report.motors.units[0]}" if len(set(report.motors.units)) == 1 else ""
     use = float(report.motors.effort_use.max(initial=0.0))
     share = f" ({use:.0%} of its limit)" if use else ""
-    tiles.append(Tile("largest torque", f"{torque:.4g}{share}", use <= 1 if use else None))
+    tiles.append(Tile("largest torque", f"{torque:.4g}{unit}{share}", use <= 1 if use else None))
     return tiles
 
 

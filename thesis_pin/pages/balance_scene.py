@@ -47,10 +47,11 @@ def scene(report: BalanceReport) -> Scene:
         *_points(report, keep, size),
         *(_plane(report, keep) if flat else ()),
     )
+    drawn = {item.group for item in shown.items}  # a tree has no loops to show
     return replace(
         shown,
         description=f"{report.robot.model.name} on {len(found.feet)} feet, and the forces on them.",
-        groups=(*shown.groups, *extra),
+        groups=(*(one for one in shown.groups if one.name in drawn), *extra),
         items=(*shown.items, *items),
         readouts=(*_readouts(report, keep), *shown.readouts),
         floor=None if flat else found.floor.height,

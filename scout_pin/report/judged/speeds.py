@@ -81,11 +81,12 @@ class Speeds:
             for cause in taken:
                 growth = self._growth(torques.samples, cause)
                 # What a few samples forbid needs no telling of the others.
-                for some in (slice(None, None, 1 + len(growth) // _FEW), slice(None)):
-                    few, more = torques.part(some), growth[some]
-                    passing = self._passing(few, more, taken[cause])
+                for step in (1 + len(growth) // _FEW, 1):
+                    some = slice(None, None, step)
+                    here, more = torques.part(some), growth[some]
+                    passing = self._passing(here, more, taken[cause])
                     if passing.size:
-                        found = self._passed(few.part(passing), more[passing], cause)
+                        found = self._passed(here.part(passing), more[passing], cause)
                         taken[cause] = pruned(Intervals.joined([taken[cause], found], 3))
         return taken
 
@@ -183,7 +184,10 @@ class Speeds:
 
     def _floor(self, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Wrench of the floor about the world's origin ``(m, 6)``: at rest, and what s² adds."""
-        here, torso = self.dynamics.part(some).required, self.motion.torso.part(some)
+        # Of very many samples only a part at a time is ever worked out.
+        short = len(self.motion.time) < LONG
+        here = self.dynamics.required[some] if short else self.dynamics.part(some).required
+        torso = self.motion.torso.part(some)
         force = np.einsum("nij,nj->ni", torso.rotation, here[:, :3])
         moment = np.einsum("nij,nj->ni", torso.rotation, here[:, 3:])
         moment += np.cross(torso.position, force)

@@ -43,7 +43,9 @@ class Trial:
 
     def worst(self, s: float) -> list[int] | None:
         """Cause, sample and joint of what is passed most at a speed; None if nothing is."""
-        some, use, joint = self._tried[s] = self.uses(s, self._few(s))
+        if not (few := self._few(s)).size:
+            return None
+        some, use, joint = self._tried[s] = self.uses(s, few)
         return self._source(some, use, joint) if use.max(initial=0.0) > 1.0 else None
 
     def bisected(self, fine: float, bad: float) -> tuple[float, list[int]]:

@@ -52,6 +52,13 @@ def judged(equation):
     ]
 
 
+def test_rows_are_the_same_where_two_processes_share_the_work(report):
+    some = [row.id for row in report.rows if row.chapter == "2"]
+    shared = audit(only=some, jobs=2)
+    assert shared.rows == tuple(row for row in report.rows if row.chapter == "2")
+    assert any(row.failed and row.effect for row in shared.rows)
+
+
 def test_the_numbers_are_those_of_the_thesis():
     assert len(NUMBERS) == 333
     known = {number for equation in catalogue().equations for number in equation.number}

@@ -9,7 +9,9 @@ import pytest
 import scout_pin
 from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.impact import impacts, touchdown_impact
-from thesis_pin.errors import BadInput, Unreachable
+from scout_pin.motion.gait import GaitMotion
+from thesis_pin.errors import BadInput, SingularPose, Unreachable
+from thesis_pin.numeric.trajectory import BodyMotion
 
 
 @pytest.fixture(scope="module")
@@ -82,3 +84,58 @@ def test_legs_land_and_are_timed_on_the_branch_they_walk_on(loose):
     unit = report.fastest.line
     again = scout_pin.gait_report(loose, gait, samples=41, branch=branch, time_unit=unit)
     assert again.servo_use.max() == pytest.approx(1.0, abs=2e-4)
+
+
+@pytest.mark.parametrize("name", ["thesis", "examples/walk.toml", "examples/squat.toml"])
+def test_a_single_sample_is_the_whole_motions(scout, name):
+    """By floats, where the torso turns, where feet swing and where all rests."""
+    gait = scout_pin.load_gait(name)
+    motion = gait.sample(gait.sample_times(41))
+    whole = scout_pin.joint_trajectory(scout, motion)
+    dynamics = scout_pin.inverse_dynamics(scout, motion, whole)
+    for k in range(len(motion.t)):
+        alone = motion.part(slice(k, k + 1))
+        joints = scout_pin.joint_trajectory(scout, alone, reference=whole.q[k])
+        for found, expected in ((joints.q, whole.q), (joints.v, whole.v), (joints.a, whole.a)):
+            np.testing.assert_allclose(found[0], expected[k], rtol=1e-9, atol=1e-10)
+        for one in (
+            scout_pin.inverse_dynamics(scout, alone, joints),
+            scout_pin.inverse_dynamics(scout, alone),
+        ):
+            np.testing.assert_allclose(one.torque[0], dynamics.torque[k], atol=1e-9)
+            np.testing.assert_allclose(one.wrench[0], dynamics.wrench[k], atol=1e-9)
+            np.testing.assert_allclose(one.required[0], dynamics.required[k], atol=1e-9)
+
+
+def test_rates_of_a_single_sample_are_those_of_arrays_while_all_bodies_turn(scout, rng):
+    """Random motions of torso and feet, which no gait has."""
+    theta = rng.uniform(-0.4, 0.4, (20, 12))
+    places = scout.forward_kinematics(theta)
+    still = np.broadcast_to(np.eye(4), (20, 4, 4))
+    torso, left, right = (
+        BodyMotion(place[:, :3, :3], place[:, :3, 3], *rng.normal(size=(4, 20, 3)))
+        for place in (still, places["left"], places["right"])
+    )
+    time, support = np.arange(20.0), np.ones((20, 2), dtype=bool)
+    motion = GaitMotion(time, time, support, torso, left, right)
+    whole = scout_pin.joint_trajectory(scout, motion, reference=theta[0])
+    for k in range(20):
+        alone = motion.part(slice(k, k + 1))
+        joints = scout_pin.joint_trajectory(scout, alone, reference=whole.q[k])
+        np.testing.assert_allclose(joints.q[0], whole.q[k], atol=1e-12)
+        np.testing.assert_allclose(joints.v[0], whole.v[k], rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(joints.a[0], whole.a[k], rtol=1e-9, atol=1e-9)
+
+
+def test_a_single_singular_sample_is_refused(scout):
+    theta = np.full((1, 12), 0.3)
+    theta[0, 1] = -scout.legs["left"].beta[1]
+    places = scout.forward_kinematics(theta)
+    moving = np.ones((1, 3))
+    torso, left, right = (
+        BodyMotion(place[:, :3, :3], place[:, :3, 3], moving, moving, moving, moving)
+        for place in (np.eye(4)[None], places["left"], places["right"])
+    )
+    motion = GaitMotion(np.zeros(1), np.zeros(1), np.ones((1, 2), dtype=bool), torso, left, right)
+    with pytest.raises(SingularPose, match="left leg, sample 0:"):
+        scout_pin.joint_trajectory(scout, motion, reference=theta[0])

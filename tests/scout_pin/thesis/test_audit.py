@@ -34,6 +34,13 @@ def judged(equation):
     return audit(changed, only=[equation.id], with_effects=False).rows[0]
 
 
+def test_rows_are_the_same_where_two_processes_share_the_work(report):
+    some = [row.id for row in report.rows if row.chapter == "3"]
+    shared = audit(only=some, jobs=2)
+    assert shared.rows == tuple(row for row in report.rows if row.chapter == "3")
+    assert any(row.failed and row.effect for row in shared.rows)
+
+
 def test_every_numbered_equation_is_covered(report):
     assert len(NUMBERS) == 59
     assert report.missing_numbers == ()

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from thesis_pin.errors import BadInput, NotFinite, TrajectoryError, UnknownName, WrongShape
-from thesis_pin.numeric.arrays import ascending, finite_array, spread, together, vector
+from thesis_pin.numeric.arrays import ascending, finite_array, median, spread, together, vector
 from thesis_pin.numeric.checks import choice, element, function, instance, real, shown, whole
 
 
@@ -138,3 +138,10 @@ def test_ascending_is_numpys_union():
     np.testing.assert_array_equal(ascending(one, other), np.union1d(one, other))
     np.testing.assert_array_equal(ascending([3, 1, 3]), [1, 3])
     assert ascending([]).size == 0
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 8])
+def test_median_is_numpys(count):
+    values = np.random.default_rng(count).normal(size=(count, 3))
+    np.testing.assert_array_equal(median(values), np.median(values, axis=0))
+    assert float(median(list(values[:, 0]))) == np.median(values[:, 0])

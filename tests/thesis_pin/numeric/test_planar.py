@@ -6,7 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from thesis_pin.numeric.planar import convex_hull, depth
+from thesis_pin.numeric.planar import clearly_simple, convex_hull, depth
 
 
 def cloud(seed, count, rounded):
@@ -49,3 +49,22 @@ def test_corners_and_edges_have_no_depth():
         0.5,
         -np.sqrt(2),
     ]
+
+
+@given(seed=st.integers(0, 2**32 - 1), count=st.integers(3, 9), rounded=st.booleans())
+@settings(max_examples=300, deadline=None)
+def test_what_is_clearly_simple_is_valid_to_geos(seed, count, rounded):
+    points = cloud(seed, count, rounded)
+    polygon = shapely.Polygon(points)
+    if clearly_simple(points.tolist()):
+        assert polygon.is_valid
+        assert polygon.area > 0
+
+
+def test_soles_are_clearly_simple_and_what_touches_itself_is_not():
+    assert clearly_simple([(0, 0), (2, 0), (2, 1), (1, 0.4), (0, 1)])
+    assert clearly_simple([(0, 0), (1, 0), (2, 0), (2, 1)])  # straight on at a corner
+    assert not clearly_simple([(0, 0), (1, 1), (1, 0), (0, 1)])  # crosses
+    assert not clearly_simple([(0, 0), (2, 0), (2, 1), (1, 0), (0, 1)])  # touches
+    assert not clearly_simple([(0, 0), (2, 0), (1, 0)])  # no area
+    assert not clearly_simple([(0, 0), (2, 0), (1, 0), (1, 1)])  # back along itself

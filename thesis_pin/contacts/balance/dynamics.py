@@ -18,7 +18,7 @@ from thesis_pin.errors import WrongShape
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.numeric.arrays import finite_array, spread, together
-from thesis_pin.numeric.checks import choice, instance
+from thesis_pin.numeric.checks import choice, instance, real
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -37,6 +37,7 @@ def foot_dynamics(
     support: ArrayLike | None = None,
     floor: Floor | None = None,
     sharing: str = "torque",
+    slack: float = 0.0,
     sliding: ArrayLike | None = None,
     precision: float | None = None,
     check: bool = True,
@@ -60,6 +61,8 @@ def foot_dynamics(
         sharing: ``torque`` for the least sum of squared torques, those of sliding motors
             multiplied by the robot's length; ``force`` for that of contact forces; ``equal`` for
             normal forces as equal as can be.
+        slack: Wrench that may be missing [N·m, forces times length]: up to it forces are those of
+            the nearest load that the floor can give, and what is missing stays at the root.
         sliding: See :func:`thesis_pin.loops.dynamics.inverse_dynamics`.
         precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
         check: Refuse motions that open loops, and loads that nothing carries.
@@ -79,6 +82,7 @@ def foot_dynamics(
     model = instance("robot", robot, ClosedRobot, "thesis_pin.load()").model
     by_name(feet)
     choice("sharing", sharing, SHARINGS)
+    real("slack", slack, low=0.0, unit="N·m")
     floor = Floor() if floor is None else floor
     check_free(robot)
     q = finite_array("q", q, model.nq)
@@ -99,7 +103,7 @@ def foot_dynamics(
         some = slice(first, first + _CHUNK)
         slides = None if sliding is None else sliding[some]
         part = _Chunk(robot, feet, places.part(some), length, (q[some], v[some], a[some]))
-        found = part.share(stands[some], sharing, slides, precision)
+        found = part.share(stands[some], (sharing, slack), slides, precision)
         wrench[some], violation[some], freedoms[some], required[some] = found
     pushed = at_frames(feet, places, wrench)
     dynamics = inverse_dynamics(
@@ -168,7 +172,7 @@ class _Chunk:
         self.q, self.v, self.a = state
 
     def share(
-        self, stands: Flags, sharing: str, sliding: Array | None, precision: float | None
+        self, stands: Flags, rule: tuple[str, float], sliding: Array | None, precision: float | None
     ) -> tuple[Array, Array, NDArray[np.intp], Array]:
         """Wrenches, violations, open components, and the wrench about the world's origin."""
         count, feet = len(self.q), len(self.feet)
@@ -181,7 +185,7 @@ class _Chunk:
             rows = np.flatnonzero(which.ravel() == number)
             grips = Grips.of(self.feet, np.flatnonzero(pattern).tolist(), self.length)
             here = self.places.part(rows)
-            found = self._shared(carrying, grips, here, rows, (tau[rows], root[rows]), sharing)
+            found = self._shared(carrying, grips, here, rows, (tau[rows], root[rows]), rule)
             wrench[rows] = grips.wrenches(here, found.unknowns, feet)
             violation[rows], freedoms[rows] = found.violation, found.freedoms
         required = root.copy()
@@ -195,7 +199,7 @@ class _Chunk:
         here: Stance,
         rows: NDArray[np.intp],
         load: tuple[Array, Array],
-        sharing: str,
+        rule: tuple[str, float],
     ) -> Shared:
         tau, root = load
         standing = sorted({grip.foot for grip in grips.each})
@@ -218,7 +222,7 @@ class _Chunk:
             own.motors[..., 0] * unit,
             scale if scale > 0 else 1.0,
         )
-        return share(problem, sharing)
+        return share(problem, *rule)
 
 
 def _support(support: ArrayLike | None, count: int, feet: Sequence[Foot]) -> Flags:

@@ -3,14 +3,13 @@
 Unknowns u, torques t − T u, the floor's wrench E u = e. With u = E⁺ e + N z, N the null space
 of E, what is left to choose is z. Where nothing is, the answer is exact and needs no solver;
 where the best z without the floor's limits keeps them, it is the answer; else a quadratic
-programme has it (DAQP, an active-set method: exact up to rounding), which starts from the
-limits that held the sample before.
+programme has it (DAQP, an active-set method: exact up to rounding).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
 import daqp
 import numpy as np
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 from thesis_pin.contacts.balance.grips import Grips
 from thesis_pin.contacts.cones import FRICTION_EDGES
 from thesis_pin.contacts.polar import beyond_cone
+from thesis_pin.errors import NoSolution
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -29,6 +29,9 @@ SHARINGS: tuple[str, ...] = get_args(Sharing)
 _TIE = 1e-9  # Hessians that are flatter, relative to their steepest, get a tie-break
 _LEAST_FORCE = 1e-3  # weight of the force where load is spread equally and more is open
 _NONE = -1e30  # no lower bound
+_PRECISE = 1e-10  # of the programme, relative to the load
+_BARELY = 1e-6  # by how much forces may leave their cones where all others leave them further
+_ASTRAY = 1e-4  # beyond which forces of a load that the floor can give are no answer
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +70,7 @@ class Shared:
     freedoms: NDArray[np.intp]
 
 
-def share(problem: Problem, sharing: str) -> Shared:
+def share(problem: Problem, sharing: str, slack: float = 0.0) -> Shared:
     """Choose the contact forces of each sample.
 
     Where no admissible ones give the load, the same rule holds without the floor's limits, and
@@ -77,6 +80,11 @@ def share(problem: Problem, sharing: str) -> Shared:
         problem: The problem.
         sharing: ``torque``: least sum of squared torques; ``force``: least sum of squared
             contact forces; ``equal``: normal forces as equal as can be, then least forces.
+        slack: Violation [N·m] up to which forces are those of the nearest load that the floor
+            can give.
+
+    Raises:
+        NoSolution: The solver failed.
     """
     count, _, size = problem.sums.shape
     freedoms = np.zeros(count, dtype=np.intp)
@@ -98,8 +106,21 @@ def share(problem: Problem, sharing: str) -> Shared:
     border = tolerance(problem.scale)
     doubtful = (beyond > border) | (np.abs(short).max(axis=1) > border)
     rays = problem.grips.rays(FRICTION_EDGES)
+    total = problem.total.copy()
     for k in np.flatnonzero(doubtful).tolist():
-        violation[k] = missing(problem.sums[k], rays, problem.total[k])[0]
+        violation[k], rest = missing(problem.sums[k], rays, problem.total[k])
+        total[k] -= rest
+    near = np.flatnonzero((violation > border) & (violation <= slack))
+    if near.size:
+        sums, torques, target = (x[near] for x in (problem.sums, problem.torques, problem.target))
+        able = replace(problem, sums=sums, total=total[near], torques=torques, target=target)
+        unknowns[near] = share(able, sharing).unknowns
+    astray = (violation <= border) & (beyond > max(border, _ASTRAY * problem.scale))
+    if (astray & (freedoms > 0)).any():
+        k = int(np.argmax(astray & (freedoms > 0)))
+        raise NoSolution(
+            "the solver found no forces for a load that the floor can give", float(beyond[k]), "N·m"
+        )
     return Shared(unknowns, violation, freedoms)
 
 
@@ -137,11 +158,12 @@ def _chosen(
     found = start + (free @ best[..., None])[..., 0]
     normals = np.einsum("cm,kmf->kcf", facets, free)
     bounds = -start @ facets.T
-    solver = _Solver()
     for k in np.flatnonzero((found @ facets.T > 0).any(axis=1)).tolist():
-        z = solver.solve(matrix[k], target[k], normals[k], bounds[k])
-        if z is not None:
-            found[k] = start[k] + free[k] @ z
+        for slack in (0.0, _BARELY):  # on the border rounding alone may rule all forces out
+            z = _solved(matrix[k], target[k], normals[k], bounds[k] + slack)
+            if z is not None:
+                found[k] = start[k] + free[k] @ z
+                break
     return found * size
 
 
@@ -163,38 +185,25 @@ def _cost(
     return matrix, target
 
 
-class _Solver:
-    """Quadratic programmes of one size, one after the other: each starts from the last."""
+def _solved(matrix: Array, target: Array, normals: Array, bounds: Array) -> Array | None:
+    """Least |target − matrix z|² with normals z ≤ bounds; None if there is no such z.
 
-    def __init__(self) -> None:
-        self.model: Any = None
-
-    def solve(self, matrix: Array, target: Array, normals: Array, bounds: Array) -> Array | None:
-        """Least |target − matrix z|² with normals z ≤ bounds; None if there is no such z."""
-        hessian = matrix.T @ matrix
-        steep = np.linalg.eigvalsh(hessian)
-        if steep[0] < _TIE * steep[-1]:  # of what costs the same, the least force
-            hessian = hessian + _TIE * max(steep[-1], 1e-12) * np.eye(len(hessian))
-        normals = np.ascontiguousarray(normals)
-        if self.model is not None:
-            flag = self.model.update(H=hessian, f=-matrix.T @ target, A=normals, bupper=bounds)
-            if flag < 0:
-                self.model = None
-        if self.model is None:
-            self.model = daqp.Model()
-            self.model.settings = {"primal_tol": 1e-10, "dual_tol": 1e-10}
-            lower, sense = np.full(len(bounds), _NONE), np.zeros(len(bounds), dtype=np.int32)
-            self.model.setup(hessian, -matrix.T @ target, normals, bounds, lower, sense)
-        solution, _, flag, _ = self.model.solve()
-        if flag <= 0:  # start anew: what held the last sample may not hold this one
-            self.model = None
-            return self._cold(hessian, matrix.T @ target, normals, bounds)
-        return np.array(solution)
-
-    @staticmethod
-    def _cold(hessian: Array, pull: Array, normals: Array, bounds: Array) -> Array | None:
-        lower, sense = np.full(len(bounds), _NONE), np.zeros(len(bounds), dtype=np.int32)
-        solution, _, flag, _ = daqp.solve(
-            hessian, -pull, normals, bounds, lower, sense, primal_tol=1e-10, dual_tol=1e-10
-        )
-        return np.array(solution) if flag > 0 else None
+    Starting from what bound the sample before makes four iterations of five, and no time: a
+    call costs what it takes to look at all facets.
+    """
+    hessian = matrix.T @ matrix
+    steep = np.linalg.eigvalsh(hessian)
+    if steep[0] < _TIE * steep[-1]:  # of what costs the same, the least force
+        hessian = hessian + _TIE * steep[-1] * np.eye(len(hessian))
+    count = len(bounds)
+    solution, _, flag, _ = daqp.solve(
+        hessian,
+        -matrix.T @ target,
+        np.ascontiguousarray(normals),
+        bounds,
+        np.full(count, _NONE),
+        np.zeros(count, dtype=np.int32),
+        primal_tol=_PRECISE,
+        dual_tol=_PRECISE,
+    )
+    return np.array(solution) if flag > 0 else None

@@ -33,7 +33,7 @@ from thesis_pin.loops.motion.base import (
     read_flight,
 )
 from thesis_pin.loops.motion.columns import ORDERS, columns_of
-from thesis_pin.loops.motion.leading import Names, read_lead, without_turns
+from thesis_pin.loops.motion.leading import Names, left_to_the_robot, read_lead, without_turns
 from thesis_pin.loops.motion.sampled import unlike, unwound, with_derivatives
 from thesis_pin.loops.motion.smoothing import within_resolution
 from thesis_pin.loops.motion.told import JointMotion, Tool
@@ -94,10 +94,10 @@ def read_motion(
     }
     kinds = singles(robot.model)
     joints = tuple(dict.fromkeys(of for of, _ in values if of in kinds))
-    told, said = tuple[str, ...](), list[str]()
+    tool, said = None, list[str]()
     if lead is not None:
         without_turns(values, lead)
-        _, told, said = read_lead(values, table, lead, euler)
+        _, tool, said = _led(robot, values, table, lead, euler)
     elif not joints:
         raise BadInput("no column is a joint's", where=table.file, allowed=", ".join(kinds))
     placed = BASE_PLACE if lead is None else lead("x", "y", "z")
@@ -137,18 +137,33 @@ def read_motion(
     if lead is None:
         flight = read_flight(values, table)
     else:
-        flight, _, _ = read_lead(values, table, lead, euler)
+        flight, _, _ = _led(robot, values, table, lead, euler)
     motion = _splined(values, joints, table, time.values, flight)
     motion = replace(
         motion,
         warnings=tuple(warnings),
         notes=tuple(notes),
-        tool=None if lead is None else Tool(lead.frame, told),
+        tool=tool,
         lines=table.lines,
     )
     if through or exact(read, resolved, friction):
         return motion
     return within_resolution(motion, read, resolved, flight)
+
+
+def _led(
+    robot: ClosedRobot,
+    values: Mapping[tuple[str, int], Column],
+    table: Table,
+    lead: Names,
+    euler: str | None,
+) -> tuple[Flight, Tool, list[str]]:
+    """How the frame that leads moves, what of it is told, and what is to be said."""
+    flight, told, notes = read_lead(values, table, lead, euler)
+    beside = {of for of, _ in values} & {*singles(robot.model)}
+    freedoms = len(robot.actuators or singles(robot.model)) - len(beside)
+    flight, tool, said = left_to_the_robot(flight, told, values, lead, freedoms)
+    return flight, tool, notes + said
 
 
 def _lead(robot: ClosedRobot, frame: str | None, euler: str | None) -> Names | None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from thesis_pin.errors import BadInput
 from thesis_pin.loops.motion.base import Flight
 from thesis_pin.loops.motion.sampled import unwound
+from thesis_pin.loops.motion.told import Tool
 from thesis_pin.numeric.rotations import quaternions
 from thesis_pin.tables.orientations import FORMS, check_order, from_euler, oriented
 from thesis_pin.tables.table import Column, Table
@@ -119,6 +120,53 @@ def read_lead(
             base[:, 3:] = given / np.linalg.norm(given, axis=1)[:, None]
     told = (*place, *(form if len(form) == 1 else ANGLES if form else ()))
     return Flight(names(*form), base, place=names(*place)), told, notes
+
+
+def left_to_the_robot(
+    flight: Flight,
+    told: tuple[str, ...],
+    values: Mapping[tuple[str, int], Column],
+    names: Names,
+    freedoms: int,
+) -> tuple[Flight, Tool, list[str]]:
+    """A frame's orientation without what never moves and the robot holds by itself.
+
+    A delta's tool and a SCARA's don't tilt: tables of whole poses tell them so all the same, and
+    rounding of what can't move would ask for what the robot can't do.
+
+    Args:
+        flight: Its placement.
+        told: Which coordinates are told.
+        values: Columns by what they hold and which derivative it is.
+        names: What they are called.
+        freedoms: How many motors the robot has for it.
+
+    Returns:
+        The rest of it, what is told then, and what is to be said.
+    """
+    whole = Tool(names.frame, told)
+    place = tuple(name for name in told if name in PLACE)
+    if not set(ANGLES) <= set(told) or len(told) <= freedoms:
+        return flight, whole, []
+    moves = [bool(np.ptp(values[name, 0].values) > 0) for name in flight.turns]
+    kept = tuple(flight.base[0, 3:].tolist())
+    if not any(moves) and len(place) >= freedoms:
+        base = flight.base.copy()
+        base[:, 3:] = 0.0, 0.0, 0.0, 1.0
+        said = f"frame {names.frame} doesn't turn in the table, and the robot keeps it so by itself"
+        return replace(flight, turns=(), base=base), Tool(names.frame, place, kept), [said]
+    yaws = flight.turns == names(*ANGLES) and not (moves[0] or moves[1])
+    if yaws and len(place) + 1 >= freedoms:
+        angles = np.zeros((len(flight.base), 3))
+        angles[:, 2] = values[names("yaw")[0], 0].values
+        base = flight.base.copy()
+        base[:, 3:] = quaternions(from_euler("xyz", angles))
+        said = f"frame {names.frame} only yaws in the table; roll and pitch the robot keeps itself"
+        some = replace(flight, turns=names("yaw"), base=base)
+        angles[:, :2] = [values[name, 0].values[0] for name in names("roll", "pitch")]
+        level = quaternions(from_euler("xyz", angles[:1] * [1.0, 1.0, 0.0]))[0]
+        return some, Tool(names.frame, (*place, "yaw"), tuple(level.tolist())), [said]
+    return flight, whole, []
 
 
 def _form(values: Mapping[tuple[str, int], Column], table: Table, names: Names) -> tuple[str, ...]:

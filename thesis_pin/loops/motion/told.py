@@ -23,10 +23,13 @@ class Tool:
     Attributes:
         frame: Its name.
         told: Which of :data:`COORDINATES` are told; the others are left to the robot.
+        kept: How the frame is to be turned before its yaw, if that is told, or at all, as a
+            quaternion x, y, z, w: the robot has to do so by itself. None if nobody says.
     """
 
     frame: str
     told: tuple[str, ...]
+    kept: tuple[float, ...] | None = None
 
     @property
     def rows(self) -> Mask:

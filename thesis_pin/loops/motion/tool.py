@@ -20,7 +20,7 @@ from thesis_pin.loops.configurations.closing import close_stack, motor_positions
 from thesis_pin.loops.configurations.surveying import surveyed
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.told import COORDINATES, Tool
-from thesis_pin.loops.system.rows import Mask
+from thesis_pin.loops.motion.turned import offset_of, pose_told, refuse_otherwise
 from thesis_pin.model.loading import frame_id
 from thesis_pin.model.mechanism.closure_types import word_of
 from thesis_pin.numeric import quaternions
@@ -30,7 +30,6 @@ Array = NDArray[np.float64]
 STRIDE = 0.1
 """Longest step from a pose to the first sample [rad], or relative to the robot's size."""
 
-_ALIGNED = 1e-6  # turns of a frame that counts as aligned with an axis [rad]
 _STEPS = 60  # Newton steps at most
 
 
@@ -58,6 +57,8 @@ def tool_view(robot: ClosedRobot, tool: Tool, joints: Sequence[str], pose: Array
             f"frame {tool.frame!r} can't lead a robot whose root flies freely",
             remedy="Tell the base and the joints, or fix the root",
         )
+    if tool.kept is not None:
+        refuse_otherwise(robot, tool, pose)
     base = pin.Model()
     root = base.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "root_joint")
     end = base.addJointFrame(root)
@@ -66,7 +67,7 @@ def tool_view(robot: ClosedRobot, tool: Tool, joints: Sequence[str], pose: Array
     names = [f"{tool.frame} as told", tool.frame]
     frame = model.frames[frame_id(model, tool.frame)]
     offset = pin.SE3(frame.placement)
-    offset.rotation = offset.rotation @ _offset(robot, tool, pose)
+    offset.rotation = offset.rotation @ offset_of(robot, tool, pose)
     seat = model.addFrame(
         pin.Frame(f"{tool.frame} of a loop", frame.parentJoint, offset, pin.FrameType.OP_FRAME)
     )
@@ -97,44 +98,6 @@ def _moved(loop: Loop, robot: ClosedRobot, model: pin.Model) -> Loop:
         for k in loop.ids
     )
     return Loop(loop.name, loop.kind, loop.frames, (first, second), loop.rows, loop.length)
-
-
-def _offset(robot: ClosedRobot, tool: Tool, pose: Array) -> Array:
-    """What turns the frame into the one whose told orientation is that of the file.
-
-    One angle alone turns about the world's axis from where the frame stands at the pose.
-    """
-    turns = [name for name in COORDINATES[3:] if name in tool.told]
-    if len(turns) == 3 or not turns:
-        return np.eye(3)
-    what = f"{', '.join(turns)} of frame {tool.frame!r}"
-    every = "Tell roll, pitch and yaw, or none of them"
-    if len(turns) == 2:
-        raise BadInput(f"{what} alone don't say an orientation", remedy=every)
-    axis = COORDINATES[3:].index(turns[0])
-    plane = {"xyz"[k] for k in range(3) if k != axis}
-    if len(plane & set(tool.told)) == 1:
-        raise BadInput(
-            f"{what} is told, and only one of {' and '.join(sorted(plane))}", remedy="Tell both"
-        )
-    turn = placed(robot, tool.frame, pose).rotation
-    angles = pin.rpy.matrixToRpy(turn)
-    if axis == 1 and np.abs(np.abs(angles[[0, 2]]) - np.pi).max() < _ALIGNED:
-        angles = np.array([0.0, np.pi - angles[1], 0.0])  # the same orientation
-    if (axis == 1 and abs(np.sin(angles[2])) > _ALIGNED) or (
-        axis == 0 and max(abs(np.sin(angles[1])), abs(np.sin(angles[2]))) > _ALIGNED
-    ):
-        raise BadInput(f"{what} doesn't turn about an axis of the world here", remedy=every)
-    alone = np.zeros(3)
-    alone[axis] = angles[axis]
-    return np.asarray(turn.T @ pin.rpy.rpyToMatrix(alone))
-
-
-def placed(robot: ClosedRobot, frame: str, q: Array) -> pin.SE3:
-    """Where a frame of a robot is at a configuration ``(nq,)``."""
-    data = robot.model.createData()
-    pin.forwardKinematics(robot.model, data, q)
-    return pin.SE3(pin.updateFramePlacement(robot.model, data, frame_id(robot.model, frame)))
 
 
 def lifted(view: ClosedRobot, q: Array) -> Array:
@@ -219,20 +182,13 @@ def approach(
         if reasons[0]:
             raise Unreachable(
                 reasons[0],
-                where=f"{share:.0%} of the way from the pose to the first sample",
+                where=f"{share:.2%} of the way from the pose to the first sample",
                 remedy="Start from a pose beside the first sample",
             )
         q = found.q
         if not share:
             refuse_redundant(robot, view, q[0], precision)
     return np.asarray(q[0])
-
-
-def pose_told(robot: ClosedRobot, tool: Tool, pose: Array) -> Array:
-    """Placement ``(7,)`` of what is told of a frame, at a configuration of the robot ``(nq,)``."""
-    here = placed(robot, tool.frame, pose)
-    turn = here.rotation @ _offset(robot, tool, pose) if any(tool.rows[3:]) else np.eye(3)
-    return np.concatenate([here.translation, pin.Quaternion(turn).coeffs()])
 
 
 def _rotation(placement: Array) -> Array:
@@ -250,29 +206,4 @@ def refuse_redundant(
                 f"{view.leader} don't determine the other joints: {', '.join(loose[:6])} "
                 "move while they stand still",
                 remedy="Tell more coordinates of the frame, or add columns of some joints",
-            )
-
-
-def refuse_tilted(robot: ClosedRobot, tool: Tool, pose: Array, q: Array) -> None:
-    """Refuse a motion in which a frame turns otherwise than by the one angle that is told.
-
-    Args:
-        robot: The robot.
-        tool: The frame.
-        pose: Configuration that says how the frame is turned, shape ``(nq,)``.
-        q: Configurations of the motion, shape ``(n, nq)``.
-    """
-    rows: Mask = tool.rows
-    if sum(rows[3:]) != 1:
-        return
-    axis = rows[3:].index(True)
-    offset = _offset(robot, tool, pose)
-    for configuration in q[:: max(1, len(q) // 64)]:
-        turn = placed(robot, tool.frame, configuration).rotation @ offset
-        lean = float(np.linalg.norm(np.cross(turn[:, axis], np.eye(3)[axis])))
-        if lean > _ALIGNED:
-            raise SingularPose(
-                f"frame {tool.frame!r} leans by {np.degrees(lean):.3g}° where only its "
-                f"{COORDINATES[3 + axis]} is told",
-                remedy="Tell roll, pitch and yaw",
             )

@@ -16,7 +16,8 @@ from thesis_pin.loops.configurations.following import follow
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.sampled import with_derivatives
 from thesis_pin.loops.motion.told import JointMotion, Tool
-from thesis_pin.loops.motion.tool import approach, inverted, refuse_tilted, tool_view
+from thesis_pin.loops.motion.tool import approach, inverted, tool_view
+from thesis_pin.loops.motion.turned import refuse_tilted
 from thesis_pin.loops.system.idle import joint_names
 from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.numeric import quaternions
@@ -31,6 +32,9 @@ STRIDE = 0.1
 
 JUMP = 0.2
 """Share of a passive joint's largest rate by which it may jump between two samples."""
+
+RESTS = 1e-9
+"""Share of the largest rate of all joints below which a joint rests."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,7 +175,9 @@ def _refuse_jump(robot: ClosedRobot, found: JointTrajectory) -> None:
     step = np.diff(found.time)[:, None]
     jump = np.abs(np.diff(found.v, axis=0) - step * (found.a[1:] + found.a[:-1]) / 2)
     size = np.abs(found.v).max(axis=0, initial=0.0)
-    share = jump / np.where(size > 0, size, 1.0)
+    # Rates of what rests beside the others are rounding, which jumps as it likes.
+    size = np.where(size > RESTS * size.max(initial=0.0), size, np.inf)
+    share = jump / size
     leading = np.concatenate([robot.actuated, robot.base])
     driving = share[:, leading].max(axis=1, initial=0.0)
     passive = share[:, robot.passive].max(axis=1, initial=0.0)

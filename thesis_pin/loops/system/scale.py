@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.loops.system.equations import Equations
 from thesis_pin.loops.system.rows import Loop
+from thesis_pin.numeric.arrays import median
 
 Array = NDArray[np.float64]
 
@@ -40,7 +41,7 @@ def scale_of(equations: Equations) -> Scale:
     lengths = np.array([_half_perimeter(model, loop) for loop in equations.loops])
     whole = sum(float(np.linalg.norm(place.translation)) for place in model.jointPlacements)
     lengths[lengths < 1e-9 * max(whole, 1e-9)] = whole or 1.0  # spherical linkages
-    length = float(np.median(lengths)) if lengths.size else whole or 1.0
+    length = float(median(lengths)) if lengths.size else whole or 1.0
     columns = np.where(_slides(model), length, 1.0)
     rows = np.ones(equations.size)
     for loop, size, place in zip(equations.loops, lengths, equations.rows, strict=True):

@@ -20,6 +20,7 @@ from thesis_pin.loops.system.gaps import describe_gap
 from thesis_pin.loops.system.idle import IdleGroup, idle_groups
 from thesis_pin.loops.system.newton import CUT, Settled, settle
 from thesis_pin.loops.system.scale import Scale
+from thesis_pin.numeric.arrays import median
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -123,10 +124,10 @@ def survey(
     cut = CUT if precision is None else max(precision, 0.1 * FLOOR)
     walk = _Walk(equations, scale, q, cut)
     values = equations.parts().values(walk.matrices)
-    high, middle = values.max(axis=0), np.median(values, axis=0)
+    high, middle = values.max(axis=0), median(values)
     rank = int((high > cut).sum())
     shown = max(float(high[rank:].max(initial=0.0)), FLOOR)
-    limit = MARGIN * max(shown, float(np.median(walk.gaps)))
+    limit = MARGIN * max(shown, float(median(walk.gaps)))
     gaps = [gap for gap in walk.gaps if gap <= limit]
     if walk.gaps[0] > limit:
         raise Unreachable(*_open(equations, walk.first))
@@ -158,7 +159,7 @@ def survey(
         equations, scale, walk.configurations[steady], passive, held[steady], passive_rank
     )
     freedom = equations.model.nv - rank
-    moves = not freedom or float(np.median(walk.shares or [1.0])) >= _SURVIVES
+    moves = not freedom or float(median(walk.shares or [1.0])) >= _SURVIVES
     return Survey(
         rank, noise, blur, weakest, passive_rank, blocks, freedom, moves, idle, walk.first.q, cut
     )

@@ -13,7 +13,8 @@ from thesis_pin.loops.configurations.closing import close_stack, motor_positions
 from thesis_pin.loops.configurations.surveying import surveyed
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.motion.told import COORDINATES, Tool
-from thesis_pin.loops.motion.tool import inverted, lifted, pose_told, refuse_redundant, tool_view
+from thesis_pin.loops.motion.tool import inverted, lifted, refuse_redundant, tool_view
+from thesis_pin.loops.motion.turned import pose_told
 from thesis_pin.loops.motion.whole import driven_by
 from thesis_pin.loops.system.newton import CUT, settle
 from thesis_pin.loops.system.survey import Survey

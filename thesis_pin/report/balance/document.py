@@ -141,7 +141,7 @@ class BalanceReport(BalanceNumbers):
             "worst_time": float(self.time[self.worst]),
             "given_share": float(self.given.mean()),
             "border": self.border,
-            "largest_violation": float(found.violation.max()),
+            "largest_violation": _ends(self.missing),
             "cause": None
             if why is None
             else {

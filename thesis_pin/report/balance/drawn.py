@@ -15,6 +15,8 @@ from thesis_pin.errors import ThesisPinError
 from thesis_pin.loops.motion.near import near_motions
 from thesis_pin.loops.motion.smoothing import itself
 from thesis_pin.report.torque.drawn import SAMPLES, Drawn, Judged, Way
+from thesis_pin.report.uncertainty.numbers import few_draws
+from thesis_pin.smoothing.intervals import Interval, largest_value
 from thesis_pin.smoothing.rates import resting
 from thesis_pin.tolerances import TOLERANCES
 
@@ -36,12 +38,12 @@ class JudgedBalance:
 
     Attributes:
         margin: Of the zero-moment point [m], shape ``(k,)``.
-        balanced: Whether the floor can give all it needs.
+        violation: Largest part of its load that the floor can't give [N·m].
         motors: Torques, speeds and loop forces, one variant.
     """
 
     margin: Array
-    balanced: bool
+    violation: float
     motors: Judged
 
 
@@ -61,11 +63,15 @@ class DrawnBalance:
     lost: int
     motors: Drawn
 
-    def agrees(self, balanced: bool) -> bool:
-        """Whether most could be worked out, and all say so."""
-        every = [*self.draws, *([] if self.rival is None else [self.rival])]
-        enough = len(self.draws) > self.lost
-        return enough and all(one.balanced == balanced for one in every)
+    def violation(self, own: float) -> Interval:
+        """Between which values the largest violation lies [N·m]; own is the motion's."""
+        rival = own if self.rival is None else self.rival.violation
+        return largest_value(own, rival, np.array([one.violation for one in self.draws]))
+
+    @property
+    def few(self) -> bool:
+        """Whether too few could be worked out to decide anything."""
+        return few_draws(self.lost, len(self.draws))
 
 
 def drawn(way: Way, extremes: list[int], judge: Judge) -> DrawnBalance | None:
@@ -115,9 +121,7 @@ def drawn(way: Way, extremes: list[int], judge: Judge) -> DrawnBalance | None:
 def _judged(dynamics: FootDynamics, speed: Array) -> JudgedBalance:
     force = np.linalg.norm(dynamics.loops.force, axis=-1)
     motors = Judged(dynamics.torque[None], speed[None], force[None])
-    return JudgedBalance(
-        dynamics.margin, bool((dynamics.violation <= border(dynamics)).all()), motors
-    )
+    return JudgedBalance(dynamics.margin, float(dynamics.violation.max()), motors)
 
 
 def _unknown(

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from thesis_pin.contacts.balance.dynamics import foot_dynamics
+from thesis_pin.contacts.balance.carrying import total_mass
+from thesis_pin.contacts.balance.dynamics import foot_dynamics, gravity_size
 from thesis_pin.contacts.balance.result import FootDynamics
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.finding import find_feet
@@ -27,6 +28,7 @@ from thesis_pin.report.balance.drawn import drawn
 from thesis_pin.report.balance.setting import HELD, held, moving
 from thesis_pin.report.torque.document import TorqueReport
 from thesis_pin.report.torque.drawn import Way
+from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
 
@@ -91,6 +93,7 @@ def balance_report(
         told = motion.base is not None and motion.tool is None
         setting = moving(robot, whole, feet, floor, support, told)
     joints = setting.whole.joints
+    weight = total_mass(robot) * gravity_size(robot)
 
     def judge(
         q: Array, v: Array, a: Array, sliding: Array | None, rows: NDArray[np.intp]
@@ -105,6 +108,7 @@ def balance_report(
             support=setting.stands[rows],
             floor=setting.floor,
             sharing=sharing,
+            slack=TOLERANCES.balance * weight,
             sliding=sliding,
             precision=precision,
         )

@@ -67,10 +67,16 @@ class BalanceNumbers:
     @property
     def balanced(self) -> bool | None:
         """Whether the floor gives all that the motion needs; None if its samples can't say."""
-        own = bool(self.given.all())
         if self.drawn is None:
-            return own
-        return own if self.drawn.agrees(own) else None
+            return bool(self.given.all())
+        side = self.missing.side(self.border)
+        return None if self.drawn.few or side == 0 else side < 0
+
+    @cached_property
+    def missing(self) -> Interval:
+        """Largest wrench that is missing [N·m], with what the samples leave open."""
+        value = float(self.found.violation.max())
+        return Interval(value, value, value) if self.drawn is None else self.drawn.violation(value)
 
     @property
     def level(self) -> bool:

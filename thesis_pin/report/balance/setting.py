@@ -79,7 +79,7 @@ def held(
         places = stance(robot, feet, ground, pose[None])
         if floor is None:
             ground = Floor(lowest_point(ground, places))
-            said.append(f"The floor is taken at {ground.height:.4g} m, where the lowest foot is.")
+            said.append(f"The floor is taken at {ground.height:z.4f} m, where the lowest foot is.")
     else:
         found = stand(
             robot, [foot for foot, on in zip(feet, stands, strict=True) if on], pose, ground
@@ -133,7 +133,7 @@ def moving(
     places = stance(robot, feet, ground, whole.joints.q, whole.joints.v)
     if floor is None:
         ground = Floor(lowest_point(ground, places))
-        said.append(f"The floor is taken at {ground.height:.4g} m, the lowest that a foot gets.")
+        said.append(f"The floor is taken at {ground.height:z.4f} m, the lowest that a foot gets.")
     if stands is None:
         stands = detect(ground, places)
         said.append(

@@ -8,6 +8,7 @@ from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.report.balance.numbers import BalanceNumbers
 from thesis_pin.report.resolution import millimetres
 from thesis_pin.report.torque import verdict
+from thesis_pin.report.uncertainty.reason import FEW
 from thesis_pin.smoothing.intervals import Interval
 from thesis_pin.tolerances import TOLERANCES
 
@@ -21,10 +22,12 @@ _TELLING = 1e-3  # a share of the weight or of its moment that is named
 
 def sentences(report: BalanceNumbers) -> list[str]:
     """The answer, the most important first."""
-    motors = report.motors
+    motors, balance = report.motors, _balance(report)
+    if (reason := why_not(report)) is not None:
+        balance[0] = f"By its own curves {balance[0][0].lower()}{balance[0][1:]}"
+        balance.insert(0, reason)
     return [
-        *([reason] if (reason := why_not(report)) else []),
-        *_balance(report),
+        *balance,
         *_friction(report),
         *_contacts(report),
         *verdict.sentences(motors, motors=motors.within_limits is not None),
@@ -38,17 +41,13 @@ def why_not(report: BalanceNumbers) -> str | None:
     drawn = report.drawn
     if drawn is None or report.balanced is not None:
         return None
-    own = bool(report.given.all())
-    other = sum(one.balanced != own for one in drawn.draws)
-    if len(drawn.draws) <= drawn.lost:
-        return (
-            "The samples can't carry a verdict: most motions that they leave open can't be "
-            "worked out. Finer samples are needed."
-        )
-    said, others = ("keeps its balance", "fall") if own else ("falls", "don't")
+    if drawn.few:
+        return FEW
+    held = report.missing
     return (
-        f"The samples can't carry a verdict: by its own curves the robot {said}, but {other} of "
-        f"{len(drawn.draws)} motions as probable {others}. Finer samples are needed."
+        "The samples can't carry a verdict: the largest wrench that is missing may be "
+        f"{held.low:.2g} to {held.high:.2g} N·m, and {report.border:.2g} N·m count as none. Finer "
+        "samples are needed."
     )
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from standing_robots import standing
+from standing_robots import ROBOTS, standing
 
 from thesis_pin.contacts.balance.causes import cause
 from thesis_pin.contacts.balance.dynamics import foot_dynamics
@@ -109,3 +109,29 @@ def test_bolt_on_its_two_points_tips_about_their_line():
     weight = pin.computeTotalMass(robot.model) * 9.81
     assert why.outside == pytest.approx(-found.margin[0])
     assert why.tip == pytest.approx(why.outside * weight, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_on_steep_floors_every_robot_slips_at_the_tangent_or_tips_as_its_margin_says(name):
+    robot, feet, pose = standing(name)
+    weight = pin.computeTotalMass(robot.model) * 9.81
+    rng = np.random.default_rng(21)
+    slipped = 0
+    for degrees in (10.0, 33.0, 40.0):
+        floor = Floor(0.0, np.radians(degrees), rng.uniform(-np.pi, np.pi))
+        found = foot_dynamics(robot, feet, stand(robot, feet, pose, floor).q, floor=floor)
+        tips = found.margin[0] < 0
+        slides = np.tan(np.radians(degrees)) > 0.6
+        assert found.admissible[0] <= (not tips and not slides)
+        if found.admissible[0]:
+            continue
+        why = cause(found, 0, border=1e-3 * weight)
+        if tips and why.outside > 2e-3:
+            assert why.friction is None
+            # The moment about the polygon's border, of the force across it.
+            press = found.required[0, :3] @ floor.normal
+            assert why.tip == pytest.approx(why.outside * press, rel=2e-2)
+        elif not tips:
+            slipped += 1
+            assert why.friction * 0.6 == pytest.approx(np.tan(np.radians(degrees)), rel=1e-2)
+    assert slipped or name in ("bolt", "talos", "g1")

@@ -10,6 +10,7 @@ from standing_robots import random_pose, random_states, standing
 from thesis_pin.contacts.balance.dynamics import foot_dynamics
 from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.contacts.floor import Floor
+from thesis_pin.contacts.standing.placing import stand
 
 COS = np.cos(np.pi / 8)
 
@@ -140,3 +141,54 @@ def test_load_that_follows_from_the_motion_needs_no_choice():
         assert np.allclose(other.wrench, one.wrench, rtol=0, atol=1e-9 * one.scale)
     both = foot_dynamics(robot, feet, pose)
     assert both.freedoms.tolist() == [6]
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 2**31), st.sampled_from([0.0, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5]))
+def test_near_the_border_forces_stay_in_their_cones_whenever_the_floor_can_give_the_load(seed, off):
+    """A talos whose zero-moment point is a hair [m] inside or outside an edge of its soles."""
+    rng = np.random.default_rng(seed)
+    robot, feet, _ = standing("talos")
+    q = random_pose("talos", rng, Floor(), 0.02)
+    still = np.zeros((1, robot.model.nv))
+
+    def pushed(size):
+        a = still.copy()
+        a[0, :2] = size * np.array([np.cos(seed), np.sin(seed)])
+        return foot_dynamics(robot, feet, q, still, a)
+
+    low, high = 0.0, 8.0  # the push along the floor [m/s²] at which the margin is off, or −off
+    wanted = off * rng.choice([-1, 1])
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (middle, high) if pushed(middle).margin[0] > wanted else (low, middle)
+    found = pushed(low)
+    assert found.margin[0] == pytest.approx(wanted, abs=1e-12)
+    if found.admissible[0]:
+        worst = np.nan_to_num(found.contact_margin[0], nan=1.0).min()
+        assert worst > -1e-4 * found.scale
+    else:
+        assert found.violation[0] > 0
+    if found.level[0] < 1e-12 and abs(wanted) > 1e-8 and found.friction_used[0].max() < 0.9:
+        assert found.admissible[0] == (wanted > 0)
+
+
+def test_what_may_be_missing_leaves_forces_in_their_cones_and_the_rest_at_the_root():
+    robot, feet, pose = standing("talos")
+    still = np.zeros((1, robot.model.nv))
+    a = still.copy()
+    at = foot_dynamics(robot, feet, stand(robot, feet, pose).q)
+    a[0, 1] = 9.81 * at.margin[0] / at.stance.com[0, 2]
+    q = stand(robot, feet, pose).q
+    while foot_dynamics(robot, feet, q, still, a).margin[0] > -5e-4:
+        a[0, 1] *= 1.001
+    glued = foot_dynamics(robot, feet, q, still, a)
+    eased = foot_dynamics(robot, feet, q, still, a, slack=2.0 * glued.violation[0])
+    assert not eased.admissible[0]
+    assert eased.violation[0] == pytest.approx(glued.violation[0])
+    assert np.nan_to_num(glued.contact_margin[0], nan=1.0).min() < -1e-4 * glued.scale
+    assert np.nan_to_num(eased.contact_margin[0], nan=1.0).min() > -1e-5 * eased.scale
+    left = eased.loops.base[0] * np.repeat([eased.length, 1.0], 3)
+    arm = eased.stance.root[0] - eased.stance.origin[0].mean(axis=0)
+    left[3:] += np.cross(arm, eased.loops.base[0, :3])
+    assert np.linalg.norm(left) == pytest.approx(eased.violation[0], rel=1e-4)

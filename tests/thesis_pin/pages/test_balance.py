@@ -1,0 +1,64 @@
+"""The page and the view of a balance report: forces, polygon and points are where they act."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from standing_robots import standing
+
+from thesis_pin.contacts.floor import Floor
+from thesis_pin.contacts.soles.foot import Foot
+from thesis_pin.pages.balance import balance_page
+from thesis_pin.pages.balance_scene import scene
+from thesis_pin.report.balance.making import balance_report
+
+
+@pytest.fixture(scope="module")
+def report():
+    robot, feet, pose = standing("talos")
+    return balance_report(robot, pose=pose, feet=feet)
+
+
+def test_arrows_start_where_the_floor_pushes_and_point_as_it_does(report):
+    items = {item.name: item for item in scene(report).items}
+    for k, name in enumerate(report.names):
+        arrow = items[f"contact {name}"]
+        np.testing.assert_array_equal(arrow.origin, report.found.stance.origin[:, k])
+        np.testing.assert_array_equal(arrow.vector, report.found.wrench[:, k, :3])
+    polygon = items["support"]
+    assert polygon.outlines[0][:, 2] == pytest.approx(1e-3)  # a little above the floor
+    np.testing.assert_array_equal(items["zmp"].position, report.found.zero_moment_point)
+    assert scene(report).floor == 0.0
+
+
+def test_a_foot_off_the_floor_has_no_arrow_and_a_slope_is_drawn():
+    robot, feet, pose = standing("anymal")
+    floor = Floor(0.1, np.radians(10))
+    report = balance_report(
+        robot, pose=pose, feet=feet, floor=floor, support=np.array([True, True, True, False])
+    )
+    shown = scene(report)
+    items = {item.name: item for item in shown.items}
+    assert np.isnan(items[f"contact {feet[3].name}"].vector).all()
+    assert shown.floor is None
+    assert np.abs(floor.above(items["floor"].outlines[0])).max() < 0.01
+
+
+def test_the_page_holds_the_verdict_and_names_can_t_break_out(report):
+    page = balance_page(report).decode()
+    assert "The robot stands on" in page
+    robot, feet, pose = standing("bolt")
+    named = [replace(foot, name=f"<b>{foot.name}</b>") for foot in feet]
+    evil = balance_page(balance_report(robot, pose=pose, feet=named)).decode()
+    assert "<b>FL_FOOT</b>" not in evil
+    assert "it tips" in evil
+
+
+def test_edges_and_points_have_forces_but_no_polygon():
+    robot, _, pose = standing("bolt")
+    feet = [Foot.of("FL_FOOT", [(0.0, 0.0), (0.05, 0.0)]), Foot.of("FR_FOOT")]
+    one = balance_report(robot, pose=pose, feet=feet[1:])
+    assert "support" not in {item.name for item in scene(one).items}
+    both = balance_report(robot, pose=pose, feet=feet)
+    assert "support" in {item.name for item in scene(both).items}
+    assert balance_page(both)
