@@ -195,16 +195,14 @@ def along_branch(
     theta = np.empty((6, count))  # joints first, as rates and dynamics want them
     for part in blocks(count):
         entries = matrices(part)
-        plain = None
         if count == 1:  # by floats: a third of the time of a gait's single sample
             plain = one_pose.one_branch(leg, _pose(entries), number, unchecked is None)
-        if plain is not None:
-            angles, excess = np.array(plain[0])[:, None], np.array(plain[1])
-        else:
-            form = ClosedForm(leg, entries, free)
-            if unchecked is not None and not form.surely_rigid():
-                check_rigid(unchecked, entries, entries.shape[1:], part.start)
-            angles, excess = form.branch(number)
+            if plain is not None:
+                return np.array([plain])
+        form = ClosedForm(leg, entries, free)
+        if unchecked is not None and not form.surely_rigid():
+            check_rigid(unchecked, entries, entries.shape[1:], part.start)
+        angles, excess = form.branch(number)
         if leg.turned:
             angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
         if not (

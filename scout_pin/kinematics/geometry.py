@@ -100,6 +100,11 @@ class LegGeometry:
         return maps
 
     @cached_property
+    def betas(self) -> tuple[float, ...]:
+        """:attr:`beta` as floats in (−π, π]."""
+        return tuple(wrap(self.beta).tolist())
+
+    @cached_property
     def bounds(self) -> tuple[tuple[float, float, float], ...]:
         """Of each joint β in (−π, π], lower and upper limit with their tolerance, floats [rad]."""
         rows = (
