@@ -12,7 +12,7 @@ PEERS = ("eaik", "mujoco")
 
 
 def machine() -> dict[str, object]:
-    """Processor, cores and the SIMD features that NumPy's loops use here."""
+    """Processor, cores, who else is at work, and the SIMD features that NumPy's loops use here."""
     import numpy as np
 
     simd = np.show_config(mode="dicts")["SIMD Extensions"]

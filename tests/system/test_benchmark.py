@@ -11,6 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 SUITES = ("scout", "pollard", "loading", "commands", "streams", "threads")
+STORED = json.loads((ROOT / "docs" / "speed.json").read_text(encoding="utf-8"))
 
 
 def run(*words, before=""):
@@ -160,3 +161,28 @@ def test_short_work_is_repeated_until_a_turn_is_long_enough(measuring):
     work = measuring["Row"]("work", 1, lambda: calls.append(1), peer)
     work.measure(measuring["Scale"](rounds=2, turn=1e-3))
     assert len(calls) > 100
+
+
+# -- the page -----------------------------------------------------------------------------
+
+
+def test_the_page_is_written_from_the_stored_run():
+    page = runpy.run_path(str(ROOT / "docs" / "speed.py"))["page"]
+    text = (ROOT / "docs" / "speed.md").read_text(encoding="utf-8")
+    assert page(STORED) == text, "run: python docs/speed.py"
+
+
+def test_the_stored_run_is_a_whole_one_with_equal_answers():
+    assert not STORED["quick"]
+    assert {row["suite"] for row in STORED["rows"]} == set(SUITES)
+    for row in STORED["rows"]:
+        assert row["rounds"] >= 7
+        if row["equal"]:
+            assert row["equal"]["difference"] <= row["equal"]["tolerance"]
+
+
+@pytest.mark.parametrize("change", [{"quick": True}, {"rows": STORED["rows"][:3]}])
+def test_no_page_is_written_of_half_a_run(change):
+    page = runpy.run_path(str(ROOT / "docs" / "speed.py"))["page"]
+    with pytest.raises(SystemExit, match="not a whole run"):
+        page(STORED | change)
