@@ -178,13 +178,19 @@ class Scout(LoadedRobot):
     # -- kinematics ----------------------------------------------------------
 
     def leg_inverse_kinematics(
-        self, side: str, torso_to_foot: ArrayLike, reference: ArrayLike | None = None
+        self,
+        side: str,
+        torso_to_foot: ArrayLike,
+        reference: ArrayLike | None = None,
+        *,
+        out: kinematics.LegSolutions | None = None,
     ) -> kinematics.LegSolutions:
         """All branches of one leg; where an angle is free, one member of each family.
 
         See :func:`scout_pin.kinematics.inverse.leg_inverse_kinematics`.
         """
-        return kinematics.leg_inverse_kinematics(self._leg(side), torso_to_foot, reference)
+        leg = self._leg(side)
+        return kinematics.leg_inverse_kinematics(leg, torso_to_foot, reference, out=out)
 
     def leg_angles(
         self,

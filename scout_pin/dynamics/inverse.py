@@ -27,7 +27,7 @@ from scout_pin.specification import SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics, MotionContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import BLOCK, blocks
+from thesis_pin.numeric.elementwise import BLOCK, LONG, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
@@ -90,15 +90,21 @@ def inverse_dynamics(
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     count = len(q)
-    forces, wrench = np.empty((count, 18)), np.zeros((count, 2, 6))
-    violation = np.full(count, np.nan)
+    long = count >= LONG
+    # Torques are left where Pinocchio writes them, unless memory counts.
+    forces = np.empty((BLOCK if long else count, 18))
+    torque = np.empty((count, 12)) if long else forces[:, 6:]
+    wrench, violation = np.zeros((count, 2, 6)), np.full(count, np.nan)
     room = _Room(robot, min(count, BLOCK))
     for part in blocks(count):
-        kept, here = (forces[part], wrench[part], violation[part]), motion.part(part)
-        given = None if joints is None else joints.part(part)
+        here, given = motion.part(part), None if joints is None else joints.part(part)
+        found = forces[: len(here.t)] if long else forces[part]
+        kept = found, wrench[part], violation[part]
         _fill(kept, robot, here, room.block(robot, here, q[part], given, part.start))
+        if long:
+            torque[part] = found[:, 6:]
     return MotionContactDynamics(
-        torque=forces[:, 6:],
+        torque=torque,
         wrench=wrench,
         contacts=robot.contacts,
         support=motion.support,

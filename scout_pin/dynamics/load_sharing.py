@@ -9,6 +9,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.sharing import LoadSharing, scaled_sole_maps
+from thesis_pin.numeric.vectors import cross
 
 
 def share_load(
@@ -45,8 +46,9 @@ def sharing_problem(
     jacobians, maps, contacts = [], [], robot.contacts
     for k, foot in enumerate((motion.left_foot, motion.right_foot)):
         frames = leg_frames(robot.legs[SIDES[k]], q[double, 6 * k : 6 * k + 6])
-        axes, points = (x.transpose(2, 0, 1) for x in (frames.axes, frames.points))
-        jacobians.append(np.concatenate([np.cross(points, axes), axes], axis=2))
+        axes, points = (x.transpose(1, 0, 2) for x in (frames.axes, frames.points))
+        columns = np.concatenate([cross(points, axes), axes])  # (6, joints, m)
+        jacobians.append(np.ascontiguousarray(columns.transpose(2, 1, 0)))
         turn = np.swapaxes(foot.rotation[double], 1, 2) @ motion.torso.rotation[double]
         maps.append(scaled_sole_maps(turn, frames.sole.T, contacts[k].length))
     torques = forces[double, 6:12], forces[double, 12:18]

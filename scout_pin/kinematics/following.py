@@ -195,16 +195,14 @@ def along_branch(
     theta = np.empty((6, count))  # joints first, as rates and dynamics want them
     for part in blocks(count):
         entries = matrices(part)
-        plain = None
         if count == 1:  # by floats: a third of the time of a gait's single sample
             plain = one_pose.one_branch(leg, _pose(entries), number, unchecked is None)
-        if plain is not None:
-            angles, excess = np.array(plain[0])[:, None], np.array(plain[1])
-        else:
-            form = ClosedForm(leg, entries, free)
-            if unchecked is not None and not form.surely_rigid():
-                check_rigid(unchecked, entries, entries.shape[1:], part.start)
-            angles, excess = form.branch(number)
+            if plain is not None:
+                return np.array([plain])
+        form = ClosedForm(leg, entries, free)
+        if unchecked is not None and not form.surely_rigid():
+            check_rigid(unchecked, entries, entries.shape[1:], part.start)
+        angles, excess = form.branch(number)
         if leg.turned:
             angles = fitted(angles, leg.lower[:, None], leg.upper[:, None])
         if not (
@@ -255,14 +253,11 @@ def leg_angles(
         BadInput: Wrong shape, NaN, not a rigid placement, or no such branch.
     """
     if reference is None and type(branch) is str and branch in LABELS:
-        plain = single_pose(torso_to_foot)
-        found = plain and one_pose.one_branch(leg, plain[0], LABELS[branch], plain[1])
-        if found and found[1] <= TOLERANCES.reach:
-            for theta, (lower, upper) in zip(found[0], leg.bounds, strict=True):
-                if not lower <= theta <= upper:
-                    break
-            else:
-                return np.array(found[0])
+        pose, rigid = single_pose(torso_to_foot)
+        if pose is not None:
+            theta = one_pose.one_branch(leg, pose, LABELS[branch], rigid)
+            if theta is not None:
+                return np.array(theta)
     only = leg_branches(leg, branch)
     target = pose_array("torso_to_foot", torso_to_foot)
     start = np.zeros(6) if reference is None else finite_array("reference", reference, 6)

@@ -105,10 +105,14 @@ class LegGeometry:
         return tuple(wrap(self.beta).tolist())
 
     @cached_property
-    def bounds(self) -> tuple[tuple[float, float], ...]:
-        """Joint limits with their tolerance as floats, lower and upper [rad]."""
-        lower = (self.lower - TOLERANCES.joint_limit).tolist()
-        return tuple(zip(lower, (self.upper + TOLERANCES.joint_limit).tolist(), strict=True))
+    def bounds(self) -> tuple[tuple[float, float, float], ...]:
+        """Of each joint β in (−π, π], lower and upper limit with their tolerance, floats [rad]."""
+        rows = (
+            wrap(self.beta),
+            self.lower - TOLERANCES.joint_limit,
+            self.upper + TOLERANCES.joint_limit,
+        )
+        return tuple((beta, lower, upper) for beta, lower, upper in np.transpose(rows).tolist())
 
     @cached_property
     def sums(self) -> np.ndarray:

@@ -27,7 +27,9 @@ from scout_pin.kinematics.signs import PLANES, SUMMANDS, sum_angles
 from scout_pin.kinematics.solutions import BRANCHES as BRANCHES
 from scout_pin.kinematics.solutions import LegSolutions as LegSolutions
 from scout_pin.kinematics.solutions import Solved
+from thesis_pin.errors import WrongShape
 from thesis_pin.numeric.arrays import finite_array, pose_array, spread, wrap
+from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.elementwise import FEW, blocks
 from thesis_pin.numeric.turns import fitted
 from thesis_pin.tolerances import TOLERANCES
@@ -37,7 +39,11 @@ _FREE_POSES = 64
 
 
 def leg_inverse_kinematics(
-    leg: LegGeometry, torso_to_foot: ArrayLike, reference: ArrayLike | None = None
+    leg: LegGeometry,
+    torso_to_foot: ArrayLike,
+    reference: ArrayLike | None = None,
+    *,
+    out: LegSolutions | None = None,
 ) -> LegSolutions:
     """Every set of joint angles that brings a sole to a pose.
 
@@ -52,6 +58,8 @@ def leg_inverse_kinematics(
             ``pin.SE3``, a sequence of them, or an array ``(..., 4, 4)``.
         reference: Angles θ [rad], ``(..., 6)`` or ``(6,)``, that fill in what a
             singular pose leaves free; None for zero.
+        out: An earlier answer for as many poses, no longer needed: its angles are written over.
+            Fresh memory for a million poses takes as long as their angles.
 
     Returns:
         The eight branches with validity, residuals and reasons.
@@ -59,9 +67,11 @@ def leg_inverse_kinematics(
     Raises:
         BadInput: Wrong shape, NaN or not a rigid placement.
     """
-    if reference is None and (plain := single_pose(torso_to_foot)) is not None:
-        pose, rigid = plain
-        if (found := one_pose.summands(leg, pose, rigid)) is not None:
+    if out is not None:
+        instance("out", out, LegSolutions, "leg_inverse_kinematics()")
+    elif reference is None:
+        pose, rigid = single_pose(torso_to_foot)
+        if pose is not None and (found := one_pose.summands(leg, pose, rigid)) is not None:
             return LegSolutions(leg, pose, found)
     look_closer = None
     if _plain_stack(torso_to_foot):
@@ -74,16 +84,15 @@ def leg_inverse_kinematics(
         target = pose_array("torso_to_foot", torso_to_foot)
     if reference is not None:
         reference = finite_array("reference", reference, 6)
-    return every_branch(leg, target, reference, look_closer)
+    return every_branch(leg, target, reference, look_closer, out)
 
 
-def single_pose(pose: ArrayLike) -> tuple[np.ndarray, bool] | None:
-    """A matrix ``(4, 4)`` and whether it is known to be rigid; None if it's another thing."""
+def single_pose(pose: ArrayLike) -> tuple[np.ndarray | None, bool]:
+    """A matrix ``(4, 4)``, None if it's another thing, and whether it is known to be rigid."""
     if type(pose) is np.ndarray:
         plain = pose.shape == (4, 4) and pose.dtype == np.float64
-        return (pose.copy(), False) if plain else None
-    matrix = getattr(pose, "homogeneous", None)
-    return (matrix, True) if type(matrix) is np.ndarray and matrix.shape == (4, 4) else None
+        return (pose.copy() if plain else None), False
+    return getattr(pose, "homogeneous", None), True
 
 
 def _plain_stack(pose: ArrayLike) -> bool:
@@ -101,6 +110,7 @@ def every_branch(
     target: np.ndarray,
     reference: np.ndarray | None,
     look_closer: Callable[[], None] | None = None,
+    out: LegSolutions | None = None,
 ) -> LegSolutions:
     """:func:`leg_inverse_kinematics` of arrays that have been checked.
 
@@ -110,8 +120,12 @@ def every_branch(
         reference: Angles [rad], shape ``(..., 6)`` or ``(6,)``; None for zero.
         look_closer: Raises unless all of them are rigid, if that isn't known yet; called only
             where it isn't plain.
+        out: As for :func:`leg_inverse_kinematics`.
     """
     stack = target.shape[:-2]
+    room = None if out is None else out.angles
+    if room is not None and room.shape[:-2] != stack:
+        raise WrongShape("out", room.shape[:-2], f"{stack}, as torso_to_foot")
     count = math.prod(stack)
     if reference is not None:
         reference = spread("reference", reference, stack).reshape(count, 6)
@@ -119,7 +133,7 @@ def every_branch(
     if count < FEW:
         theta, excess, sines = _few(leg, entries)
     else:
-        theta, excess, sines = _many(leg, entries, look_closer)
+        theta, excess, sines = _many(leg, entries, look_closer, room)
     if not (np.minimum(*sines) >= TOLERANCES.singular).all():  # NaN where e is free
         free = np.flatnonzero(~(np.minimum(*sines) >= TOLERANCES.singular))
         excess = excess[:, PLANES]
@@ -145,16 +159,23 @@ def _few(leg: LegGeometry, matrices: np.ndarray) -> _Found:
     found = [one_pose.summands(leg, matrix.reshape(4, 4), True) for matrix in matrices]
     plain = [one for one in found if one is not None]
     if len(plain) < len(found) or not found:
-        return _many(leg, matrices, None)
+        return _many(leg, matrices, None, None)
     numbers, form = np.array(plain), ClosedForm(leg, matrices.T)
     theta = sum_angles(leg.sums, numbers[:, :SUMMANDS]).reshape(-1, 8, 6)
     return theta, numbers[:, SUMMANDS:], np.stack([form.sine_axis, form.sine_hip])
 
 
-def _many(leg: LegGeometry, matrices: np.ndarray, look_closer: Callable[[], None] | None) -> _Found:
-    """All branches of many poses, by arrays, in chunks."""
+def _many(
+    leg: LegGeometry,
+    matrices: np.ndarray,
+    look_closer: Callable[[], None] | None,
+    room: np.ndarray | None,
+) -> _Found:
+    """All branches of many poses, by arrays, in chunks; the angles in memory given, if any."""
     count = len(matrices)
-    theta, excess, sines = np.empty((count, 48)), np.empty((2, count)), np.empty((2, count))
+    if room is None or not (room.flags.c_contiguous and room.flags.writeable):
+        room = np.empty((count, 8, 6))
+    theta, excess, sines = room.reshape(count, 48), np.empty((2, count)), np.empty((2, count))
     for part in blocks(count, CHUNK):
         some = matrices[part]
         form = ClosedForm(leg, some.T)

@@ -48,10 +48,8 @@ def summands(leg: LegGeometry, pose: np.ndarray, rigid: bool) -> list[float] | N
     ]
 
 
-def one_branch(
-    leg: LegGeometry, pose: np.ndarray, number: int, rigid: bool
-) -> tuple[list[float], float] | None:
-    """One branch of one pose.
+def one_branch(leg: LegGeometry, pose: np.ndarray, number: int, rigid: bool) -> list[float] | None:
+    """One branch of one pose, if it plainly is valid.
 
     Args:
         leg: Geometry of the leg.
@@ -60,31 +58,42 @@ def one_branch(
         rigid: Whether the pose is known to be rigid.
 
     Returns:
-        Its six angles in (−π, π] [rad], and by how much hip to ankle misses [m]; None if the
-        pose isn't plain.
+        Its six angles in (−π, π] [rad]. None if the pose isn't plain, out of reach, or an angle
+        beyond its limit as it is.
     """
     if (shared := _shared(leg, pose, rigid)) is None:
         return None
     yaw, tilt, foot, six, v_i, v_j = shared
     axis, two, bend = BRANCHES[number]
     knee, thigh, ankle, gap = _triangle(leg, two * v_i - leg.x_2, two * v_j)
+    if not gap <= _REACH:
+        return None
     three, four = axis * ankle - bend * thigh, bend * knee
-    b_1, b_2, b_3, b_4, b_5, b_6 = leg.betas
     if axis != two:
         yaw += pi
     if axis < 0:
         tilt, six = pi - tilt, six + pi
     if two < 0:
         foot += pi
-    five = axis * foot - three - four - b_5
-    five -= TURN * round(five / TURN)
-    angles = (yaw - b_1, two * tilt - b_2, three - b_3, four - b_4, five, six - b_6)
-    return [x if -pi < x <= pi else x - TURN if x > pi else x + TURN for x in angles], gap
+    five = (axis * foot - three - four) % TURN
+    theta = []
+    for gamma, (beta, lower, upper) in zip(
+        (yaw, two * tilt, three, four, five, six), leg.bounds, strict=False
+    ):
+        angle = gamma - beta
+        if angle > pi:
+            angle -= TURN
+        elif angle <= -pi:
+            angle += TURN
+        if not lower <= angle <= upper:
+            return None
+        theta.append(angle)
+    return theta
 
 
 def _shared(leg: LegGeometry, pose: np.ndarray, rigid: bool) -> _Shared | None:
     """Yaw, tilt, foot, turn_6, and v along i3 and j3; None if the pose isn't plain."""
-    if not isfinite(sum(pose.ravel().tolist())):  # NumPy would warn of 0 · ∞
+    if not rigid and not isfinite(sum(pose.ravel().tolist())):  # NumPy would warn of 0 · ∞
         return None
     (jx, kx, vx, ax), (jy, ky, vy, ay), (jz, kz, vz, az), last = pose.dot(leg.foot_map).tolist()
     if not rigid and not (

@@ -121,6 +121,23 @@ def test_a_single_pose_and_a_stack_give_the_same_branches(biped, rng):
     np.testing.assert_array_equal(grid.angles.reshape(40, 8, 6), stack.angles)
 
 
+def test_an_earlier_answers_memory_is_used_again(scout, rng):
+    leg = scout.legs["left"]
+    first, second = (leg_forward_kinematics(leg, rng.uniform(-2, 2, (5000, 6))) for _ in range(2))
+    second[7] = leg_forward_kinematics(leg, yaw_free(leg))
+    earlier, fresh = (leg_inverse_kinematics(leg, poses) for poses in (first, second))
+    again = leg_inverse_kinematics(leg, second, out=earlier)
+    assert np.shares_memory(again.angles, earlier.angles)
+    for name in ("angles", "excess", "valid", "sine_axis", "sine_hip", "position_residual"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(fresh, name))
+    with pytest.raises(WrongShape, match="out"):
+        leg_inverse_kinematics(leg, first[:4999], out=again)
+    with pytest.raises(BadInput, match="out"):
+        leg_inverse_kinematics(leg, first, out=again.angles)
+    few = leg_inverse_kinematics(leg, first[:3], out=leg_inverse_kinematics(leg, second[:3]))
+    np.testing.assert_array_equal(few.angles, leg_inverse_kinematics(leg, first[:3]).angles)
+
+
 def test_eaik_finds_the_same_branches(rng):
     eaik = pytest.importorskip("eaik.IK_HP", reason="EAIK isn't installed")
     leg = LegGeometry.of(Specification.read(), "left")

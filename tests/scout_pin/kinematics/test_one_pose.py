@@ -51,21 +51,23 @@ def test_a_leg_nearly_on_its_side_is_as_exact_as_any(scout, roll):
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_one_branch_is_that_of_all_eight(scout, side, rng):
-    leg = scout.legs[side]
+def test_one_branch_is_that_of_all_eight_if_it_is_valid(scout, side, rng):
+    leg, valid = scout.legs[side], 0
     poses = leg_forward_kinematics(leg, rng.uniform(-1.5, 1.5, (50, 6)))
     everything = leg_inverse_kinematics(leg, poses)
-    for pose, angles, excess in zip(poses, everything.angles, everything.excess, strict=True):
+    for k, pose in enumerate(poses):
         for number in range(len(BRANCHES)):
-            theta, gap = one_pose.one_branch(leg, pose, number, False)
-            assert gap == pytest.approx(excess[number], abs=1e-14)
-            if not np.isnan(angles[number, 0]):
-                np.testing.assert_allclose(wrap(theta - angles[number]), 0.0, atol=1e-9)
+            theta = one_pose.one_branch(leg, pose, number, False)
+            assert (theta is not None) == everything.valid[k, number]
+            angles, gap = ClosedForm(leg, pose.reshape(16, 1)).branch(number)
+            assert gap[0] == pytest.approx(everything.excess[k, number], abs=1e-14)
+            if theta is not None:
+                valid += 1
+                np.testing.assert_allclose(theta, everything.angles[k, number], atol=1e-9)
+                np.testing.assert_allclose(theta, angles[:, 0], atol=1e-9)
                 reached = leg_forward_kinematics(leg, np.array(theta))
                 np.testing.assert_allclose(reached, pose, atol=1e-12)
-            also, gap_2 = ClosedForm(leg, pose.reshape(16, 1)).branch(number)
-            assert gap_2[0] == pytest.approx(gap, abs=1e-14)
-            np.testing.assert_allclose(wrap(also[:, 0] - theta), 0.0, atol=1e-9)
+    assert valid >= 50
 
 
 def test_an_angle_of_half_a_turn_is_plus_pi_never_minus(scout):

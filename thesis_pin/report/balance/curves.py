@@ -31,8 +31,9 @@ def ground(report: BalanceReport, keep: Samples) -> Plot:
     """Soles, support polygons and the way of the zero-moment point on the floor."""
     found, floor = report.found, report.found.floor
     areas = []
-    for rows, polygon in found.support_polygons[:MOST_POLYGONS]:
-        if len(rows) and len(polygon) > 2:
+    middles = _stances(found.support)[:MOST_POLYGONS]
+    for rows, polygon in found.support_polygons:
+        if len(polygon) > 2 and np.isin(middles, rows).any():
             areas.append(Area("support polygon", polygon, GREEN))
     for k, foot in enumerate(found.feet):
         standing = np.flatnonzero(found.support[:, k])
@@ -59,6 +60,13 @@ def ground(report: BalanceReport, keep: Samples) -> Plot:
         across="x [m]",
         areas=areas,
     )
+
+
+def _stances(support: NDArray[np.bool_]) -> Samples:
+    """The middle sample of each stretch in which the same feet bear load."""
+    edges = np.flatnonzero((support[1:] != support[:-1]).any(axis=1)) + 1
+    ends = np.concatenate([[0], edges, [len(support)]])
+    return np.asarray((ends[:-1] + ends[1:]) // 2, dtype=np.intp)
 
 
 def forces(report: BalanceReport, keep: Samples) -> list[Plot]:

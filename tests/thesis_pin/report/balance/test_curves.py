@@ -1,0 +1,24 @@
+"""What a balance report draws on the floor."""
+
+import numpy as np
+from standing_robots import standing
+
+from thesis_pin.contacts.soles.outlines import area
+from thesis_pin.report.balance.curves import _stances, ground
+from thesis_pin.report.balance.making import balance_report
+
+
+def test_each_stretch_of_a_stance_is_drawn_once():
+    support = np.array([[1, 1]] * 3 + [[1, 0]] * 5 + [[1, 1]] * 2, dtype=bool)
+    assert _stances(support).tolist() == [1, 5, 9]
+
+
+def test_the_floor_of_a_held_pose_shows_its_polygon_soles_and_points():
+    robot, feet, pose = standing("talos")
+    report = balance_report(robot, pose=pose, feet=feet)
+    plot = ground(report, np.array([0, 1]))
+    (polygon,) = [one for one in plot.areas if one.name == "support polygon"]
+    soles = [one for one in plot.areas if one.name == "soles"]
+    assert area(polygon.corners) > sum(area(one.corners) for one in soles[::2]) > 0
+    zmp = next(curve for curve in plot.curves if curve.name == "zero-moment point")
+    np.testing.assert_allclose(zmp.x[0], report.found.zero_moment_point[0, 0], atol=1e-12)
