@@ -279,3 +279,18 @@ def test_a_robot_upside_down_on_its_feet_is_doubted():
     for pose, doubted in ((robot.q0, False), (upside_down, True)):
         report = balance_report(robot, pose=pose, placed=True, feet=feet)
         assert any("0.5 m below the floor" in said for said in report.warnings()) == doubted
+
+
+@pytest.mark.parametrize(("push", "stands"), [(1.0, True), (10.0, False)])
+def test_the_sample_that_is_named_is_that_of_the_largest_acceleration(tmp_path, push, stands):
+    robot, feet = block()
+    time = np.linspace(0, 0.2, 21)
+    columns = {"t": time, "j": 0 * time, "base_x": push * time**3}
+    columns |= {f"base_{name}": 0 * time for name in ("y", "z", "roll", "pitch", "yaw")}
+    (tmp_path / "push.csv").write_bytes(csv_bytes(columns))
+    told = thesis_pin.read_motion(robot, tmp_path / "push.csv", smooth="none")
+    on = np.ones((21, 1), dtype=bool)
+    report = balance_report(robot, told, feet=feet, support=on)
+    assert report.balanced == stands
+    assert report.worst == 20
+    assert ("t = 0.2 s" in report.verdict()[0]) or not report.level
