@@ -157,10 +157,10 @@ def which_stance(words: Words) -> None:
     )
     words.add_argument(
         "--friction",
-        type=number("--friction", positive=True),
+        type=number("--friction"),
         default=0.6,
         metavar="NUMBER",
-        help="coefficient between sole and floor (default: 0.6)",
+        help="coefficient between sole and floor, at least 1e-6 (default: 0.6)",
     )
     words.add_argument(
         "--floor-height",

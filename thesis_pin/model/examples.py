@@ -47,6 +47,7 @@ def example(name: str) -> Path:
     named = [path for key, path in known.items() if name in (key, *key.split("/"))]
     if not named:
         stems = sorted({key.rpartition("/")[2] for key in known})
+        stems.sort(key=lambda stem: name.casefold() not in stem.casefold())  # those first
         raise UnknownName("example", name, stems, where=_PACKAGE)
     if len(named) > 1:
         choices = [key for key, path in known.items() if path in named]

@@ -9,6 +9,13 @@ from thesis_pin.model.examples import example, examples, located, robots_folder
 from thesis_pin.model.formats.reading import read
 
 
+def test_a_part_of_a_name_is_answered_by_the_names_that_hold_it_first():
+    with pytest.raises(
+        UnknownName, match=r"allowed: talos_full_v2, .*talos_reduced_corrected, [^t]"
+    ):
+        example("talos")
+
+
 def test_every_urdf_and_sdf_of_the_package_has_a_name():
     files = set(examples().values())
     assert set(urdf_files()) <= files

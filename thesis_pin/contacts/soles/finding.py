@@ -8,7 +8,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
-from thesis_pin.contacts.soles.foot import FRICTION, Foot, by_name, check_free
+from thesis_pin.contacts.soles.foot import FRICTION, Foot, by_name, check_free, check_friction
 from thesis_pin.contacts.soles.lowest import Lowest, lowest, sole
 from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.loops.closures import ClosedRobot
@@ -18,6 +18,8 @@ from thesis_pin.numeric.checks import instance
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
+
+_BESIDE = 0.02  # joints that near the lowest may be feet as well [m]
 
 
 def find_feet(
@@ -50,6 +52,7 @@ def find_feet(
     """
     instance("robot", robot, ClosedRobot, "thesis_pin.load()")
     check_free(robot)
+    check_friction(friction)
     q = robot.q0 if pose is None else vector("pose", pose, robot.model.nq)
     data = robot.model.createData()
     pin.forwardKinematics(robot.model, data, q)
@@ -143,17 +146,35 @@ def _guessed(robot: ClosedRobot, data: pin.Data, shapes: _Shapes) -> list[str]:
         raise BadInput(
             f"nobody said which links are feet, and no shape says which are lowest{because}",
             where=robot.description.where,
-            remedy="Name them: --feet left_foot=0.2x0.1,right_foot=0.2x0.1 (metres), or =point",
+            remedy="Name them, with a sole in metres or as points: "
+            f"--feet {','.join(f'{link}=0.2x0.1' for link in _lowest_ends(robot, data))} or =point",
         )
     low = min(height for height, _ in ends.values())
     tops = [float(place.translation @ up) for place in list(data.oMi)[1:]]
+    ends_of_limbs = ",".join(_lowest_ends(robot, data))
     near = low + TOLERANCES.foot_height * (max(tops) - low)
     feet = {joint: name for joint, (height, name) in ends.items() if height <= near}
     if 1 in feet:
         raise BadInput(
             f"nobody said which links are feet, and {feet[1]!r} of the root is as low as any",
             where=robot.description.where,
-            remedy="Name them: --feet NAME,NAME",
+            remedy=f"Name them: --feet {ends_of_limbs}, if it stands on these",
         )
     above = {parent for joint in feet for parent in list(model.supports[joint])[:-1]}
     return [name for joint, name in feet.items() if joint not in above]
+
+
+def _lowest_ends(robot: ClosedRobot, data: pin.Data, most: int = 4) -> list[str]:
+    """Links at the ends of limbs whose joints are lowest, to be named in a message."""
+    model = robot.model
+    parents = set(model.parents.tolist())
+    ends = [joint for joint in range(1, model.njoints) if joint not in parents or joint == 1]
+    ends = [joint for joint in ends if joint > 1] or ends
+    ends.sort(key=lambda joint: round(float(data.oMi[joint].translation[2]), 6))
+    low = float(data.oMi[ends[0]].translation[2])
+    links: dict[int, str] = {}
+    for frame in model.frames:
+        if frame.type == pin.FrameType.BODY:
+            links.setdefault(frame.parentJoint, frame.name)
+    near = [joint for joint in ends if data.oMi[joint].translation[2] < low + _BESIDE]
+    return [links[joint] for joint in near if joint in links][:most]

@@ -21,6 +21,10 @@ Array = NDArray[np.float64]
 FRICTION = 0.6
 """Coefficient of friction if none is said: rubber on a clean floor has 0.5 to 0.9 [-]."""
 
+LEAST_FRICTION = 1e-6
+"""Coefficient from which what a floor can do is a cone with an inside, which everything here needs;
+ice has 1e-2, and what needs none needs not even this [-]."""
+
 
 @dataclass(frozen=True, eq=False)
 class Foot:
@@ -77,7 +81,7 @@ class Foot:
         if found.ndim != 2 or found.shape[1] != 2 or not len(found):
             raise WrongShape("corners", found.shape, "(k, 2)")
         place = np.eye(4) if placement is None else pose_array("placement", np.asarray(placement))
-        real("friction", friction, low=1e-6)
+        check_friction(friction)
         real("radius", radius, low=0.0, unit="m")
         where = f"foot {name or frame}"
         if len(found) == 2 and not np.ptp(found, axis=0).any():
@@ -117,6 +121,21 @@ def by_name(feet: Sequence[Foot]) -> dict[str, Foot]:
     if not found:
         raise BadInput("there is no foot", allowed="at least one")
     return found
+
+
+def check_friction(friction: float) -> float:
+    """Refuse what is no friction, and a floor without any.
+
+    Raises:
+        BadInput: It is less than :data:`LEAST_FRICTION`.
+    """
+    if 0 <= real("friction", friction) < LEAST_FRICTION:
+        raise BadInput(
+            f"friction is {friction:g}, which leaves forces no room beside the normal",
+            allowed=f"at least {LEAST_FRICTION:g}",
+            remedy=f"For ice without any take {LEAST_FRICTION:g}: no robot feels the difference",
+        )
+    return real("friction", friction, low=LEAST_FRICTION)
 
 
 def check_free(robot: ClosedRobot) -> None:

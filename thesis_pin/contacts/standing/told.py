@@ -32,7 +32,8 @@ def told_contacts(file: str | Path, names: Sequence[str]) -> Flags | None:
         None if no column says it.
 
     Raises:
-        BadInput: Some feet have a column and others haven't, or a cell is neither 0 nor 1.
+        BadInput: Some feet have a column and others haven't, or a cell is neither 0 nor 1, and
+            some cell of its column neither ``true`` nor ``false``.
     """
     table = read_table("motion", file)
     known = {
@@ -52,6 +53,10 @@ def told_contacts(file: str | Path, names: Sequence[str]) -> Flags | None:
         )
     found = np.zeros((len(table), len(names)), dtype=bool)
     for k, name in enumerate(names):
+        words = [text.casefold() for text in table.texts(columns[name][0])]
+        if set(words) <= {"true", "false"}:
+            found[:, k] = [word == "true" for word in words]
+            continue
         values = table.column(*columns[name], f"contact_{name}").values
         odd = ~np.isin(values, (0.0, 1.0))
         if odd.any():

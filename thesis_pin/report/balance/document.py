@@ -47,6 +47,11 @@ class BalanceReport(BalanceNumbers):
     def warnings(self) -> list[str]:
         """What may make the numbers wrong."""
         found = self.motors.warnings()
+        if self.sunk > 0:
+            found.append(
+                f"The centre of mass is up to {self.sunk:.3g} m below the floor that feet stand "
+                "on: is the root where, and turned as, its columns say, a quaternion's w last?"
+            )
         for name, moved in zip(self.names, self.sliding, strict=True):
             if moved > self.resting:
                 found.append(

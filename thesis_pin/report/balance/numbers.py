@@ -134,6 +134,12 @@ class BalanceNumbers:
         return tuple(result)
 
     @property
+    def sunk(self) -> float:
+        """How far the centre of mass is below the floor at most while a foot bears load [m]."""
+        height = self.found.floor.above(self.found.stance.com)
+        return float(-height[self.found.support.any(axis=1)].min(initial=0.0))
+
+    @property
     def resting(self) -> float:
         """Speed of a corner [m/s] from which a foot that bears load is said to move."""
         return HIGHER * touch_speed(self.found.floor, self.found.stance)

@@ -53,6 +53,8 @@ def why_not(report: BalanceNumbers) -> str | None:
 
 def _balance(report: BalanceNumbers) -> list[str]:
     if report.cause is None:
+        if not report.found.support.any():
+            return ["The robot flies: no foot stands, and it moves as it has to in free fall."]
         if report.held:
             said = f"The robot stands on {_listed(report)}"
         else:
@@ -141,6 +143,8 @@ def _contacts(report: BalanceNumbers) -> list[str]:
 
 
 def _sharing(report: BalanceNumbers) -> list[str]:
+    if not report.found.support.any():
+        return ["No foot carries anything."]
     most = int(report.found.freedoms.max())
     if not most:
         return ["What each foot carries follows from the motion."]

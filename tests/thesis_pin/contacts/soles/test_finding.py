@@ -103,3 +103,26 @@ def test_stated_feet_are_points_balls_and_rectangles_about_their_frames():
     for word in ("b=", "b=0", "b=1x2x3", "b=wide", "=0.1", "b=200x100"):
         with pytest.raises(BadInput, match="foot"):
             stated_feet(robot, [word])
+
+
+def test_who_is_to_name_feet_is_told_links_of_the_robot_s_own():
+    urdf = (
+        shape('<sphere radius="0.01"/>')
+        .urdf.replace("<collision>", "<!--")
+        .replace("</collision>", "-->")
+    )
+    with pytest.raises(BadInput, match=r"--feet b=0\.2x0\.1 or =point"):
+        find_feet(ClosedRobot(urdf, root_joint=pin.JointModelFreeFlyer()))
+    panda = thesis_pin.load("example:panda", root_joint=pin.JointModelFreeFlyer())
+    with pytest.raises(BadInput, match="--feet panda_leftfinger,panda_rightfinger"):
+        find_feet(panda)
+
+
+@pytest.mark.parametrize("friction", [0.0, 1e-7, -0.5, np.nan])
+def test_a_floor_without_friction_is_refused_wherever_it_is_said(friction):
+    robot, _, pose = standing("solo12")
+    with pytest.raises(BadInput, match="friction"):
+        find_feet(robot, pose=pose, friction=friction)
+    for word in ("FL_FOOT", "FL_FOOT=point"):
+        with pytest.raises(BadInput, match="friction"):
+            stated_feet(robot, [word], pose=pose, friction=friction)

@@ -226,7 +226,56 @@ def test_tables_and_arguments_that_make_no_sense_are_refused(tmp_path):
     file.write_text("\n".join([first, *(f"{row[: row.rindex(',')]},0.5" for row in rows)]))
     with pytest.raises(BadInput, match="0 or 1"):
         told_contacts(file, ["left"])
+    file.write_text("\n".join([first, *(f"{row[: row.rindex(',')]},maybe" for row in rows)]))
+    with pytest.raises(BadInput, match="maybe"):
+        told_contacts(file, ["left"])
+    words = [
+        f"{row[: row.rindex(',')]},{'FALSE' if k == 3 else 'True'}" for k, row in enumerate(rows)
+    ]
+    file.write_text("\n".join([first, *words]))
+    assert np.flatnonzero(~told_contacts(file, ["left"])[:, 0]).tolist() == [3]
     with pytest.raises(WrongShape, match="support"):
         balance_report(robot, feet=feet, support=np.array([True]))
     with pytest.raises(BadInput, match="tied"):
         balance_report(ClosedRobot(robot.urdf))
+
+
+def block():
+    """A block whose centre of mass is half a metre above its sole, with an arm that turns."""
+    urdf = (
+        '<robot name="block"><link name="block"><inertial><mass value="2"/><inertia ixx="0.1" '
+        'ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link><link name="arm"><inertial>'
+        '<mass value="0.1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>'
+        '</inertial></link><joint name="j" type="revolute"><parent link="block"/>'
+        '<child link="arm"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="9" '
+        'velocity="9"/></joint></robot>'
+    )
+    robot = ClosedRobot(urdf, root_joint=pin.JointModelFreeFlyer())
+    down = np.eye(4)
+    down[2, 3] = -0.5
+    corners = [(0.1, 0.1), (-0.1, 0.1), (-0.1, -0.1), (0.1, -0.1)]
+    return robot, [Foot.of("block", corners, placement=down, name="sole")]
+
+
+def test_a_robot_in_free_fall_is_said_to_fly_and_not_to_keep_its_balance(tmp_path):
+    robot, feet = block()
+    time = np.linspace(0, 0.2, 21)
+    columns = {"t": time, "j": 0 * time}
+    columns |= {f"base_{name}": 0 * time for name in ("x", "y", "roll", "pitch", "yaw")}
+    off = np.zeros((21, 1), dtype=bool)
+    for falls, start in ((1.0, "The robot flies: no foot stands"), (0.9, "The robot falls")):
+        columns["base_z"] = 2.0 - falls * 9.81 / 2 * time**2
+        (tmp_path / "fall.csv").write_bytes(csv_bytes(columns))
+        told = thesis_pin.read_motion(robot, tmp_path / "fall.csv", smooth="none")
+        report = balance_report(robot, told, feet=feet, support=off, floor=Floor())
+        assert report.verdict()[0].startswith(start)
+        assert "No foot carries anything." in report.verdict()
+
+
+def test_a_robot_upside_down_on_its_feet_is_doubted():
+    robot, feet = block()
+    upside_down = robot.q0.copy()
+    upside_down[3:7] = 1.0, 0.0, 0.0, 0.0  # what w, x, y, z of no turn reads as
+    for pose, doubted in ((robot.q0, False), (upside_down, True)):
+        report = balance_report(robot, pose=pose, placed=True, feet=feet)
+        assert any("0.5 m below the floor" in said for said in report.warnings()) == doubted
