@@ -170,7 +170,9 @@ def _unlike(name: object) -> Callable[[str], bool]:
 
     def unlike(other: str) -> bool:
         known = other.lower()
-        return said not in known and SequenceMatcher(None, said, known).ratio() < 0.7  # panda and pandda: 0.91
+        return (
+            said not in known and SequenceMatcher(None, said, known).ratio() < 0.7
+        )  # panda and pandda: 0.91
 
     return unlike
 
