@@ -10,6 +10,7 @@ from standing_robots import random_pose, random_states, standing
 from thesis_pin.contacts.balance.dynamics import foot_dynamics
 from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.contacts.floor import Floor
+from thesis_pin.contacts.soles.foot import Foot
 from thesis_pin.contacts.standing.placing import stand
 
 COS = np.cos(np.pi / 8)
@@ -89,6 +90,22 @@ def test_least_torques_are_those_another_solver_finds_from_corner_forces(name, f
         assert ours == pytest.approx(cost, rel=1e-6)
         assert np.allclose(found.torque[k], torque, rtol=0, atol=1e-4 * np.abs(torque).max())
     assert compared >= 3
+
+
+def test_soles_of_two_sizes_share_what_another_solver_says_within_each_one_s_cone():
+    robot, (left, right), _ = standing("talos")
+    small = Foot.of(right.frame, 0.1 * right.corners, placement=right.placement)
+    rng = np.random.default_rng(21)
+    q = np.array([random_pose("talos", rng, Floor(), 0.02) for _ in range(8)])
+    for feet in ((left, small), (small, left)):
+        found = foot_dynamics(robot, feet, q)
+        assert found.admissible.all()
+        assert (found.contact_margin > -1e-9 * found.scale).all()
+        assert (found.contact_margin < 1e-6 * found.scale).any()  # some limit holds
+        for k in range(2):
+            done, cost, _ = slsqp(found, k, (0, 1))
+            assert done
+            assert (found.torque[k] ** 2).sum() == pytest.approx(cost, rel=1e-6)
 
 
 def test_no_admissible_forces_need_less_torque_or_less_force_than_those_that_were_chosen():
