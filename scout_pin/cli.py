@@ -100,7 +100,7 @@ def _which_urdf(words: argparse.ArgumentParser) -> None:
         type=number("--friction", positive=True),
         default=0.6,
         metavar="NUMBER",
-        help="coefficient between sole and floor (default: 0.6)",
+        help="coefficient between sole and floor, at least 1e-6 (default: 0.6)",
     )
     _force(words)
 

@@ -8,7 +8,7 @@ react to them without reading the text.
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 LONGEST = 1000
@@ -154,10 +154,27 @@ class UnknownName(BadInput):
         remedy: str = "",
     ) -> None:
         self.kind, self.name, self.known = kind, name, tuple(known)
-        listed = ", ".join(escaped(one, 100, keep="") for one in known[:MOST_NAMES])
+        # Of many, what was meant is to be among those that are shown.
+        shown = sorted(known, key=_unlike(name)) if len(known) > MOST_NAMES else known
+        listed = ", ".join(escaped(one, 100, keep="") for one in shown[:MOST_NAMES])
         if len(known) > MOST_NAMES:
             listed += f", … ({len(known)} in all)"
         super().__init__(f"unknown {kind} {name!r}", where=where, allowed=listed, remedy=remedy)
+
+
+def _unlike(name: object) -> Callable[[str], bool]:
+    """Whether a name that exists neither contains the one that was said nor resembles it."""
+    from difflib import SequenceMatcher
+
+    said = str(name)[:100].lower()
+
+    def unlike(other: str) -> bool:
+        known = other.lower()
+        return (
+            said not in known and SequenceMatcher(None, said, known).ratio() < 0.7
+        )  # panda and pandda: 0.91
+
+    return unlike
 
 
 class ModelWarning(UserWarning):

@@ -14,7 +14,7 @@ import numpy as np
 from pollard_pin.kinematics.geometry import Geometry, SideNumbers
 from pollard_pin.kinematics.linkage import Linkage, Side, Three, from_arm, in_plane
 from thesis_pin.errors import SingularPose
-from thesis_pin.numeric.elementwise import Elementwise, Numbers
+from thesis_pin.numeric.elementwise import Elementwise, Number, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -26,7 +26,7 @@ class Loads(NamedTuple):
         loop_force: On the forearm at each ball joint, world axes [N].
     """
 
-    torque: tuple[Any, ...]
+    torque: tuple[Number, ...]
     loop_force: tuple[Three, Three]
 
 

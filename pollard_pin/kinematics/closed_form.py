@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.linkage import Linkage, Side
-from thesis_pin.numeric.elementwise import Elementwise, Numbers
+from thesis_pin.numeric.elementwise import Elementwise, Number, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 _REACH, _SINGULAR = TOLERANCES.reach, TOLERANCES.singular
@@ -44,17 +44,17 @@ class Found(NamedTuple):
     sides: tuple[_Side, _Side]
 
     @property
-    def angles(self) -> tuple[Any, ...]:
+    def angles(self) -> tuple[Number, ...]:
         """Twelve angles [rad], those of the arctangent: −π may stand for π."""
         return self.numbers[:12]
 
     @property
-    def cosines(self) -> tuple[Any, ...]:
+    def cosines(self) -> tuple[Number, ...]:
         """What the arccosines of the three chains are taken of."""
         return self.numbers[12:]
 
     @property
-    def numbers(self) -> tuple[Any, ...]:
+    def numbers(self) -> tuple[Number, ...]:
         """Angles, then cosines."""
         shoulder, forearm, wrist, (one, two) = self
         angles = shoulder[:1] + forearm[:2] + wrist[:3] + one[:3] + two[:3]

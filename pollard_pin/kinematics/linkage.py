@@ -15,7 +15,6 @@ Source: Pollard thesis, 2.4, 2.7 (transformations), 3.2 (joint axes).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from pollard_pin.kinematics.geometry import Geometry
@@ -116,7 +115,7 @@ class Linkage(NamedTuple):
         )
 
 
-def in_plane(known: Linkage, vector: Sequence[Any]) -> Three:
+def in_plane(known: Linkage, vector: Numbers) -> Three:
     """A vector of the world along p, y, h."""
     x, y, z = vector
     return known.c * x - known.s * z, y, known.s * x + known.c * z

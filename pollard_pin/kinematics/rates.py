@@ -29,6 +29,7 @@ from pollard_pin.kinematics.linkage import (
 )
 from pollard_pin.kinematics.regular import check_regular
 from thesis_pin.numeric.elementwise import (
+    Number,
     Samples,
     components,
     pieces,
@@ -57,7 +58,7 @@ class _Spans(NamedTuple):
 
 def joint_rates(
     geometry: Geometry, known: Linkage, velocity: Three, omega: Three
-) -> tuple[Any, ...]:
+) -> tuple[Number, ...]:
     """Rates of the twelve joints.
 
     Args:
@@ -165,7 +166,7 @@ class _Rates:
 
 def motion_rates(
     geometry: Geometry, known: Linkage, tool: BodyMotion, piece: Samples | int
-) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+) -> tuple[tuple[Number, ...], tuple[Number, ...]]:
     """Rates and accelerations of the twelve joints at a piece of a motion of the tool.
 
     Args:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from pollard_pin.kinematics.geometry import Geometry
 from pollard_pin.kinematics.linkage import Linkage
 from pollard_pin.kinematics.screws import Posture
 from thesis_pin.errors import SingularPose
-from thesis_pin.numeric.elementwise import ARRAYS, Elementwise
+from thesis_pin.numeric.elementwise import ARRAYS, Elementwise, Number
 from thesis_pin.tolerances import TOLERANCES
 
 
-def serial_sines(geometry: Geometry, known: Linkage) -> tuple[Any, ...]:
+def serial_sines(geometry: Geometry, known: Linkage) -> tuple[Number, ...]:
     """Sines that vanish where the inverse kinematics loses rank.
 
     sin θ43, cos θ54, sin θ1716 and, for each side chain, the sine between rod and the plane
@@ -29,7 +27,7 @@ def serial_sines(geometry: Geometry, known: Linkage) -> tuple[Any, ...]:
 def singular(xp: Elementwise, geometry: Geometry, known: Linkage) -> bool:
     """Whether rates don't exist at some posture."""
     least = TOLERANCES.near_singular
-    return any(xp.some(abs(sine) < least) for sine in serial_sines(geometry, known))
+    return any(xp.some((-least < sine) & (sine < least)) for sine in serial_sines(geometry, known))
 
 
 def check_regular(

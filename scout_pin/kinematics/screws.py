@@ -20,7 +20,7 @@ import numpy as np
 
 from scout_pin.kinematics.geometry import LegGeometry
 from thesis_pin.errors import SingularPose
-from thesis_pin.numeric.elementwise import Samples, cosine_sine
+from thesis_pin.numeric.elementwise import Numbers, Samples, cosine_sine
 from thesis_pin.tolerances import TOLERANCES
 
 Components = tuple[Any, Any, Any]
@@ -66,7 +66,7 @@ class LegScrews:
         )
         return some
 
-    def components(self, vector: np.ndarray | Sequence[Any]) -> Components:
+    def components(self, vector: Numbers) -> Components:
         """Components along i3, j3, e of vectors in the torso's axes, ``(3, n)``."""
         x, y, z = vector
         radial = self.c1 * x + self.s1 * y

@@ -103,7 +103,7 @@ def test_a_robot_s_hooks_all_exist():
     import scout_pin.cli
 
     for robot in (scout_pin.cli.ROBOT, pollard_pin.cli.ROBOT):
-        for hook in vars(robot).values():
+        for hook in robot:
             if isinstance(hook, str) and ":" in hook:
                 assert found(robot.name_of(hook)) is not None
 

@@ -58,6 +58,12 @@ def joint_motion():
     )
 
 
+def feet_of_scout():
+    """Scout as any robot with feet."""
+    robot = load(scout_pin.URDF_PATH, root_joint=pin.JointModelFreeFlyer())
+    return robot, thesis_pin.find_feet(robot)
+
+
 FIVE_BAR = LOOPED / "five_bar.yaml"
 MAKERS = {
     "Scout": scout_pin.load,
@@ -87,6 +93,14 @@ MAKERS = {
     "ForwardDynamics": lambda: thesis_pin.ForwardDynamics(looped()),
     "JointMotion": joint_motion,
     "TorqueReport": lambda: thesis_pin.torque_report(looped(), joint_motion()),
+    "Foot": lambda: feet_of_scout()[1][0],
+    "Floor": lambda: thesis_pin.Floor(),
+    "Placed": lambda: thesis_pin.stand(*feet_of_scout(), feet_of_scout()[0].q0),
+    "FootDynamics": lambda: thesis_pin.foot_dynamics(*feet_of_scout(), feet_of_scout()[0].q0),
+    "BalanceReport": lambda: thesis_pin.balance_report(feet_of_scout()[0]),
+    "Workspace": lambda: thesis_pin.evaluate_workspace(
+        looped(), {looped().actuators[0]: np.linspace(1.4, 1.5, 3)}
+    ),
     "Scene": lambda: gait_scene(gait_report()),
     "LoopDynamics": lambda: thesis_pin.inverse_dynamics(
         looped(), looped().q0, ZERO, ZERO, check=False

@@ -166,7 +166,8 @@ def which_stance(words: Words) -> None:
         "--floor-height",
         type=number("--floor-height"),
         metavar="M",
-        help="height of the floor at the world's origin [m] (default: below the feet)",
+        help="height of the floor at the world's origin [m] (default: below the feet; 0 where a "
+        "slope is given and the root told)",
     )
     words.add_argument(
         "--slope",

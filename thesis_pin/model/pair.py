@@ -10,6 +10,7 @@ from pathlib import Path
 import yaml
 
 from thesis_pin.files import write_files
+from thesis_pin.model.formats.yaml_text import EXPONENTIAL
 from thesis_pin.model.mechanism.closure_types import word_of
 from thesis_pin.model.mechanism.description import Description
 from thesis_pin.model.mechanism.supplement import Motor, Supplement
@@ -75,10 +76,13 @@ def closure_text(beside: Supplement, robot: str = "") -> str:
 
 
 class _Plain(yaml.SafeDumper):
-    """Writes a value out wherever it stands."""
+    """Writes a value out wherever it stands, and quotes words that are read as numbers."""
 
     def ignore_aliases(self, data: object) -> bool:
         return True
+
+
+_Plain.add_implicit_resolver("tag:yaml.org,2002:float", *EXPONENTIAL)
 
 
 def _extra(beside: Supplement) -> dict[str, object]:

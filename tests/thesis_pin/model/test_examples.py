@@ -51,6 +51,17 @@ def test_unknown_robots_are_refused_with_those_there_are():
     assert {"panda", "talos_reduced", "cassie"} <= set(caught.value.known)
 
 
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [("talos", "talos_reduced"), ("g1", "g1_29dof_rev_1_0"), ("PANDDA", "panda")],
+)
+def test_of_many_robots_those_called_like_what_was_said_are_listed_first(said, meant):
+    with pytest.raises(UnknownName) as caught:
+        example(said)
+    listed = caught.value.allowed.split(", ")
+    assert listed.index(meant) < listed.index("alexander_v1.lowerBodyOnly")
+
+
 @pytest.mark.parametrize("variable", ["CONDA_PREFIX", "AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH"])
 def test_other_ways_of_installing_it_are_found(tmp_path, monkeypatch, variable):
     def none(name):

@@ -43,12 +43,16 @@ class _Loader(yaml.SafeLoader):
         return node
 
 
-# YAML 1.1, which is what PyYAML reads, takes 1e-5 for a word; 1.2 and everybody else don't.
-_Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float",
+EXPONENTIAL = (
     re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+"),
     list("-+.0123456789"),
 )
+"""Numbers as 1e-5, and what they begin with.
+
+YAML 1.1, which is what PyYAML reads and writes, takes them for words; 1.2 and everybody else don't.
+"""
+
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", *EXPONENTIAL)
 
 
 def parse_yaml(kind: str, text: str, *, where: str) -> tuple[object, dict[Key, int]]:

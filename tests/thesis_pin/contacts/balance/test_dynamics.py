@@ -10,6 +10,7 @@ import thesis_pin
 from thesis_pin.contacts.balance.dynamics import foot_dynamics
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot
+from thesis_pin.contacts.standing.placing import stand
 from thesis_pin.errors import BadInput, UnknownName, WrongShape
 
 SOLES = ("talos", "g1")
@@ -211,6 +212,35 @@ def test_damping_friction_and_armature_of_the_description_count():
     heavier = foot_dynamics(geared, feet, q, v, a, support=one)
     more = heavier.torque - with_losses.torque
     assert np.allclose(more[0], 0.1 * a[0][robot.actuated], rtol=0, atol=1e-9)
+
+
+def test_heel_and_toe_on_one_frame_carry_what_an_edge_between_them_does():
+    robot, feet, pose = standing("talos")
+    ends = np.array([[0.1, 0.0], [-0.08, 0.0]])
+    edges, points = [], []
+    for foot in feet:
+        edges.append(Foot.of(foot.frame, ends, placement=foot.placement))
+        for end, word in zip(ends, ("toe", "heel"), strict=True):
+            place = foot.placement.copy()
+            place[:3, 3] += place[:3, :2] @ end
+            points.append(Foot.of(foot.frame, name=f"{foot.name}_{word}", placement=place))
+    q = stand(robot, edges, pose).q
+    whole, parts = foot_dynamics(robot, edges, q), foot_dynamics(robot, points, q)
+    assert np.allclose(parts.torque, whole.torque, rtol=0, atol=1e-9)
+    assert np.allclose(sum_about_origin(parts), sum_about_origin(whole), rtol=0, atol=1e-9)
+    assert np.allclose(parts.loops.base, whole.loops.base, rtol=0, atol=1e-9)
+    assert (parts.normal_force > 1.0).all()
+
+
+def test_one_sole_on_a_slope_uses_the_tangent_of_its_friction_and_lies_as_far_off_as_it_is_long():
+    robot, feet, pose = standing("talos")
+    floor, angle = Floor(slope=np.radians(10)), np.radians(10)
+    one = np.array([True, False])
+    found = foot_dynamics(robot, feet, stand(robot, feet, pose, floor).q, floor=floor, support=one)
+    assert found.friction_used[0, 0] == pytest.approx(np.tan(angle) / feet[0].friction, rel=1e-9)
+    assert np.isnan(found.friction_used[0, 1])
+    level = foot_dynamics(robot, feet, stand(robot, feet, pose).q, floor=floor, support=one)
+    assert level.level[0] == pytest.approx(0.21 * np.sin(angle), abs=1e-6)  # its sole's length
 
 
 def test_a_stack_gives_what_each_sample_gives_alone():

@@ -1,6 +1,8 @@
 """Load sharing against an independent formulation: corner forces, by SciPy's SLSQP."""
 
+import mechanisms
 import numpy as np
+import pinocchio as pin
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -10,6 +12,7 @@ from standing_robots import random_pose, random_states, standing
 from thesis_pin.contacts.balance.dynamics import foot_dynamics
 from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.contacts.floor import Floor
+from thesis_pin.contacts.soles.foot import Foot
 from thesis_pin.contacts.standing.placing import stand
 
 COS = np.cos(np.pi / 8)
@@ -89,6 +92,22 @@ def test_least_torques_are_those_another_solver_finds_from_corner_forces(name, f
         assert ours == pytest.approx(cost, rel=1e-6)
         assert np.allclose(found.torque[k], torque, rtol=0, atol=1e-4 * np.abs(torque).max())
     assert compared >= 3
+
+
+def test_soles_of_two_sizes_share_what_another_solver_says_within_each_one_s_cone():
+    robot, (left, right), _ = standing("talos")
+    small = Foot.of(right.frame, 0.1 * right.corners, placement=right.placement)
+    rng = np.random.default_rng(21)
+    q = np.array([random_pose("talos", rng, Floor(), 0.02) for _ in range(8)])
+    for feet in ((left, small), (small, left)):
+        found = foot_dynamics(robot, feet, q)
+        assert found.admissible.all()
+        assert (found.contact_margin > -1e-9 * found.scale).all()
+        assert (found.contact_margin < 1e-6 * found.scale).any()  # some limit holds
+        for k in range(2):
+            done, cost, _ = slsqp(found, k, (0, 1))
+            assert done
+            assert (found.torque[k] ** 2).sum() == pytest.approx(cost, rel=1e-6)
 
 
 def test_no_admissible_forces_need_less_torque_or_less_force_than_those_that_were_chosen():
@@ -192,3 +211,39 @@ def test_what_may_be_missing_leaves_forces_in_their_cones_and_the_rest_at_the_ro
     arm = eased.stance.root[0] - eased.stance.origin[0].mean(axis=0)
     left[3:] += np.cross(arm, eased.loops.base[0, :3])
     assert np.linalg.norm(left) == pytest.approx(eased.violation[0], rel=1e-4)
+
+
+def test_forces_of_sliding_motors_count_as_moments_at_the_robot_s_length():
+    t = mechanisms.Tree()
+    t.links[0] = (
+        '<link name="ground"><inertial><origin xyz="0.03 0.02 0.1"/><mass value="8"/>'
+        '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>'
+    )
+    feet, corners = [], [(0.1, 0.05), (-0.1, 0.05), (-0.1, -0.05), (0.1, -0.05)]
+    for name, y in (("left", 0.1), ("right", -0.1)):
+        t.link(f"{name}_hip", "ground", (1, 0, 0), (0, y, 0), bar=(0, 0, -0.1), motor=True)
+        t.link(
+            f"{name}_shin",
+            f"{name}_hip",
+            (0, 0, 1),
+            (0, 0, -0.1),
+            bar=(0, 0, -0.1),
+            motor=True,
+            type="prismatic",
+        )
+        t.link(f"{name}_foot", f"{name}_shin", (0, 1, 0), (0, 0, -0.1), motor=True)
+        feet.append(Foot.of(f"{name}_foot", corners))
+    robot = t.robot(root_joint=pin.JointModelFreeFlyer())
+    q = stand(robot, feet, robot.q0).q
+    by = {s: foot_dynamics(robot, feet, q, sharing=s) for s in ("torque", "force", "equal")}
+    best = by["torque"]
+    assert best.admissible.all()
+    assert (best.contact_margin > 1e-3 * best.scale).all()  # no limit holds: the cost is level
+    slides = np.array(["shin" in name for name in robot.actuators])
+    weight = np.where(slides, robot.scale.length, 1.0) ** 2
+    assert abs(robot.scale.length - 1.0) > 0.2
+    for other in ("force", "equal"):
+        apart = by[other].torque[0] - best.torque[0]
+        assert np.abs(apart).max() > 1e-3
+        slope = (weight * best.torque[0]) @ apart
+        assert abs(slope) < 1e-9 * (weight * np.abs(best.torque[0])) @ np.abs(apart)

@@ -126,3 +126,14 @@ def test_a_floor_without_friction_is_refused_wherever_it_is_said(friction):
     for word in ("FL_FOOT", "FL_FOOT=point"):
         with pytest.raises(BadInput, match="friction"):
             stated_feet(robot, [word], pose=pose, friction=friction)
+
+
+@pytest.mark.parametrize("turn", [(np.pi, 0, 0), (0, np.pi, 0.3), (np.pi / 2, 0, 0), (0, -1.5, 0)])
+def test_a_stated_sole_faces_up_whichever_way_its_frame_is_turned(turn):
+    robot = shape('<sphere radius="0.01"/>')
+    pose = robot.q0.copy()
+    pose[3:7] = pin.Quaternion(pin.rpy.rpyToMatrix(*turn)).coeffs()
+    (foot,) = stated_feet(robot, ["b=0.2x0.1"], pose=pose)
+    world = pin.rpy.rpyToMatrix(*turn) @ foot.placement[:3, :3]
+    assert world[2, 2] > 0.99
+    assert np.linalg.det(world) == pytest.approx(1.0)

@@ -53,3 +53,17 @@ def test_random_poses_stand_as_near_as_their_feet_allow():
         )
         heights = Floor(0.1, 0.2, 1.0).above(corners)
         assert heights.mean() == pytest.approx(0.0, abs=1e-12)
+
+
+def test_balls_touch_a_slope_below_their_centres_along_its_normal():
+    robot, feet, pose = standing("anymal")
+    floor = Floor(0.1, np.radians(25), 0.4)
+    q = stand(robot, feet, pose, floor).q
+    data = robot.model.createData()
+    pin.framesForwardKinematics(robot.model, data, q)
+    for foot, corners in zip(feet, stance(robot, feet, floor, q[None]).corners, strict=True):
+        place = data.oMf[robot.model.getFrameId(foot.frame)]
+        centre = place.act(foot.placement[:3, 3] + np.append(foot.corners[0], 0.0))
+        assert foot.radius > 0.02
+        assert floor.above(centre) == pytest.approx(foot.radius, abs=1e-4)
+        assert corners[0, 0] == pytest.approx(centre - foot.radius * floor.normal, abs=1e-12)

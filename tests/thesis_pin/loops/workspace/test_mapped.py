@@ -270,6 +270,23 @@ def test_a_stretched_arm_is_singular():
     )
     assert {*space.state[:, 0]} == {SINGULAR}
     assert {*space.state[:, 1]} == {REACHABLE}
+    assert np.isnan(space.condition[:, 0]).all()
+    assert np.isnan(space.determinant[:, 0]).all()
+    assert np.isfinite(space.condition[:, 1]).all()
+
+
+def test_motors_that_slide_and_motors_that_turn_are_compared_by_the_length():
+    t = mechanisms.Tree()
+    t.link("arm", "ground", (0, 0, 1), motor=True)
+    t.link("slide", "arm", (1, 0, 0), type="prismatic", motor=True)
+    t.frame("tip", "slide")
+    out = np.array([0.05, 0.2, 0.8])
+    for length in (0.1, 0.4):
+        space = evaluate_workspace(
+            t.robot(), {"slide_joint": out}, frame="tip", length=length, at={"arm_joint": 0.3}
+        )
+        expected = np.maximum(out / length, length / out)  # a slide's shift is the tip's
+        assert space.condition == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize(
