@@ -6,7 +6,7 @@ import functools
 import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Literal, overload
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 import pinocchio as pin
@@ -16,7 +16,6 @@ from pollard_pin.closure import CLOSURE_PATH as CLOSURE_PATH
 from pollard_pin.closure import supplement
 from pollard_pin.coordinates import pose_from_placement, tool_motion
 from pollard_pin.implausible import implausible
-from pollard_pin.kinematics import forward, rates, singularity
 from pollard_pin.kinematics import inverse as kinematics
 from pollard_pin.kinematics.geometry import (
     DEFAULT_BRANCH,
@@ -26,13 +25,10 @@ from pollard_pin.kinematics.geometry import (
     one_branch,
 )
 from pollard_pin.kinematics.regular import check_regular
-from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.specification import ACTUATORS, JOINT_NAMES, PASSIVE, Specification
 from pollard_pin.urdf import urdf
 from thesis_pin.errors import ModelWarning
-from thesis_pin.loops import dynamics as loop_dynamics
-from thesis_pin.loops import kinematics as loops
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.model.loading import model_folder
 from thesis_pin.model.mechanism.inertia import Reading
@@ -40,6 +36,12 @@ from thesis_pin.model.shipped import is_shipped
 from thesis_pin.numeric.arrays import finite_array, spread, together, vector
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.trajectory import JointTrajectory
+
+if TYPE_CHECKING:  # inverse kinematics, and what a specification describes, need none of them
+    from pollard_pin.kinematics.forward import Assemblies
+    from pollard_pin.kinematics.screws import Posture
+    from pollard_pin.kinematics.singularity import Actuation
+    from thesis_pin.loops.kinematics import Mobility
 
 PACKAGE_PATH = str(model_folder("pollard"))
 URDF_PATH = str(Path(PACKAGE_PATH) / "pollard.urdf")
@@ -139,12 +141,12 @@ class Pollard(ClosedRobot):
         )
 
     @overload
-    def forward_kinematics(self, motors: ArrayLike) -> forward.Assemblies: ...
+    def forward_kinematics(self, motors: ArrayLike) -> Assemblies: ...
     @overload
     def forward_kinematics(self, motors: ArrayLike, reference: ArrayLike) -> np.ndarray: ...
     def forward_kinematics(
         self, motors: ArrayLike, reference: ArrayLike | None = None
-    ) -> forward.Assemblies | np.ndarray:
+    ) -> Assemblies | np.ndarray:
         """Assembly modes of motor angles ``(..., 6)`` [rad].
 
         Args:
@@ -155,11 +157,15 @@ class Pollard(ClosedRobot):
             Every mode, as :class:`Assemblies`; or with a reference the angles
             ``(..., 12)`` of the nearest.
         """
+        from pollard_pin.kinematics import forward
+
         modes = forward.forward_kinematics(self.geometry, motors)
         return modes if reference is None else modes.nearest(reference)
 
     def posture(self, q: ArrayLike) -> Posture:
         """Points and axes of configurations ``(..., 12)``."""
+        from pollard_pin.kinematics.screws import Posture
+
         return Posture.of(self.geometry, finite_array("q", q, 12))
 
     def pose(self, q: ArrayLike) -> np.ndarray:
@@ -169,6 +175,8 @@ class Pollard(ClosedRobot):
 
     def branch_of(self, q: ArrayLike) -> Branch:
         """Label of a closed configuration ``(12,)``."""
+        from pollard_pin.kinematics import forward
+
         return forward.branch_of(self.geometry, vector("q", q, 12))
 
     def joint_motion(
@@ -215,6 +223,8 @@ class Pollard(ClosedRobot):
     def _derivatives(
         self, angles: np.ndarray, pose: ArrayLike, rate: ArrayLike, acceleration: ArrayLike | None
     ) -> tuple[np.ndarray, np.ndarray]:
+        from pollard_pin.kinematics import rates
+
         shape = angles.shape[:-1]
         still = np.zeros(6)
         pose, rate, acceleration = (
@@ -231,24 +241,32 @@ class Pollard(ClosedRobot):
 
     def rate_jacobian(self, q: ArrayLike) -> np.ndarray:
         """Joint rates over the pose's rates at closed configurations, ``(..., 12, 6)``."""
+        from pollard_pin.kinematics import singularity
+
         posture = self.posture(q)
         check_regular(self.geometry, posture.linkage)
         return singularity.rate_jacobian(posture, self.pose(q))
 
-    def actuation(self, q: ArrayLike) -> singularity.Actuation:
+    def actuation(self, q: ArrayLike) -> Actuation:
         """Condition and determinants of the six motors' Jacobian at ``(..., 12)``."""
+        from pollard_pin.kinematics import singularity
+
         posture = self.posture(q)
         check_regular(self.geometry, posture.linkage)
         return singularity.actuation(posture)
 
-    def mobility(self, q: ArrayLike) -> loops.Mobility:
+    def mobility(self, q: ArrayLike) -> Mobility:
         """Degrees of freedom by rank at one configuration ``(12,)``."""
+        from thesis_pin.loops import kinematics as loops
+
         return loops.mobility(self, q)
 
     # -- dynamics ------------------------------------------------------------
 
     def forward_dynamics(self, q: ArrayLike, v: ArrayLike, torque: ArrayLike) -> np.ndarray:
         """Joint accelerations ``(..., 12)`` under six torques, the loops closed."""
+        from thesis_pin.loops import dynamics as loop_dynamics
+
         return loop_dynamics.forward_dynamics(self, q, v, torque)
 
     def simulate(
@@ -260,6 +278,8 @@ class Pollard(ClosedRobot):
         step: float = 1e-3,
     ) -> JointTrajectory:
         """Motion under six torques; see :func:`thesis_pin.loops.dynamics.simulate`."""
+        from thesis_pin.loops import dynamics as loop_dynamics
+
         return loop_dynamics.simulate(self, q, v, torque, duration, step)
 
     def energy(self, q: ArrayLike, v: ArrayLike) -> np.ndarray:

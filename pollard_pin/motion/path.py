@@ -10,19 +10,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pollard_pin.coordinates import pose_from_placement, pose_rates, tool_motion
-from pollard_pin.motion.variants import Variants
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples, blocks
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
+
+if TYPE_CHECKING:  # exact paths need no smoothing
+    from pollard_pin.motion.variants import Variants
 
 Timing = Literal["constant-rate", "rest-to-rest", "ramped"]
 TIMINGS: tuple[str, ...] = get_args(Timing)

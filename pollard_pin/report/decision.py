@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from pollard_pin.report import verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
-from thesis_pin.report.uncertainty import numbers as uncertainty
 
 
 def within_limits(numbers: TrajectoryNumbers) -> bool | None:
@@ -16,10 +15,16 @@ def within_limits(numbers: TrajectoryNumbers) -> bool | None:
     held = numbers.headlines
     if held is None:
         return verdict.within_limits(numbers)
+    from thesis_pin.report.uncertainty import numbers as uncertainty
+
     return uncertainty.within((*held.torque_use, *held.speed_use), few_draws(numbers))
 
 
 def few_draws(numbers: TrajectoryNumbers) -> bool:
     """Whether most motions that the samples leave open can't be worked out."""
     drawn = numbers.drawn
-    return drawn is not None and uncertainty.few_draws(drawn.lost, len(drawn.draws.torque))
+    if drawn is None:
+        return False
+    from thesis_pin.report.uncertainty import numbers as uncertainty
+
+    return uncertainty.few_draws(drawn.lost, len(drawn.draws.torque))

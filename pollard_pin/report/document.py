@@ -11,8 +11,6 @@ import numpy as np
 
 from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.dynamics.inverse import inverse_dynamics
-from pollard_pin.dynamics.three_motors import three_torques
-from pollard_pin.dynamics.variants import Way, drawn
 from pollard_pin.implausible import implausible
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.singularity import (
@@ -25,9 +23,8 @@ from pollard_pin.kinematics.singularity import (
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.motion.trajectory import joint_trajectory
-from pollard_pin.report import decision
+from pollard_pin.report import decision, verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
-from pollard_pin.report.reason import reason, sentences
 from pollard_pin.report.uncertainty.document import uncertainty
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.numeric.checks import choice, function, instance
@@ -55,11 +52,19 @@ class TrajectoryReport(TrajectoryNumbers):
 
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
+        if self.headlines is None:
+            return verdict.sentences(self)
+        from pollard_pin.report.reason import sentences
+
         return sentences(self)
 
     @property
     def reason(self) -> str | None:
         """Why the path's samples carry no verdict; None if they do, or it is exact."""
+        if self.headlines is None:
+            return None
+        from pollard_pin.report.reason import reason
+
         return reason(self)
 
     def doubts(self) -> list[str]:
@@ -252,11 +257,15 @@ def trajectory_report(
     dynamics = inverse_dynamics(robot, motion, joints)
     three = None
     if motors == "three":
+        from pollard_pin.dynamics.three_motors import three_torques
+
         three = three_torques(rate_jacobian(solutions.posture, motion.pose), dynamics.joint_force)
     report = TrajectoryReport(
         robot, path, branch, motors, motion, joints, solutions, dynamics, holding, three
     )
     if path.variants is not None:
+        from pollard_pin.dynamics.variants import Way, drawn
+
         way = Way(robot, branch, three is not None)
         report = replace(report, drawn=drawn(way, motion, joints, _extremes(report)))
     progress(4, 4)

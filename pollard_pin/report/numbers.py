@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from pollard_pin.dynamics.inverse import PollardDynamics, inverse_dynamics_at
 from pollard_pin.dynamics.reactions import joint_reactions
-from pollard_pin.dynamics.three_motors import ThreeTorques
-from pollard_pin.dynamics.variants import Drawn, Judged
 from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.kinematics.singularity import (
     Actuation,
@@ -20,7 +18,6 @@ from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.report.judged.limits import MotorUse, distance_class
-from pollard_pin.report.uncertainty.headlines import Headlines, headlines
 from pollard_pin.specification import (
     ACTUATOR_NAMES,
     ACTUATORS,
@@ -31,6 +28,11 @@ from thesis_pin.numeric.elementwise import blocks, intervals
 from thesis_pin.numeric.long import gathered
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise_parts
+
+if TYPE_CHECKING:  # six motors on an exact path need none of them
+    from pollard_pin.dynamics.three_motors import ThreeTorques
+    from pollard_pin.dynamics.variants import Drawn
+    from pollard_pin.report.uncertainty.headlines import Headlines
 
 _REACTION_SAMPLES = 2000  # joint reactions are a loop over samples; peaks need no more
 
@@ -68,6 +70,9 @@ class TrajectoryNumbers:
         """Intervals that the path's samples leave its numbers; None if it is exact."""
         if self.drawn is None:
             return None
+        from pollard_pin.dynamics.variants import Judged
+        from pollard_pin.report.uncertainty.headlines import headlines
+
         keep = self.drawn.keep
         values = {
             "torque": self.torque[keep],

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pollard_pin.coordinates import POSE_NAMES
-from pollard_pin.kinematics.forward import Assemblies
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
-from pollard_pin.report.document import TrajectoryReport
-from pollard_pin.report.uncertainty.document import open_table
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.report import branches
 from thesis_pin.report.tables import Part, Table
+
+if TYPE_CHECKING:  # inverse kinematics alone needs no report
+    from pollard_pin.kinematics.forward import Assemblies
+    from pollard_pin.report.document import TrajectoryReport
 
 
 def motors_table(report: TrajectoryReport) -> Table:
@@ -69,6 +71,8 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         f"{', '.join(f'{value:.3f}' for value in other[:3])} N·m.",
     )
     if report.headlines is not None:
+        from pollard_pin.report.uncertainty.document import open_table
+
         yield open_table(report.headlines)
     yield from (
         "",

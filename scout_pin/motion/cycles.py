@@ -9,20 +9,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
-from scout_pin.motion.variants import RateJump, Variants
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance, whole
 from thesis_pin.numeric.interpolation import join
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.tolerances import TOLERANCES
+
+if TYPE_CHECKING:  # exact gaits need no smoothing
+    from scout_pin.motion.variants import Variants
 
 What = Literal["position", "rate", "acceleration"]
 WHATS: tuple[What, What, What] = ("position", "rate", "acceleration")
@@ -193,6 +195,8 @@ def _variants(gait: Gait, steps: dict[str, float], times: int) -> Variants | Non
     one, length = gait.variants, gait.end - gait.start
     if one is None:
         return None
+    from scout_pin.motion.variants import RateJump
+
     late = float(np.nextafter(gait.end, -np.inf))
     curves, seams = {}, []
     for b, body in enumerate(BODIES):

@@ -24,7 +24,6 @@ from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.smoothing.stated import stated
-from thesis_pin.tables.reading import TABLES
 from thesis_pin.tolerances import TOLERANCES
 
 GAITS = Path(__file__).parents[1] / "gaits"
@@ -166,7 +165,7 @@ def load_gait(
 
     Args:
         source: One of :data:`PRESETS`, or a path ending in ``.toml`` or in one of
-            :data:`TABLES`.
+            :data:`~thesis_pin.tables.reading.TABLES`.
         interpolation: Method for every node segment, instead of the file's; curves then
             pass through every sample of a table.
         smooth: Of a table: ``auto`` takes its samples for as fine as they show themselves to
@@ -189,6 +188,8 @@ def load_gait(
     if str(source) in PRESETS:
         file = read_shipped("gait", GaitFile, GAITS / f"{source}.toml")
         return gait_of(file, interpolation)
+    from thesis_pin.tables.reading import TABLES
+
     path = Path(source)
     if path.suffix.lower() in TABLES:
         # With SciPy's splines, which no other gait needs.

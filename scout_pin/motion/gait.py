@@ -13,13 +13,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, check_stance
-from scout_pin.motion.variants import RateJump, Rows, Variants
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import ascending, finite_array
 from thesis_pin.numeric.checks import choice, real, whole
@@ -31,6 +30,9 @@ from thesis_pin.numeric.rotations import euler_parts
 from thesis_pin.numeric.sparing import spread, times
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
+
+if TYPE_CHECKING:  # exact gaits need no smoothing
+    from scout_pin.motion.variants import RateJump, Rows, Variants
 
 BODIES = ("torso", "left_foot", "right_foot")
 
@@ -182,6 +184,8 @@ class Gait:
 
         A foot's lift-off and landing count too: a foot can't start in an instant.
         """
+        from scout_pin.motion.variants import RateJump
+
         unit = self._unit(time_unit)
         found = []
         if self.variants is not None:

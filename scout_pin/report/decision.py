@@ -6,11 +6,14 @@ its limit. Exact gaits are decided by their numbers alone.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from scout_pin.report import verdict
 from scout_pin.report.numbers import GaitNumbers
-from scout_pin.report.uncertainty.headlines import Headlines
-from thesis_pin.report.uncertainty import numbers as uncertainty
 from thesis_pin.tolerances import TOLERANCES
+
+if TYPE_CHECKING:  # exact gaits leave nothing open
+    from scout_pin.report.uncertainty.headlines import Headlines
 
 
 def can_walk(numbers: GaitNumbers) -> bool | None:
@@ -28,6 +31,8 @@ def servos_carry(numbers: GaitNumbers) -> bool | None:
     held = numbers.headlines
     if held is None:
         return verdict.servos_carry(numbers)
+    from thesis_pin.report.uncertainty import numbers as uncertainty
+
     return uncertainty.within(held.servo_use, few_draws(numbers))
 
 
@@ -60,4 +65,8 @@ def stands(held: Headlines) -> bool:
 def few_draws(numbers: GaitNumbers) -> bool:
     """Whether most motions that the samples leave open can't be worked out."""
     drawn = numbers.drawn
-    return drawn is not None and uncertainty.few_draws(drawn.lost, len(drawn.draws.margin))
+    if drawn is None:
+        return False
+    from thesis_pin.report.uncertainty import numbers as uncertainty
+
+    return uncertainty.few_draws(drawn.lost, len(drawn.draws.margin))

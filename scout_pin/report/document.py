@@ -12,18 +12,16 @@ import numpy as np
 from scout_pin.dynamics.impact import impacts
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
 from scout_pin.dynamics.stability import planned_zmp, support_margin
-from scout_pin.dynamics.variants import drawn, extremes_of
 from scout_pin.implausible import implausible
 from scout_pin.kinematics.branches import branch_label
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.resolution.located import located
 from scout_pin.motion.trajectory import joint_trajectory
-from scout_pin.report import decision, parts
+from scout_pin.report import decision, parts, verdict
 from scout_pin.report.judged.limits import SPEEDS
 from scout_pin.report.judged.stance import Stance, branch_asked, stance
 from scout_pin.report.numbers import GaitNumbers
-from scout_pin.report.reason import reason, sentences
 from scout_pin.report.uncertainty.document import uncertainty
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
 from thesis_pin.errors import ModelWarning
@@ -70,11 +68,19 @@ class GaitReport(GaitNumbers):
 
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
+        if self.headlines is None:
+            return verdict.sentences(self)
+        from scout_pin.report.reason import sentences
+
         return sentences(self)
 
     @property
     def reason(self) -> str | None:
         """Why the gait's samples carry no verdict; None if they do, or it is exact."""
+        if self.headlines is None:
+            return None
+        from scout_pin.report.reason import reason
+
         return reason(self)
 
     def doubts(self) -> list[str]:
@@ -255,6 +261,8 @@ def gait_report(
         progress(3, 4)
         draws = None
         if gait.variants is not None:
+            from scout_pin.dynamics.variants import drawn, extremes_of
+
             extremes = extremes_of(robot, joints, dynamics, margin)
             draws = drawn(robot, gait, motion, joints, unit, extremes, asked)
         if draws is not None and len(joints.time) < LONG:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from scout_pin.dynamics.impact import Impact
 from scout_pin.motion.collisions import Collisions, Touch
 from scout_pin.motion.swings import Swing
-from scout_pin.motion.variants import RateJump
+
+if TYPE_CHECKING:  # it brings smoothing, which exact gaits don't need
+    from scout_pin.motion.variants import RateJump
 
 
 def swing(one: Swing, unit: float) -> dict[str, object]:

@@ -96,8 +96,8 @@ def _walking(numbers: GaitNumbers) -> list[str]:
             f"{text}: the ZMP stays inside, but in {refused} of {count} samples the soles can't "
             "give the whole wrench (friction or yaw moment)."
         )
-    sample, violation = numbers.worst_contact
     if refused:
+        sample, violation = numbers.worst_contact
         result.append(
             f"In {refused} of {count} samples no admissible floor wrench exists; the torques "
             f"suppose feet glued to the floor. At worst (t = {numbers.motion.t[sample]:g}) "

@@ -129,6 +129,24 @@ class Contact:
         missing = target - self.rays.T @ weights
         return size, missing / np.repeat([self.length, 1.0], 3)
 
+    def violation_at_most(self, wrenches: np.ndarray, like: np.ndarray) -> np.ndarray:
+        """Upper bounds of :meth:`violation`, tight where the same rays come nearest.
+
+        Args:
+            wrenches: Wrenches in the sole's axes, shape ``(n, 6)``.
+            like: The wrench whose nearest rays are tried on all, shape ``(6,)``.
+
+        Returns:
+            Bounds [N·m, forces scaled], shape ``(n,)``.
+        """
+        weights, _ = nonnegative(self.rays.T, self.scale(vector("like", like, 6)))
+        rays, targets = self.rays[weights > 0].T, self.scale(wrenches).T
+        found = np.linalg.lstsq(rays, targets, rcond=None)[0]
+        # Whatever weights aren't negative give an admissible wrench, and none is nearer than the
+        # nearest.
+        bound = np.linalg.norm(targets - rays @ np.maximum(found, 0.0), axis=0)
+        return np.asarray(bound)
+
     def friction_used(self, wrench: np.ndarray) -> np.ndarray:
         """Tangential over admissible force, ``(..., 6)`` → ``(...)``; NaN without load."""
         wrench = finite_array("wrench", wrench, 6)

@@ -20,15 +20,15 @@ from numpy.typing import NDArray
 from thesis_pin.errors import ModelError, UnknownName
 from thesis_pin.loops.joint_types import replace_joints
 from thesis_pin.loops.joints import is_free, singles
-from thesis_pin.loops.system.equations import Equations
 from thesis_pin.loops.system.rows import Loop as Loop
-from thesis_pin.loops.system.scale import Scale, scale_of
-from thesis_pin.loops.system.survey import Survey
 from thesis_pin.model.loading import LoadedRobot, RootJoint, checked, frame_id, joint_id
 from thesis_pin.model.mechanism.closure_types import word_of
 from thesis_pin.model.mechanism.supplement import FILE_KIND, Closure, Motor, Supplement
 
 if TYPE_CHECKING:  # robots that ship are known to be sound, and loaded without their readers
+    from thesis_pin.loops.system.equations import Equations
+    from thesis_pin.loops.system.scale import Scale
+    from thesis_pin.loops.system.survey import Survey
     from thesis_pin.model.formats.closure_file import ClosureFile
     from thesis_pin.model.formats.rounding import Rounding
     from thesis_pin.model.mechanism.description import Description
@@ -151,11 +151,15 @@ class ClosedRobot(LoadedRobot):
     @cached_property
     def system(self) -> Equations:
         """Its equations, as functions of stacks of configurations."""
+        from thesis_pin.loops.system.equations import Equations
+
         return Equations(self.model, self.loops, self.couplings)
 
     @cached_property
     def scale(self) -> Scale:
         """What makes the equations comparable."""
+        from thesis_pin.loops.system.scale import scale_of
+
         return scale_of(self.system)
 
     @cached_property

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from math import pi, prod
 
-from thesis_pin.sizing.units import KILOGRAM_CENTIMETRE, RPM
 from thesis_pin.tolerances import TOLERANCES
 
 RATED = 0.5
@@ -81,6 +80,8 @@ class Actuator:
             found.append((self.stall_torque, "N·m", self.mass * limits.specific_torque, grams))
         for much, unit, most, of in found:
             if much > most:
+                from thesis_pin.sizing.units import KILOGRAM_CENTIMETRE, RPM
+
                 yield (
                     f"{self.name}: {self.stall_torque:g} N·m and {self.no_load_speed:g} rad/s make "
                     f"{_round(much)} {unit} from {of}, and no actuator gives more than "

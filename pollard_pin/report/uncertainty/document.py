@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from pollard_pin.dynamics.variants import Drawn
-from pollard_pin.motion.variants import Variants
-from pollard_pin.report.uncertainty.headlines import Headlines
+from typing import TYPE_CHECKING
+
 from pollard_pin.specification import ACTUATOR_SYMBOLS
-from thesis_pin.report.tables import Table
-from thesis_pin.report.uncertainty import document
+
+if TYPE_CHECKING:  # what is exact leaves nothing open
+    from pollard_pin.dynamics.variants import Drawn
+    from pollard_pin.motion.variants import Variants
+    from pollard_pin.report.uncertainty.headlines import Headlines
+    from thesis_pin.report.tables import Table
 
 
 def uncertainty(
@@ -22,6 +25,8 @@ def uncertainty(
     """
     if held is None or drawn is None or variants is None:
         return None
+    from thesis_pin.report.uncertainty import document
+
     return document.open_document(
         {
             "peak_torque": held.peak_torque,
@@ -39,6 +44,8 @@ def uncertainty(
 
 def open_table(held: Headlines) -> Table:
     """Between which values each motor's peak torque and its share of the limit lie."""
+    from thesis_pin.report.uncertainty import document
+
     return document.open_table(
         ("motor", ACTUATOR_SYMBOLS),
         ("peak N·m", held.peak_torque, ".4f"),

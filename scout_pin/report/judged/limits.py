@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from scout_pin.motion.cycles import Gap, closure
 from scout_pin.motion.gait import Gait
-from scout_pin.motion.variants import RateJump
 from scout_pin.report.judged.causes import CAUSES, Cause
 from scout_pin.report.judged.speeds import Speeds, stretches
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.inequalities import Intervals
 from thesis_pin.tolerances import TOLERANCES
+
+if TYPE_CHECKING:
+    from scout_pin.motion.variants import RateJump
 
 SPEEDS = (0.2, 5.0)
 """How many times faster than given a gait is looked at."""

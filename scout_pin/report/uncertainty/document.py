@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from scout_pin.dynamics.variants import Drawn
-from scout_pin.motion.variants import Variants
-from scout_pin.report.uncertainty.headlines import Headlines
+from typing import TYPE_CHECKING
+
 from scout_pin.specification import JOINT_NAMES
-from thesis_pin.report.tables import Table
-from thesis_pin.report.uncertainty import document
+
+if TYPE_CHECKING:  # what is exact leaves nothing open
+    from scout_pin.dynamics.variants import Drawn
+    from scout_pin.motion.variants import Variants
+    from scout_pin.report.uncertainty.headlines import Headlines
+    from thesis_pin.report.tables import Table
 
 
 def uncertainty(
@@ -22,6 +25,8 @@ def uncertainty(
     """
     if held is None or drawn is None or variants is None:
         return None
+    from thesis_pin.report.uncertainty import document
+
     return document.open_document(
         {
             "worst_margin": held.margin,
@@ -41,6 +46,8 @@ def uncertainty(
 
 def open_table(held: Headlines) -> Table:
     """Between which values each joint's peak torque and use of its servo lie."""
+    from thesis_pin.report.uncertainty import document
+
     return document.open_table(
         ("joint", JOINT_NAMES),
         ("peak N·m", held.peak_torque, ".3f"),

@@ -26,6 +26,12 @@ def test_the_worst_contact_may_be_in_double_support(walk, size):
     assert worse.dynamics.admissible.sum() == walk.dynamics.admissible.sum() - 2
 
 
+def test_the_worst_contact_is_the_one_that_misses_most_of_all(scout):
+    report = scout_pin.gait_report(scout, scout_pin.load_gait("thesis"), samples=201)
+    sizes = [report.dynamics.least_violation(k)[0] for k in range(len(report.joints.time))]
+    assert report.worst_contact == (np.argmax(sizes), max(sizes))
+
+
 @pytest.mark.parametrize(("depth", "walks"), [(7e-9, True), (0.9e-4, True), (1.1e-4, False)])
 def test_a_swinging_sole_a_tenth_of_a_millimetre_below_the_floor_is_no_walk(walk, depth, walks):
     """All else as in a gait that can be walked; no floor is flatter than that."""

@@ -39,6 +39,18 @@ def test_wrench_cone_is_what_corner_forces_can_do(contact, rng):
     assert 10 < inside < 140
 
 
+def test_bounds_of_violations_hold_and_are_tight_near_the_wrench_they_come_from(contact, rng):
+    scale = [0.3, 0.3, 0.3, 0.04, 0.04, 0.02]
+    for like in rng.normal(size=(20, 6)) * scale + [0.5, 0, 1, 0, 0.02, 0]:
+        others = rng.normal(size=(30, 6)) * scale + [0, 0, 1, 0, 0, 0]
+        bounds = contact.violation_at_most(others, like)
+        sizes = np.array([contact.violation(one)[0] for one in others])
+        assert (bounds >= sizes - 1e-12).all()
+        near = like * (1 + 1e-9 * np.arange(4))[:, None]
+        exact = [contact.violation(one)[0] for one in near]
+        np.testing.assert_allclose(contact.violation_at_most(near, like), exact, atol=1e-8)
+
+
 def test_least_violation_is_a_distance_and_repairs_the_wrench(contact, rng):
     for _ in range(50):
         wrench = rng.normal(size=6) * [3, 3, 3, 0.5, 0.5, 0.5]

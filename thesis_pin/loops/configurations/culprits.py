@@ -6,9 +6,12 @@ looks exact, so no decision rests on digits.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from thesis_pin.model.mechanism.description import Description, Joint
+if TYPE_CHECKING:  # sound robots have no culprits
+    from thesis_pin.model.mechanism.description import Description, Joint
 
 _LEAST, _MOST = 1e-13, 1e-2  # sizes of what a hand wouldn't have written
 _RIGHT = np.pi / 4  # angles that hands do write are multiples of this

@@ -13,12 +13,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from thesis_pin.model.mechanism.closure_types import rows_of
-from thesis_pin.model.mechanism.description import Array, Description
 from thesis_pin.model.mechanism.supplement import Closure
+
+if TYPE_CHECKING:  # loops need no description, only this module's two tolerances
+    from thesis_pin.model.mechanism.description import Array, Description
 
 _NAMED = re.compile(r"(closing_.+)_([12])|(closedloop.*?)_?([AB])", re.ASCII)
 _TYPED = re.compile(r"closedloop([36])d.*", re.ASCII | re.IGNORECASE)
