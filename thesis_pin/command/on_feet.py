@@ -27,6 +27,7 @@ from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import read_motion
 from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.balance.making import balance_report
+from thesis_pin.smoothing.stated import stated
 
 Array = NDArray[np.float64]
 
@@ -46,6 +47,7 @@ def balance(arguments: argparse.Namespace) -> ExitCode:
 
 
 def _report(arguments: argparse.Namespace) -> BalanceReport:
+    stated(arguments.smooth)  # also where a pose is held, which has no samples
     closures, file = arguments.closures, arguments.motion
     if file is None and closures is not None and Path(closures).suffix.lower() in _TABLES:
         closures, file = None, closures  # one file beside the robot's, a table
