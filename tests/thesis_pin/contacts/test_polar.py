@@ -23,14 +23,14 @@ def test_what_is_left_over_is_orthogonal_and_what_was_taken_off_is_in_the_cone(v
     wrench = np.array(values)
     rest, weights = beyond_cone(SOLE.rays.T, wrench)
     size = 3 * np.abs(wrench).max()
-    assert (SOLE.rays @ rest).max() <= 1e-9 * size  # in the polar cone
-    assert abs(rest @ (wrench - rest)) <= 1e-9 * size**2
-    assert (SOLE.facets @ (wrench - rest)).max() <= 1e-9 * size
+    tiny = np.finfo(float).tiny  # numbers below it have no relative precision
+    assert (SOLE.rays @ rest).max() <= 1e-9 * size + tiny  # in the polar cone
+    assert abs(rest @ (wrench - rest)) <= 1e-9 * size**2 + tiny
+    assert (SOLE.facets @ (wrench - rest)).max() <= 1e-9 * size + tiny
     assert (weights >= 0).all()
-    precise = 1e-11 * size + np.finfo(float).tiny
-    np.testing.assert_allclose(SOLE.rays.T @ weights, wrench - rest, atol=precise)
+    np.testing.assert_allclose(SOLE.rays.T @ weights, wrench - rest, atol=1e-11 * size + tiny)
     if not rest.any():
-        assert (SOLE.facets @ wrench).max() <= 1e-9 * size
+        assert (SOLE.facets @ wrench).max() <= 1e-9 * size + tiny
 
 
 def test_a_wrench_with_components_of_rounding_is_as_far_as_without_them():
