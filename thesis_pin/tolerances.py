@@ -80,7 +80,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
         rest_turning: The same of its angles [rad/s].
         step: Least distance of two nodes or samples: below it, rates are made of
             rounding [s], [-].
-        static: Joint speed below which Coulomb friction is taken as zero [rad/s].
+        static: Joint speed below which Coulomb friction is taken as zero [rad/s], and a foot's
+            speed [m/s, rad/s] below which it lands at rest.
         creeping: The same of motions smoothed within their samples' resolution [rad/s], [m/s],
             where friction counts as possible: curves ring that fast where a joint comes to rest,
             and a hobby servo takes two seconds for its smallest step.
