@@ -115,8 +115,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             on the floor if it is slow: a swinging foot of a walker gets ten times as high [-].
         touch_speed: Its speed, relative to that of a fall from that height, below which it
             rests: feet swing ten times as fast [-].
-        slide: Way of a foot that bears load, between landing and leaving, beyond which it slides [m]:
-            rubber gives as much, and tables say a sample too early that a foot landed.
+        slide: Way of a foot that bears load, between landing and leaving, beyond which it slides
+            [m]: rubber gives as much, and tables say a sample too early that a foot landed.
         nearer: Difference [m] by which one pair of soles must be nearer to be told from another:
             where feet stand, all samples are alike but for rounding.
         parallel: Squared sine of the angle below which two edges are parallel.

@@ -73,10 +73,9 @@ def _balance(report: BalanceNumbers) -> list[str]:
 
 def _slides(report: BalanceNumbers) -> str:
     each = "; ".join(one.said() for one in report.slides)
-    many = len(report.slides) > 1
-    return (
-        f"{'Feet slide while they bear' if many else 'A foot slides while it bears'} load: {each}."
-    )
+    alone = len(report.slides) == 1
+    what = "A foot slides while it bears" if alone else "Feet slide while they bear"
+    return f"{what} load: {each}."
 
 
 def _causes(report: BalanceNumbers) -> list[str]:
