@@ -32,12 +32,13 @@ def find_feet(
 ) -> tuple[Foot, ...]:
     """Feet of a robot, each with what of its collision shapes is lowest in a pose.
 
-    What lies within 1 mm of a link's lowest point is its sole, if that is 20 mm wide; else it is
-    an edge or a point, with the radius of a ball where it is one. Where the pose holds a link
-    tilted, its sole is a face that leans by less than 30° and is half as large again as what is
-    lowest. Where a point or an edge lies within 1 mm in the sole of another link that is
-    fixed to it, that is the sole. ``source`` says both. Soles have at most eight corners. Where nobody says which, feet are all links at the ends of limbs that end no higher
-    above the lowest than 3 % of the robot's height. Without collision shapes visual ones are taken.
+    What lies within 1 mm of a link's lowest point is its sole, if that is 20 mm wide; else it
+    is an edge or a point, with the radius of a ball where it is one. Where the pose holds a
+    link tilted, its sole is a face that leans by less than 30° and is half as large again as
+    what is lowest. Where a point or an edge lies within 1 mm in the sole of another link that
+    is fixed to it, that is the sole. ``source`` says both. Soles have at most eight corners.
+    Where nobody says which, feet are all links at the ends of limbs that end no higher above
+    the lowest than 3 % of the robot's height. Without collision shapes visual ones are taken.
 
     Args:
         robot: The robot, with a free root.

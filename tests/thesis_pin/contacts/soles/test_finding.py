@@ -92,7 +92,8 @@ def test_scout_s_urdf_has_its_soles_below_the_struts_drawn_into_them_also_tilted
 
 def test_a_toe_beside_a_heel_on_one_link_keeps_its_own_ball():
     tied = (
-        '<link name="toe"><collision><geometry><sphere radius="0.02"/></geometry></collision></link>'
+        '<link name="toe"><collision><geometry><sphere radius="0.02"/></geometry></collision>'
+        "</link>"
         '<joint name="k" type="fixed"><parent link="b"/><child link="toe"/>'
         '<origin xyz="0.2 0 0"/></joint></robot>'
     )
