@@ -27,7 +27,7 @@ from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.balance.drawn import drawn
 from thesis_pin.report.balance.setting import HELD, held, moving
 from thesis_pin.report.torque.document import TorqueReport
-from thesis_pin.report.torque.drawn import Way
+from thesis_pin.report.torque.nearby import Way
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
