@@ -38,9 +38,14 @@ def balance_page(report: BalanceReport) -> bytes:
 
 def _tiles(report: BalanceReport) -> list[Tile]:
     found, least = report.found, report.least_margin.value
-    tiles = [Tile("the floor can give it", f"{report.given.mean():.0%}", report.balanced)]
+    tiles = [Tile("the floor can give it", f"{report.given.mean():.0%}", report.supplied)]
     if np.isfinite(least) and report.level:
-        tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", report.balanced))
+        # Outside by less than counts neither keeps the limit nor breaks it.
+        good = None if least < 0 and report.supplied else report.supplied
+        tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", good))
+    if report.slides:
+        fastest = max(one.speed for one in report.slides)
+        tiles.append(Tile("feet slide at up to", f"{fastest:.3g} m/s", False))
     most = max(report.peak_friction)
     tiles.append(Tile("friction in use", f"{most:.0%}", most <= 1))
     tiles.append(Tile("largest force on a foot", f"{found.normal_force.max():.4g} N"))
