@@ -71,7 +71,7 @@ def test_scout_s_urdf_has_its_soles_below_the_struts_drawn_into_them_also_tilted
     own = scout_pin.load()
     robot = thesis_pin.load(scout_pin.URDF_PATH, root_joint=pin.JointModelFreeFlyer())
     pose = robot.q0.copy()
-    pose[3:7] = pin.Quaternion(pin.exp3(np.array([0.0, np.radians(pitch), 0.0]))).coeffs()
+    pose[3:7] = pin.Quaternion(pin.exp3(np.array([np.radians(pitch), 0.0, 0.0]))).coeffs()
     data = robot.model.createData()
     pin.framesForwardKinematics(robot.model, data, pose)
     feet = find_feet(robot, names, pose=pose)
