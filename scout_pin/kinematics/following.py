@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from scout_pin.kinematics import one_pose
 from scout_pin.kinematics.branches import EVERY, LABELS, SHAPES, leg_branches
-from scout_pin.kinematics.closed_form import ClosedForm, Free
+from scout_pin.kinematics.closed_form import one_pose
+from scout_pin.kinematics.closed_form.stack import ClosedForm, Free
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.inverse import every_branch, free_values, single_pose
 from scout_pin.kinematics.signs import GONE, SUMMANDS, sum_angles

@@ -19,9 +19,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from scout_pin.kinematics import one_pose
-from scout_pin.kinematics.closed_form import CHUNK, ClosedForm
-from scout_pin.kinematics.families import axis_bounds, yaw_bounds
+from scout_pin.kinematics.closed_form import one_pose
+from scout_pin.kinematics.closed_form.families import axis_bounds, yaw_bounds
+from scout_pin.kinematics.closed_form.stack import CHUNK, ClosedForm
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.signs import PLANES, SUMMANDS, sum_angles
 from scout_pin.kinematics.solutions import BRANCHES as BRANCHES

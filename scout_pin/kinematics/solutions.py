@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.kinematics.branches import BRANCHES as BRANCHES
-from scout_pin.kinematics.closed_form import ClosedForm
+from scout_pin.kinematics.closed_form.stack import ClosedForm
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.signs import PLANES, SUMMANDS, sum_angles
@@ -44,8 +44,8 @@ class LegSolutions:
         geometry: The leg.
         target: The poses asked for, torso to sole, shape ``(..., 4, 4)``.
         solved: What the closed form found; of a single pose the numbers of
-            :func:`scout_pin.kinematics.one_pose.summands`, of which arrays are made when asked
-            for: that takes as long as finding them.
+            :func:`scout_pin.kinematics.closed_form.one_pose.summands`, of which arrays are made
+            when asked for: that takes as long as finding them.
     """
 
     geometry: LegGeometry

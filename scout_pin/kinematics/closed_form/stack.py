@@ -2,7 +2,7 @@
 
 Symbols as in :mod:`scout_pin.kinematics.forward`, but j is −j11 and k is k11: e is along
 (v·j) k − (v·k) j, perpendicular to a however near v is to a. The pose is the last axis.
-:mod:`scout_pin.kinematics.one_pose` does the same for a single pose.
+:mod:`scout_pin.kinematics.closed_form.one_pose` does the same for a single pose.
 
 Source: Scout thesis, 3.1, the loop equation (3.4); the closed form replaces the
 thesis's numeric solver.

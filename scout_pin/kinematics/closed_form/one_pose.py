@@ -1,6 +1,6 @@
 """The closed form of a single pose, by Python's floats: NumPy needs half a microsecond to begin.
 
-The same as :mod:`scout_pin.kinematics.closed_form`, symbols too. What isn't plain (a pose
+The same as :mod:`scout_pin.kinematics.closed_form.stack`, symbols too. What isn't plain (a pose
 that isn't finite, may not be rigid or is nearly singular) is left to arrays.
 
 Source: Scout thesis, 3.1, the loop equation (3.4).

@@ -15,7 +15,7 @@ from scout_pin.specification import SIDES, Specification
 from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.rotations import transform
 
-from ..conftest import random_specification
+from ...conftest import random_specification
 
 COUNT = 400
 

@@ -4,8 +4,8 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from scout_pin.kinematics import one_pose
-from scout_pin.kinematics.closed_form import ClosedForm
+from scout_pin.kinematics.closed_form import one_pose
+from scout_pin.kinematics.closed_form.stack import ClosedForm
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.inverse import leg_inverse_kinematics
@@ -14,7 +14,7 @@ from scout_pin.specification import SIDES, Specification
 from thesis_pin.errors import BadInput, NotFinite
 from thesis_pin.numeric.arrays import wrap
 
-from ..conftest import random_specification
+from ...conftest import random_specification
 
 
 @pytest.mark.parametrize("seed", range(20))
