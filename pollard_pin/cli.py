@@ -12,9 +12,9 @@ from thesis_pin.command.options import (
     add_euler,
     add_jobs,
     add_json,
+    add_points,
     add_robot,
     add_smooth,
-    count,
     number,
 )
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
@@ -105,13 +105,7 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
         metavar=("PSI", "THETA", "PHI"),
         help="ψ, θ, φ of the tool [°] (default: 0 0 0)",
     )
-    words.add_argument(
-        "--points",
-        type=count("--points", 2),
-        default=101,
-        metavar="N",
-        help="points an axis (default: 101)",
-    )
+    add_points(words, 101)
     add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
 

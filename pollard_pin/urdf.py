@@ -117,6 +117,7 @@ class _Tree:
         xyz: tuple[float, float, float],
         turn: float = 0.0,
     ) -> str:
+        """A joint by its number, with its limits, at xyz [m] and turned about x [rad]."""
         effort, velocity = self.specification.assumptions.joint_limits.of_joint(number)
         return joint(
             JOINT_NAMES[number],

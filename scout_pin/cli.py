@@ -95,13 +95,7 @@ def _which_urdf(words: argparse.ArgumentParser) -> None:
         metavar=("TORQUE", "SPEED"),
         help="stall torque [N·m] and no-load speed [rad/s] of joints whose limits say none",
     )
-    words.add_argument(
-        "--friction",
-        type=number("--friction", positive=True),
-        default=0.6,
-        metavar="NUMBER",
-        help="coefficient between sole and floor, at least 1e-6 (default: 0.6)",
-    )
+    options.add_friction(words)
     _force(words)
 
 

@@ -13,7 +13,7 @@ from scout_pin.implausible import implausible
 from scout_pin.model import Scout, load
 from scout_pin.specification import NEW_PATH, SIDES
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.results import Answer, put, put_new
+from thesis_pin.command.results import Answer, check_new, put, put_new
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
@@ -126,6 +126,7 @@ def new(arguments: argparse.Namespace) -> ExitCode:
         raise BadInput("--motion and --example are two files", remedy="Write one at a time")
     if arguments.specification is not None and not arguments.motion:
         raise BadInput("--specification means nothing without --motion", remedy="Add --motion sway")
+    check_new(arguments.target, replace=arguments.force)
     with Bar("making it"):
         from thesis_pin.report.writers import json_bytes
 
@@ -150,6 +151,7 @@ def new(arguments: argparse.Namespace) -> ExitCode:
 
 def from_urdf(arguments: argparse.Namespace) -> ExitCode:
     """Read a robot's description into a specification."""
+    check_new(arguments.to, replace=arguments.force)
     with Bar("reading the axes"):
         from scout_pin.making.from_urdf import document, text
         from scout_pin.making.from_urdf import from_urdf as translated

@@ -80,7 +80,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
         rest_turning: The same of its angles [rad/s].
         step: Least distance of two nodes or samples: below it, rates are made of
             rounding [s], [-].
-        static: Joint speed below which Coulomb friction is taken as zero [rad/s].
+        static: Joint speed below which Coulomb friction is taken as zero [rad/s], and a foot's
+            speed [m/s, rad/s] below which it lands at rest.
         creeping: The same of motions smoothed within their samples' resolution [rad/s], [m/s],
             where friction counts as possible: curves ring that fast where a joint comes to rest,
             and a hobby servo takes two seconds for its smallest step.
@@ -114,6 +115,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             on the floor if it is slow: a swinging foot of a walker gets ten times as high [-].
         touch_speed: Its speed, relative to that of a fall from that height, below which it
             rests: feet swing ten times as fast [-].
+        slide: Way of a foot that bears load, between landing and leaving, beyond which it slides
+            [m]: rubber gives as much, and tables say a sample too early that a foot landed.
         nearer: Difference [m] by which one pair of soles must be nearer to be told from another:
             where feet stand, all samples are alike but for rounding.
         parallel: Squared sine of the angle below which two edges are parallel.
@@ -218,6 +221,7 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     touching: float = 1e-3
     touch_height: float = 5e-3
     touch_speed: float = 1e-2
+    slide: float = 2e-3
     nearer: float = 1e-9
     parallel: float = 1e-12
     spelled: float = 1e-12

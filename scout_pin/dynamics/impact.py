@@ -58,8 +58,8 @@ def touchdown_impact(
     """Inelastic landing of a foot, the other one standing.
 
     The landing sole stops dead. The standing foot is held only while the floor
-    pushes it: if its vertical impulse would be negative it is let go. Servos
-    give no impulsive torque.
+    pushes it: if its vertical impulse would be negative it is let go, unless the other lands
+    at rest and impulses are rounding. Servos give no impulsive torque.
 
     Args:
         robot: The biped, with a free-flyer root.
@@ -81,11 +81,12 @@ def touchdown_impact(
         s: pin.getFrameJacobian(model, data, robot.sole_frames[s], pin.LOCAL_WORLD_ALIGNED).copy()
         for s in SIDES
     }
+    gentle = np.abs(rows[side] @ v).max() <= TOLERANCES.static
     for held in ((side, other), (side,)):
         jacobian = np.concatenate([rows[s] for s in held])
         after = np.array(pin.impulseDynamics(model, data, q, v, jacobian, 0.0, 0.0))
         impulse = np.array(data.impulse_c).reshape(-1, 6)
-        if len(held) == 1 or impulse[1, 2] >= 0:
+        if gentle or len(held) == 1 or impulse[1, 2] >= 0:
             break
     mass = pin.crba(model, data, q)
     mass = np.triu(mass) + np.triu(mass, 1).T

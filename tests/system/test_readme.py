@@ -58,7 +58,8 @@ def test_every_command_line_of_the_readme_is_understood(words):
 
     package = words[0].replace("-", "_")
     module = "command.main" if package == "thesis_pin" else "cli"
-    importlib.import_module(f"{package}.{module}").parser().parse_args(words[1:])
+    parsed = importlib.import_module(f"{package}.{module}").parser().parse_args(words[1:])
+    assert parsed.run.name == words[1]
 
 
 def test_check_command_is_the_one_ci_runs():

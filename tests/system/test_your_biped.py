@@ -64,6 +64,20 @@ def test_nothing_is_replaced_unless_it_is_asked_for(tmp_path):
     assert "my_biped" in path.read_text()
 
 
+def test_a_file_that_is_there_is_refused_before_anything_is_read_for_it(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text("mine")
+    nowhere = tmp_path / "nowhere"
+    for words in (
+        ("new", path, "--motion", "sway", "--specification", nowhere),
+        ("from-urdf", nowhere, "--to", path),
+    ):
+        done = scout_pin(*words)
+        assert done.returncode == 2
+        assert "there is such a file already" in done.stderr
+        assert "No such file" in scout_pin(*words, "--force").stderr
+
+
 def test_a_urdf_becomes_the_same_robot_on_the_command_line(tmp_path):
     target = tmp_path / "again.toml"
     done = scout_pin("from-urdf", URDF, "--to", str(target))

@@ -151,6 +151,28 @@ def add_samples(words: Words, default: int) -> None:
     )
 
 
+def add_points(words: Words, default: int) -> None:
+    """How finely a grid is divided."""
+    words.add_argument(
+        "--points",
+        type=count("--points", 2),
+        default=default,
+        metavar="N",
+        help=f"points an axis (default: {default})",
+    )
+
+
+def add_friction(words: Words) -> None:
+    """How rough the floor is."""
+    words.add_argument(
+        "--friction",
+        type=number("--friction", positive=True),
+        default=0.6,
+        metavar="NUMBER",
+        help="coefficient between sole and floor, at least 1e-6 (default: 0.6)",
+    )
+
+
 LISTS = "lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)"
 """What a list of servos may be, for help."""
 

@@ -147,8 +147,8 @@ def put(target: str, content: bytes) -> None:
     said(target)
 
 
-def put_new(target: str, content: bytes, *, replace: bool) -> None:
-    """Write a file that isn't there yet, or standard output for ``-``, and say so.
+def check_new(target: str, *, replace: bool) -> None:
+    """Refuse a file that is there already; before the work for it is done.
 
     Raises:
         BadInput: It is there, and ``replace`` is false.
@@ -157,6 +157,15 @@ def put_new(target: str, content: bytes, *, replace: bool) -> None:
         raise BadInput(
             "there is such a file already", where=target, remedy="Name another, or say --force"
         )
+
+
+def put_new(target: str, content: bytes, *, replace: bool) -> None:
+    """Write a file that isn't there yet, or standard output for ``-``, and say so.
+
+    Raises:
+        BadInput: See :func:`check_new`.
+    """
+    check_new(target, replace=replace)  # again: it may have come meanwhile
     put(target, content)
 
 

@@ -6,8 +6,9 @@ from thesis_pin.command.options import (
     LISTS,
     add_euler,
     add_frame,
+    add_friction,
+    add_points,
     add_smooth,
-    count,
     number,
     slope,
     wrench,
@@ -70,13 +71,7 @@ def which_grid(words: Words) -> None:
         metavar=("NAME", "VALUE"),
         help="what else leads and stands still; motors that nothing leads stay at the pose",
     )
-    words.add_argument(
-        "--points",
-        type=count("--points", 2),
-        default=41,
-        metavar="N",
-        help="points an axis (default: 41)",
-    )
+    add_points(words, 41)
     words.add_argument(
         "--length",
         type=number("--length", positive=True),
@@ -117,13 +112,7 @@ def which_pose(words: Words) -> None:
     words.add_argument(
         "--free-flyer", action="store_true", help="let the root fly freely (default: as described)"
     )
-    words.add_argument(
-        "--precision",
-        type=number("--precision"),
-        metavar="RAD",
-        help="loop equations that differ by less count as one; 0 takes every one as real "
-        "(default: told from the file's own noise)",
-    )
+    _add_precision(words)
 
 
 def which_stance(words: Words) -> None:
@@ -142,26 +131,14 @@ def which_stance(words: Words) -> None:
         help="a pose of the description or of an SRDF beside it, or a .toml file: what is held, or "
         "where loops are closed from (default: half_sitting or standing of the SRDF, or neutral)",
     )
-    words.add_argument(
-        "--precision",
-        type=number("--precision"),
-        metavar="RAD",
-        help="loop equations that differ by less count as one; 0 takes every one as real "
-        "(default: told from the file's own noise)",
-    )
+    _add_precision(words)
     words.add_argument(
         "--feet",
         metavar="NAME,NAME",
         help="frames or links, each with its sole from the robot's shapes; or NAME=point, "
         "NAME=0.03 (a ball, in metres), NAME=0.2x0.1 (a sole) (default: a guess, which is said)",
     )
-    words.add_argument(
-        "--friction",
-        type=number("--friction"),
-        default=0.6,
-        metavar="NUMBER",
-        help="coefficient between sole and floor, at least 1e-6 (default: 0.6)",
-    )
+    add_friction(words)
     words.add_argument(
         "--floor-height",
         type=number("--floor-height"),
@@ -198,4 +175,14 @@ def written(words: Words) -> None:
         dest="out",
         metavar="DIR",
         help="write the robot there as a URDF and a closure file, whatever it was read from",
+    )
+
+
+def _add_precision(words: Words) -> None:
+    words.add_argument(
+        "--precision",
+        type=number("--precision"),
+        metavar="RAD",
+        help="loop equations that differ by less count as one; 0 takes every one as real "
+        "(default: told from the file's own noise)",
     )

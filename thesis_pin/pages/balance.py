@@ -7,14 +7,11 @@ import numpy as np
 from thesis_pin.pages.balance_scene import scene
 from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
 from thesis_pin.pages.scene import thinned
-from thesis_pin.pages.torque import MOST_SAMPLES
+from thesis_pin.pages.torque import MOST_SAMPLES, motors_tables
 from thesis_pin.report.balance.curves import plots
 from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.balance.tables import feet_table
 from thesis_pin.report.tables import Table
-from thesis_pin.report.torque.tables import loops_table, motors_table
-from thesis_pin.report.torque.uncertainty import open_table
-from thesis_pin.report.uncertainty.document import columns_table
 
 
 def balance_page(report: BalanceReport) -> bytes:
@@ -41,9 +38,14 @@ def balance_page(report: BalanceReport) -> bytes:
 
 def _tiles(report: BalanceReport) -> list[Tile]:
     found, least = report.found, report.least_margin.value
-    tiles = [Tile("the floor can give it", f"{report.given.mean():.0%}", report.balanced)]
+    tiles = [Tile("the floor can give it", f"{report.given.mean():.0%}", report.supplied)]
     if np.isfinite(least) and report.level:
-        tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", report.balanced))
+        # Outside by less than counts neither keeps the limit nor breaks it.
+        good = None if least < 0 and report.supplied else report.supplied
+        tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", good))
+    if report.slides:
+        fastest = max(one.speed for one in report.slides)
+        tiles.append(Tile("feet slide at up to", f"{fastest:.3g} m/s", False))
     most = max(report.peak_friction)
     tiles.append(Tile("friction in use", f"{most:.0%}", most <= 1))
     tiles.append(Tile("largest force on a foot", f"{found.normal_force.max():.4g} N"))
@@ -56,10 +58,5 @@ def _tiles(report: BalanceReport) -> list[Tile]:
 
 
 def _tables(report: BalanceReport) -> list[Table]:
-    motors = report.motors
-    loops = [loops_table(motors)] if report.robot.loops else []
-    held, variants, opened = motors.headlines, motors.motion.variants, list[Table]()
-    if held is not None and variants is not None:
-        opened = [open_table(held, motors.names), columns_table(variants.columns, variants.rate)]
     closing = (parameters_table(report.parameters), software())
-    return [feet_table(report), motors_table(motors), *opened, *loops, *closing]
+    return [feet_table(report), *motors_tables(report.motors), *closing]

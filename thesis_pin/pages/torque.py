@@ -32,7 +32,7 @@ def torque_page(report: TorqueReport) -> bytes:
             verdict=[*report.doubts(), *report.verdict(), *report.warnings()],
             tiles=_tiles(report),
             plots=plots(report, thinned(time, MOST_SAMPLES)),
-            tables=_tables(report),
+            tables=[*motors_tables(report), parameters_table(report.parameters), software()],
             scene=scene(report),
         )
     )
@@ -54,7 +54,8 @@ def _tiles(report: TorqueReport) -> list[Tile]:
     return [*tiles, Tile("unexplained load", f"{report.unexplained.max():.1e}", carried(report))]
 
 
-def _tables(report: TorqueReport) -> list[Table]:
+def motors_tables(report: TorqueReport) -> list[Table]:
+    """What the motors and the loops bear, and between which values; for pages."""
     loops = [loops_table(report)] if report.robot.loops else []
     held, variants, opened = report.headlines, report.motion.variants, list[Table]()
     if held is not None and variants is not None:
@@ -62,5 +63,4 @@ def _tables(report: TorqueReport) -> list[Table]:
             open_table(held, report.names),
             columns_table(variants.columns, variants.rate),
         ]
-    closing = (parameters_table(report.parameters), software())
-    return [motors_table(report), *opened, *loops, *closing]
+    return [motors_table(report), *opened, *loops]

@@ -52,6 +52,7 @@ def test_a_landing_at_rest_costs_nothing(scout):
     found = impacts(scout, gait, joints)
     assert [impact.side for impact in found] == ["right", "left"]
     for impact in found:
+        assert set(impact.held) == set(SIDES)  # rounding's sign lets no foot go
         assert np.abs(impact.impulse).max() < 1e-9
         assert impact.energy_lost < 1e-12
         assert impact.admissible

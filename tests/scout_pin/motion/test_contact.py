@@ -33,29 +33,38 @@ def write_log(path, gait, t, support, digits=9, lift=None):
     return path
 
 
-@pytest.mark.parametrize(("size", "fine"), [(0.9e-4, True), (1.1e-4, False)])
-@pytest.mark.parametrize("coordinate", [0, 1, 2])
-def test_a_standing_foot_may_stray_by_a_tenth_of_a_millimetre(size, fine, coordinate):
-    _stray(size, fine, coordinate)
-
-
-@pytest.mark.parametrize(("size", "fine"), [(0.9e-3, True), (1.1e-3, False)])
-@pytest.mark.parametrize("coordinate", [3, 4, 5])
-def test_a_standing_foot_may_turn_by_a_milliradian(size, fine, coordinate):
-    _stray(size, fine, coordinate)
-
-
-def _stray(size, fine, coordinate):
+def strayed(size, coordinate):
+    """A squat whose left foot strays by so much in two units of time."""
     gait = load_gait(EXAMPLES / "squat.toml")
     foot = list(gait.curves["left_foot"])
     start = float(foot[coordinate](0.0))
     foot[coordinate] = linear([0.0, 2.0], [start, start + size])
-    moved = replace(gait, curves=gait.curves | {"left_foot": tuple(foot)})
-    if fine:
-        moved.sample(np.array([1.0]))
-    else:
-        with pytest.raises(TrajectoryError, match="bears load"):
-            moved.sample(np.array([1.0]))
+    return replace(gait, curves=gait.curves | {"left_foot": tuple(foot)})
+
+
+STRAY = [(0.9e-4, 1.1e-4, k) for k in (0, 1, 2)]
+TURN = [(0.9e-3, 1.1e-3, k) for k in (3, 4, 5)]
+
+
+@pytest.mark.parametrize(("fine", "more", "coordinate"), STRAY)
+def test_a_standing_foot_may_stray_by_a_tenth_of_a_millimetre(fine, more, coordinate):
+    moved = strayed(fine, coordinate).sample(np.array([0.0, 1.0]))
+    assert moved.support.all()
+    strays = np.diff(moved.left_foot.position, axis=0)[0]
+    assert strays == pytest.approx(fine / 2 * np.eye(3)[coordinate], abs=1e-12)
+    with pytest.raises(TrajectoryError, match="bears load"):
+        strayed(more, coordinate).sample(np.array([1.0]))
+
+
+@pytest.mark.parametrize(("fine", "more", "coordinate"), TURN)
+def test_a_standing_foot_may_turn_by_a_milliradian(fine, more, coordinate):
+    moved = strayed(fine, coordinate).sample(np.array([0.0, 1.0]))
+    assert moved.support.all()
+    start, end = moved.left_foot.rotation
+    turned = np.arccos((np.trace(start.T @ end) - 1) / 2)
+    assert turned == pytest.approx(fine / 2, rel=1e-4)
+    with pytest.raises(TrajectoryError, match="bears load"):
+        strayed(more, coordinate).sample(np.array([1.0]))
 
 
 @pytest.mark.parametrize("rate", [13, 25, 60, 100])

@@ -9,7 +9,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.contacts.soles.foot import FRICTION, Foot, by_name, check_free, check_friction
-from thesis_pin.contacts.soles.lowest import Lowest, lowest, sole
+from thesis_pin.contacts.soles.lowest import Lowest, covers, lowest, sole
 from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.model.loading import frame_id
@@ -19,6 +19,7 @@ from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
 
+_LEVEL = 0.1  # lean of a sole that isn't worth a word [deg]
 _BESIDE = 0.02  # joints that near the lowest may be feet as well [m]
 
 
@@ -31,10 +32,13 @@ def find_feet(
 ) -> tuple[Foot, ...]:
     """Feet of a robot, each with what of its collision shapes is lowest in a pose.
 
-    What lies within 1 mm of a link's lowest point is its sole, if that is 20 mm wide; else it is
-    an edge or a point, with the radius of a ball where it is one. Soles have at most eight
-    corners. Where nobody says which, feet are all links at the ends of limbs that end no higher
-    above the lowest than 3 % of the robot's height. Without collision shapes visual ones are taken.
+    What lies within 1 mm of a link's lowest point is its sole, if that is 20 mm wide; else it
+    is an edge or a point, with the radius of a ball where it is one. Where the pose holds a
+    link tilted, its sole is a face that leans by less than 30° and is half as large again as
+    what is lowest. Where a point or an edge lies within 1 mm in the sole of another link that
+    is fixed to it, that is the sole. ``source`` says both. Soles have at most eight corners.
+    Where nobody says which, feet are all links at the ends of limbs that end no higher above
+    the lowest than 3 % of the robot's height. Without collision shapes visual ones are taken.
 
     Args:
         robot: The robot, with a free root.
@@ -86,9 +90,15 @@ class _Shapes:
 
     def of(self, robot: ClosedRobot, frame: int) -> list[pin.GeometryObject]:
         """A link's own shapes; of a frame without any those of its whole body."""
-        body = self.each[robot.model.frames[frame].parentJoint]
-        own = [shape for shape in body if shape.parentFrame == frame]
-        return own or body
+        joint = robot.model.frames[frame].parentJoint
+        return self.links(joint).get(frame) or self.each[joint]
+
+    def links(self, joint: int) -> dict[int, list[pin.GeometryObject]]:
+        """Shapes of each link that moves with a joint, by the link's frame."""
+        found: dict[int, list[pin.GeometryObject]] = {}
+        for shape in self.each[joint]:
+            found.setdefault(shape.parentFrame, []).append(shape)
+        return found
 
 
 def _foot(robot: ClosedRobot, data: pin.Data, shapes: _Shapes, name: str, friction: float) -> Foot:
@@ -96,6 +106,13 @@ def _foot(robot: ClosedRobot, data: pin.Data, shapes: _Shapes, name: str, fricti
     frame = frame_id(model, name, where="feet")
     joint = model.frames[frame].parentJoint
     found = sole(shapes.of(robot, frame), data.oMi[joint], up)
+    word = shapes.word
+    if found is not None and len(found.corners) < 3:
+        for other, theirs in shapes.links(joint).items():
+            face = sole(theirs, data.oMi[joint], up) if other != frame else None
+            if face is not None and covers(face, found):
+                found, word = face, f"{shapes.word} as {model.frames[other].name}"
+                break
     if found is None:
         because = f" ({shapes.reason})" if shapes.reason else ""
         raise BadInput(
@@ -103,7 +120,7 @@ def _foot(robot: ClosedRobot, data: pin.Data, shapes: _Shapes, name: str, fricti
             where=robot.description.where,
             remedy=f"Say what meets the floor: {name}=0.2x0.1 (a sole, in metres) or {name}=point",
         )
-    return _in_frame(name, data.oMf[frame], found, friction, shapes.word)
+    return _in_frame(name, data.oMf[frame], found, friction, word)
 
 
 def _in_frame(name: str, place: pin.SE3, found: Lowest, friction: float, word: str) -> Foot:
@@ -124,6 +141,8 @@ def _in_frame(name: str, place: pin.SE3, found: Lowest, friction: float, word: s
     if found.radius:
         what = f"a ball of {found.radius * 1e3:.3g} mm"
     source = f"{what} of its {word}"
+    if (lean := np.degrees(np.arccos(min(float(up[2]), 1.0)))) > _LEVEL:
+        source += f", which leans by {lean:.3g}° in the pose"
     if found.lost > 0:
         source += f", {len(corners)} corners of it ({found.lost:.1%} of the area left out)"
     return Foot(name, name, axes, corners, float(friction), found.radius, source)
@@ -135,9 +154,9 @@ def _guessed(robot: ClosedRobot, data: pin.Data, shapes: _Shapes) -> list[str]:
     ends: dict[int, tuple[float, str]] = {}
     for joint in range(1, model.njoints):
         each = [
-            (found.height, model.frames[shape.parentFrame].name)
-            for shape in shapes.each[joint]
-            if (found := lowest([shape], data.oMi[joint], up)) is not None
+            (found.height, model.frames[frame].name)
+            for frame, own in shapes.links(joint).items()
+            if (found := lowest(own, data.oMi[joint], up)) is not None
         ]
         if each:
             ends[joint] = min(each)

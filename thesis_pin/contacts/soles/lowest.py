@@ -10,6 +10,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.contacts.soles.outlines import area, hull, simplified
+from thesis_pin.contacts.stability import signed_margin
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -129,6 +130,17 @@ def sole(shapes: Sequence[pin.GeometryObject], placement: pin.SE3, up: Array) ->
         if one is not None and _size(one) > _LARGER * _size(best):
             best = one
     return best
+
+
+def covers(face: Lowest, other: Lowest) -> bool:
+    """Whether a face has all of another's corners in it, but for ``sole_face`` above or below."""
+    if len(face.corners) < 3:
+        return False
+    points = other.corners - other.radius * face.up
+    flat = _level(face.up)
+    apart = np.abs((points - face.corners[0]) @ face.up).max()
+    inside = signed_margin(hull(face.corners @ flat), points @ flat).min()
+    return bool(apart <= TOLERANCES.sole_face and inside >= 0)
 
 
 def _seen(

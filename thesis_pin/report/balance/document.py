@@ -52,8 +52,9 @@ class BalanceReport(BalanceNumbers):
                 f"The centre of mass is up to {self.sunk:.3g} m below the floor that feet stand "
                 "on: is the root where, and turned as, its columns say, a quaternion's w last?"
             )
+        slides = {one.foot for one in self.slides}  # which the verdict says
         for name, moved in zip(self.names, self.sliding, strict=True):
-            if moved > self.resting:
+            if moved > self.resting and name not in slides:
                 found.append(
                     f"{name} moves at up to {moved:.3g} m/s while it bears load: it is taken for "
                     "resting there."
@@ -157,6 +158,7 @@ class BalanceReport(BalanceNumbers):
                 "pull": why.pull,
                 "outside": why.outside,
             },
+            "slides": [one.document() for one in self.slides],
             "peak_normal_force": found.normal_force.max(axis=0),
             "peak_friction_used": list(self.peak_friction),
             "level": float(found.level.max()),

@@ -24,10 +24,10 @@ from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.balance.document import BalanceReport
-from thesis_pin.report.balance.drawn import drawn
-from thesis_pin.report.balance.setting import HELD, held, moving
+from thesis_pin.report.balance.drawn import Judge, drawn
+from thesis_pin.report.balance.setting import HELD, Setting, held, moving
 from thesis_pin.report.torque.document import TorqueReport
-from thesis_pin.report.torque.drawn import Way
+from thesis_pin.report.torque.nearby import Way
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -92,27 +92,7 @@ def balance_report(
         whole = whole_motion(robot, motion, closed, precision=precision)
         told = motion.base is not None and motion.tool is None
         setting = moving(robot, whole, feet, floor, support, told)
-    joints = setting.whole.joints
-    weight = total_mass(robot) * gravity_size(robot)
-
-    def judge(
-        q: Array, v: Array, a: Array, sliding: Array | None, rows: NDArray[np.intp]
-    ) -> FootDynamics:
-        moved = setting.placed(robot, JointTrajectory(joints.time[rows], q, v, a))
-        return foot_dynamics(
-            robot,
-            feet,
-            moved.q,
-            moved.v,
-            moved.a,
-            support=setting.stands[rows],
-            floor=setting.floor,
-            sharing=sharing,
-            slack=TOLERANCES.balance * weight,
-            sliding=sliding,
-            precision=precision,
-        )
-
+    joints, judge = setting.whole.joints, _judging(robot, feet, setting, sharing, precision)
     every = np.arange(len(joints.time))
     found = judge(joints.q, joints.v, joints.a, None, every)
     opened = None
@@ -127,6 +107,39 @@ def balance_report(
         robot, motion, setting.whole, carried, precision, None if opened is None else opened.motors
     )
     return BalanceReport(motors, found, motion.name == HELD_POSE, (*said, *setting.said), opened)
+
+
+def _judging(
+    robot: ClosedRobot,
+    feet: Sequence[Foot],
+    setting: Setting,
+    sharing: str,
+    precision: float | None,
+) -> Judge:
+    """What works out the contact forces of motions in a setting."""
+    slack = TOLERANCES.balance * total_mass(robot) * gravity_size(robot)
+    time = setting.whole.joints.time
+
+    def judge(
+        q: Array, v: Array, a: Array, sliding: Array | None, rows: NDArray[np.intp]
+    ) -> FootDynamics:
+        """Of one motion, at some samples of the setting's own."""
+        moved = setting.placed(robot, JointTrajectory(time[rows], q, v, a))
+        return foot_dynamics(
+            robot,
+            feet,
+            moved.q,
+            moved.v,
+            moved.a,
+            support=setting.stands[rows],
+            floor=setting.floor,
+            sharing=sharing,
+            slack=slack,
+            sliding=sliding,
+            precision=precision,
+        )
+
+    return judge
 
 
 def _sources(feet: Sequence[Foot]) -> list[str]:

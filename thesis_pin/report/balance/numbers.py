@@ -14,6 +14,7 @@ from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.contacts.standing.phases import HIGHER, touch_speed
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.report.balance.drawn import DrawnBalance, border
+from thesis_pin.report.balance.slides import Slide, slides_of
 from thesis_pin.report.torque.document import TorqueReport
 from thesis_pin.smoothing.intervals import Interval, least_value
 from thesis_pin.tolerances import TOLERANCES
@@ -66,6 +67,11 @@ class BalanceNumbers:
 
     @property
     def balanced(self) -> bool | None:
+        """Whether the floor gives it, and no foot that bears load slides; None if open."""
+        return False if self.slides else self.supplied
+
+    @property
+    def supplied(self) -> bool | None:
         """Whether the floor gives all that the motion needs; None if its samples can't say."""
         if self.drawn is None:
             return bool(self.given.all())
@@ -123,6 +129,11 @@ class BalanceNumbers:
         """How fast each foot moves at most while it bears load [m/s]."""
         moved = np.where(self.found.support, self.found.stance.speed, 0.0)
         return tuple(float(x) for x in moved.max(axis=0))
+
+    @cached_property
+    def slides(self) -> tuple[Slide, ...]:
+        """Feet that slide while they bear load; what the floor does to them isn't known."""
+        return slides_of(self.found, self.time, self.resting)
 
     @cached_property
     def off_floor(self) -> tuple[float, ...]:

@@ -26,6 +26,9 @@ def sentences(report: BalanceNumbers) -> list[str]:
     if (reason := why_not(report)) is not None:
         balance[0] = f"By its own curves {balance[0][0].lower()}{balance[0][1:]}"
         balance.insert(0, reason)
+    if report.slides:
+        balance[0] = f"Taken as resting, {balance[0][0].lower()}{balance[0][1:]}"
+        balance.insert(0, _slides(report))
     return [
         *balance,
         *_friction(report),
@@ -39,7 +42,7 @@ def sentences(report: BalanceNumbers) -> list[str]:
 def why_not(report: BalanceNumbers) -> str | None:
     """Why the motion's samples carry no verdict on balance; None if they do, or are exact."""
     drawn = report.drawn
-    if drawn is None or report.balanced is not None:
+    if drawn is None or report.supplied is not None:
         return None
     if drawn.few:
         return FEW
@@ -66,6 +69,13 @@ def _balance(report: BalanceNumbers) -> list[str]:
     return [f"The robot falls{when}{often}: {why}." for why in _causes(report)[:1]] + [
         f"And {why}." for why in _causes(report)[1:]
     ]
+
+
+def _slides(report: BalanceNumbers) -> str:
+    each = "; ".join(one.said() for one in report.slides)
+    alone = len(report.slides) == 1
+    what = "A foot slides while it bears" if alone else "Feet slide while they bear"
+    return f"{what} load: {each}."
 
 
 def _causes(report: BalanceNumbers) -> list[str]:

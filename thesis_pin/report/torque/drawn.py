@@ -6,26 +6,21 @@ motion itself is, at some of its samples.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import ThesisPinError
-from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.loops.motion.near import near_motions
 from thesis_pin.loops.motion.smoothing import itself
-from thesis_pin.loops.motion.told import JointMotion
-from thesis_pin.loops.motion.whole import WholeMotion
-from thesis_pin.smoothing.rates import resting
+from thesis_pin.report.torque.nearby import Way, near_ways, since_start
 
 Array = NDArray[np.float64]
-
-SAMPLES = 101
-"""Evenly spaced samples at which variants are judged, beside extremes: that bounds the cost."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,26 +60,6 @@ class Drawn:
     unknown: Array
 
 
-@dataclass(frozen=True, eq=False)
-class Way:
-    """How a motion is carried.
-
-    Attributes:
-        robot: The robot.
-        motion: The motion of some joints.
-        whole: What all joints do in it.
-        precision: See :func:`thesis_pin.loops.motion.whole.whole_motion`.
-        external: Constant wrenches from outside, see
-            :func:`thesis_pin.loops.dynamics.inverse_dynamics`.
-    """
-
-    robot: ClosedRobot
-    motion: JointMotion
-    whole: WholeMotion
-    precision: float | None
-    external: Mapping[str, Array]
-
-
 def drawn(way: Way, extremes: Sequence[int]) -> Drawn | None:
     """Judge the variants of a motion; None if it has none.
 
@@ -92,49 +67,18 @@ def drawn(way: Way, extremes: Sequence[int]) -> Drawn | None:
         way: How it is carried.
         extremes: Samples at which the motion itself has its largest numbers.
     """
-    variants = way.motion.variants
-    if variants is None:
+    near = near_ways(way, extremes, partial(_torque, way))
+    if near is None:
         return None
-    last = len(way.motion.time) - 1
-    even = np.linspace(0, last, min(last + 1, SAMPLES)).round().astype(np.intp)
-    keep = np.union1d(even, np.asarray(extremes, dtype=np.intp))
-    moved = variants.moved(itself(way.motion, keep), _since_start(way)[keep], variants.others())
-    *whole, good = near_motions(way.robot, way.whole, keep, moved, way.precision)
-    sliding, unknown = None, np.zeros((len(keep), len(way.robot.actuators)))
-    if way.robot.model.upperDryFrictionLimit.any():
-        v, rates = way.whole.joints.v, whole[1]
-        rival = rates[0] if good[0] else None
-        still, creeping = resting(way.motion.time, keep, v, rates[1:][good[1:]], rival)
-        sliding = np.where(still, 0.0, np.sign(v))
-        unknown = _unknown(way, keep, sliding[keep], creeping[keep])
-    found = _judged(way, whole, good, None if sliding is None else sliding[keep])
+    found = _judged(way, near.whole, near.good, near.here)
     draws = [one for one in found[1:] if one is not None]
-    stacked = _stacked(draws) if draws else None
-    return Drawn(keep, found[0], stacked, len(found) - 1 - len(draws), sliding, unknown)
+    lost = len(found) - 1 - len(draws)
+    return Drawn(near.keep, found[0], stacked(draws), lost, near.sliding, near.unknown)
 
 
-def _since_start(way: Way) -> Array:
-    return np.asarray(way.motion.time - way.motion.time[0])
-
-
-def _unknown(
-    way: Way, keep: NDArray[np.intp], sliding: Array, creeping: NDArray[np.bool_]
+def _torque(
+    way: Way, q: Array, v: Array, a: Array, sliding: Array, rows: NDArray[np.intp]
 ) -> Array:
-    """What friction of joints that may move either way can add to each motor's torque."""
-    joints, total = way.whole.joints, np.zeros((len(keep), len(way.robot.actuators)))
-    state = joints.q[keep], joints.v[keep], joints.a[keep]
-    rubs = (way.robot.model.upperDryFrictionLimit > 0) & creeping.any(axis=0)
-    if not rubs.any():
-        return total
-    without = _torque(way, *state, sliding)
-    for joint in np.flatnonzero(rubs):
-        one = sliding.copy()
-        one[creeping[:, joint], joint] = 1.0
-        total += np.abs(_torque(way, *state, one) - without)
-    return total
-
-
-def _torque(way: Way, q: Array, v: Array, a: Array, sliding: Array) -> Array:
     found = inverse_dynamics(
         way.robot, q, v, a, sliding=sliding, precision=way.precision, check=False
     )
@@ -151,7 +95,7 @@ def judged(way: Way, keep: NDArray[np.intp], pick: NDArray[np.intp]) -> list[Jud
     """
     variants = way.motion.variants
     assert variants is not None
-    moved = variants.moved(itself(way.motion, keep), _since_start(way)[keep], pick)
+    moved = variants.moved(itself(way.motion, keep), since_start(way)[keep], pick)
     *whole, good = near_motions(way.robot, way.whole, keep, moved, way.precision)
     return _judged(way, whole, good, None)
 
@@ -189,6 +133,9 @@ def _dynamics(way: Way, whole: Sequence[Array], sliding: Array | None) -> Judged
     return Judged(dynamics.torque, v[..., way.robot.actuated], force)
 
 
-def _stacked(found: Sequence[Judged]) -> Judged:
+def stacked(found: Sequence[Judged]) -> Judged | None:
+    """Some variants as one stack; None of none."""
+    if not found:
+        return None
     names = vars(found[0])
     return Judged(**{name: np.concatenate([getattr(one, name) for one in found]) for name in names})

@@ -17,7 +17,8 @@ from thesis_pin.loops.motion.whole import WholeMotion
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
-from thesis_pin.report.torque.drawn import Drawn, Judged, Way
+from thesis_pin.report.torque.drawn import Drawn, Judged
+from thesis_pin.report.torque.nearby import Way
 from thesis_pin.report.torque.uncertainty import Headlines, headlines, shares
 from thesis_pin.tolerances import TOLERANCES
 

@@ -3,8 +3,10 @@
 import numpy as np
 import pinocchio as pin
 import pytest
+from scipy.spatial import ConvexHull
 from standing_robots import standing
 
+import scout_pin
 import thesis_pin
 from thesis_pin.contacts.soles.finding import find_feet
 from thesis_pin.contacts.soles.lowest import lowest, sole
@@ -61,6 +63,45 @@ def test_a_box_has_a_sole_also_where_the_pose_holds_it_tilted():
     tilted = found(robot, sole, angle=0.1)
     assert len(tilted.corners) == 4
     assert tilted.up @ UP == pytest.approx(np.cos(0.1))
+
+
+@pytest.mark.parametrize("pitch", [0.0, 15.0, -15.0])
+@pytest.mark.parametrize("names", [None, ["left_foot", "right_foot"], ["left_sole", "right_sole"]])
+def test_scout_s_urdf_has_its_soles_below_the_struts_drawn_into_them_also_tilted(names, pitch):
+    own = scout_pin.load()
+    robot = thesis_pin.load(scout_pin.URDF_PATH, root_joint=pin.JointModelFreeFlyer())
+    pose = robot.q0.copy()
+    pose[3:7] = pin.Quaternion(pin.exp3(np.array([np.radians(pitch), 0.0, 0.0]))).coeffs()
+    data = robot.model.createData()
+    pin.framesForwardKinematics(robot.model, data, pose)
+    feet = find_feet(robot, names, pose=pose)
+    assert len(feet) == 2
+    for foot, side, contact in zip(feet, ("left", "right"), own.contacts, strict=True):
+        assert foot.kind == "sole"
+        assert f"leans by {abs(pitch):.3g}°" in foot.source or not pitch
+        sole_frame = data.oMf[robot.model.getFrameId(f"{side}_sole")]
+        place = sole_frame.actInv(data.oMf[robot.model.getFrameId(foot.frame)])
+        turned = place.rotation @ foot.placement[:3, :3]
+        corners = foot.corners @ turned[:, :2].T
+        corners += place.translation + place.rotation @ foot.placement[:3, 3]
+        assert np.abs(corners[:, 2]).max() < 1e-6
+        apart = np.linalg.norm(corners[:, None, :2] - contact.outline, axis=-1)
+        assert apart.min(axis=1).max() < 1e-6  # eight of the outline's corners
+        assert ConvexHull(corners[:, :2]).volume > 0.95 * ConvexHull(contact.outline).volume
+
+
+def test_a_toe_beside_a_heel_on_one_link_keeps_its_own_ball():
+    tied = (
+        '<link name="toe"><collision><geometry><sphere radius="0.02"/></geometry></collision>'
+        "</link>"
+        '<joint name="k" type="fixed"><parent link="b"/><child link="toe"/>'
+        '<origin xyz="0.2 0 0"/></joint></robot>'
+    )
+    urdf = shape('<box size="0.2 0.1 0.04"/>').urdf.replace("</robot>", tied)
+    robot = ClosedRobot(urdf, root_joint=pin.JointModelFreeFlyer())
+    heel, toe = find_feet(robot, ["b", "toe"])
+    assert (heel.kind, toe.kind) == ("sole", "point")
+    assert toe.radius == pytest.approx(0.02)
 
 
 def test_a_ball_is_a_point_with_a_radius_a_bar_an_edge_and_a_disc_a_sole_of_eight_corners():

@@ -281,6 +281,51 @@ def test_a_robot_upside_down_on_its_feet_is_doubted():
         assert any("0.5 m below the floor" in said for said in report.warnings()) == doubted
 
 
+def slid(tmp_path, way, on):
+    """The report of a block that goes along x by a way while its sole bears load or not."""
+    robot, feet = block()
+    time = np.linspace(0, 1, len(way))
+    columns = {"t": time, "j": 0 * time, "base_x": way}
+    columns |= {f"base_{name}": 0 * time for name in ("y", "z", "roll", "pitch", "yaw")}
+    (tmp_path / "slide.csv").write_bytes(csv_bytes(columns))
+    told = thesis_pin.read_motion(robot, tmp_path / "slide.csv", smooth="none")
+    return balance_report(robot, told, feet=feet, support=on[:, None])
+
+
+def test_a_foot_that_slides_while_it_bears_load_is_no_balance_and_said_first(tmp_path):
+    time, on = np.linspace(0, 1, 101), np.ones(101, dtype=bool)
+    report = slid(tmp_path, 0.3 * time**2 / 2, on)  # 0.3 m/s² take 5 % of the friction
+    assert report.supplied
+    assert report.balanced is False
+    assert report.within_limits is False
+    (slide,) = report.slides
+    assert (slide.foot, slide.time) == ("sole", 1.0)
+    assert slide.speed == pytest.approx(0.3, abs=1e-6)
+    assert slide.place == pytest.approx((0.15, 0, -0.5), abs=1e-6)
+    slow = report.resting**2 / (2 * 0.3)  # the way until it is faster than what rests
+    assert slide.way == pytest.approx(0.15 - slow, abs=1e-3)
+    first, second, *_ = report.verdict()
+    assert first.startswith("A foot slides while it bears load: sole at up to 0.3 m/s (t = 1 s")
+    assert "x = 0.150" in first
+    assert second.startswith("Taken as resting, the robot keeps its balance")
+    assert not any("moves at" in said for said in report.warnings())
+    document = json.loads(json_bytes(report.document()))
+    assert document["summary"]["slides"][0]["speed"] == pytest.approx(slide.speed)
+    assert document["summary"]["balanced"] is False
+
+
+def test_a_foot_that_is_said_to_bear_load_a_sample_too_early_is_warned_of_and_doesn_t_slide(
+    tmp_path,
+):
+    time = np.linspace(0, 1, 1001)
+    way = 0.5 * np.minimum(time - 0.5, 0.0)  # comes at 0.5 m/s, and stops
+    report = slid(tmp_path, way, time > 0.4985)
+    assert report.slides == ()
+    assert any("sole moves at up to" in said for said in report.warnings())
+    late = slid(tmp_path, way, time > 0.48)
+    assert late.slides[0].way == pytest.approx(0.01, rel=0.1)
+
+
 @pytest.mark.parametrize(("push", "stands"), [(1.0, True), (10.0, False)])
 def test_the_sample_that_is_named_is_that_of_the_largest_acceleration(tmp_path, push, stands):
     robot, feet = block()
@@ -291,6 +336,6 @@ def test_the_sample_that_is_named_is_that_of_the_largest_acceleration(tmp_path, 
     told = thesis_pin.read_motion(robot, tmp_path / "push.csv", smooth="none")
     on = np.ones((21, 1), dtype=bool)
     report = balance_report(robot, told, feet=feet, support=on)
-    assert report.balanced == stands
+    assert report.supplied == stands  # it slides as it is pushed
     assert report.worst == 20
     assert ("t = 0.2 s" in report.verdict()[0]) or not report.level
