@@ -22,7 +22,7 @@ from scout_pin.specification import CONES_PATH, JOINT_NAMES, SIDES, Specificatio
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.contacts.feet import sole_corners
-from thesis_pin.contacts.known import contact_of
+from thesis_pin.contacts.known import contacts_of
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.model.mechanism.inertia import Reading
@@ -134,8 +134,9 @@ class Scout(LoadedRobot):
     def contacts(self) -> tuple[Contact, Contact]:
         """What the floor can do to each sole, left then right."""
         friction = self.specification.assumptions.floor_friction.coefficient
-        left, right = (np.array(self.specification.leg(side).sole) for side in SIDES)
-        return contact_of(left, friction, CONES_PATH), contact_of(right, friction, CONES_PATH)
+        soles = [np.array(self.specification.leg(side).sole) for side in SIDES]
+        left, right = contacts_of(soles, friction, CONES_PATH)
+        return left, right
 
     @property
     def mass(self) -> float:

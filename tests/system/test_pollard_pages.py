@@ -173,7 +173,7 @@ def test_the_tip_warns_as_the_arm_is_stretched(report):
 def test_the_report_page_is_complete_quiet_and_fits_a_phone(browser, report, folder, artefacts):
     file = folder / "report.html"
     file.write_bytes(trajectory_page(report))
-    plots = curves.plots(report, np.arange(2))
+    plots = curves.plots(report)
     for width, height, mobile in ((1280, 900, False), (390, 844, True)):
         browser.open(file.as_uri(), width, height, mobile)
         browser.until("window.ready && player.framesDrawn > 0")

@@ -72,6 +72,7 @@ def _report(arguments: argparse.Namespace) -> BalanceReport:
             feet=feet,
             support=support,
             floor=_floor(arguments),
+            fitted=arguments.floor_height is None,
             sharing=arguments.sharing,
             precision=arguments.precision,
             chosen=said,

@@ -143,8 +143,7 @@ def which_stance(words: Words) -> None:
         "--floor-height",
         type=number("--floor-height"),
         metavar="M",
-        help="height of the floor at the world's origin [m] (default: below the feet; 0 where a "
-        "slope is given and the root told)",
+        help="height of the floor at the world's origin [m] (default: below the feet)",
     )
     words.add_argument(
         "--slope",

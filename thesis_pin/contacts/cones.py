@@ -25,11 +25,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from thesis_pin.contacts.facets import cone_facets
+from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import real
 from thesis_pin.numeric.elementwise import blocks
-from thesis_pin.numeric.nonnegative import nonnegative
 from thesis_pin.numeric.planar import convex_hull
 
 FRICTION_EDGES = 8
@@ -125,9 +125,8 @@ class Contact:
             the wrench itself (unscaled), shape ``(6,)``.
         """
         target = self.scale(vector("wrench", wrench, 6))
-        weights, size = nonnegative(self.rays.T, target)
-        missing = target - self.rays.T @ weights
-        return size, missing / np.repeat([self.length, 1.0], 3)
+        missing, _ = beyond_cone(self.rays.T, target)
+        return float(np.linalg.norm(missing)), missing / np.repeat([self.length, 1.0], 3)
 
     def violation_at_most(self, wrenches: np.ndarray, like: np.ndarray) -> np.ndarray:
         """Upper bounds of :meth:`violation`, tight where the same rays come nearest.
@@ -139,7 +138,7 @@ class Contact:
         Returns:
             Bounds [N·m, forces scaled], shape ``(n,)``.
         """
-        weights, _ = nonnegative(self.rays.T, self.scale(vector("like", like, 6)))
+        _, weights = beyond_cone(self.rays.T, self.scale(vector("like", like, 6)))
         rays, targets = self.rays[weights > 0].T, self.scale(wrenches).T
         found = np.linalg.lstsq(rays, targets, rcond=None)[0]
         # Whatever weights aren't negative give an admissible wrench, and none is nearer than the

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,3 +68,8 @@ class Floor:
     def flat(self, points: Array) -> Array:
         """Points ``(..., 3)`` in the floor's own two axes, from its origin [m], ``(..., 2)``."""
         return np.asarray((points - self.origin) @ self.axes[:, :2])
+
+
+def raised(floor: Floor, way: float) -> Floor:
+    """A floor moved along its normal [m]."""
+    return replace(floor, height=floor.height + way / float(floor.normal[2]))

@@ -3,7 +3,7 @@
 SciPy's ``nnls`` (1.17) is not used for it: where components are zero but for rounding it may
 end at a point that is none, and say that nothing is left over. By Moreau's theorem what is left
 over is the nearest point of the polar cone, which is a strictly convex quadratic programme in as
-few unknowns as a wrench has components.
+few unknowns as a wrench has components; the multipliers of its limits are the rays' weights.
 
 Source: Moreau, "Décomposition orthogonale d'un espace hilbertien selon deux cônes mutuellement
 polaires", C. R. Acad. Sci. 255 (1962).
@@ -20,11 +20,13 @@ from thesis_pin.errors import NoSolution
 Array = NDArray[np.float64]
 
 _NONE = -1e30  # no lower bound
-_ATTEMPTS = 4  # with a hundredth of the solver's precision each, where it finds none
+# On a cone's border the distance is as wrong as the root of the solver's precision.
+_PRECISE = 1e-14
+_ATTEMPTS = 7  # with a tenth of the precision each, where it finds none
 _ROUNDING = 1e-11  # a distance that is none, relative to the vector
 
 
-def beyond_cone(rays: Array, target: Array) -> Array:
+def beyond_cone(rays: Array, target: Array) -> tuple[Array, Array]:
     """What is left of a vector when the nearest one of a cone is taken off.
 
     Args:
@@ -33,31 +35,35 @@ def beyond_cone(rays: Array, target: Array) -> Array:
         target: The vector, shape ``(r,)``.
 
     Returns:
-        Shape ``(r,)``: zero inside the cone, or within rounding of it; its length is the distance.
+        What is left, shape ``(r,)``: zero inside the cone, or within rounding of it; its length
+        is the distance. And weights of the rays that make the nearest vector, shape ``(k,)``, at
+        most r of them not zero.
 
     Raises:
         NoSolution: The programme has no answer, which can't be.
     """
     size = float(np.abs(target).max())
+    weights = np.zeros(rays.shape[1])
     if size == 0.0:
-        return np.zeros(len(target))
+        return np.zeros(len(target)), weights
     lengths = np.linalg.norm(rays, axis=0)
-    normals = np.ascontiguousarray((rays[:, lengths > 0] / lengths[lengths > 0]).T)
-    if not len(normals):
-        return target.copy()
-    count = len(normals)
-    upper, lower = np.zeros(count), np.full(count, _NONE)
+    some = np.flatnonzero(lengths)
+    if not some.size:
+        return target.copy(), weights
+    normals = np.ascontiguousarray((rays[:, some] / lengths[some]).T)
+    upper, lower = np.zeros(some.size), np.full(some.size, _NONE)
     for attempt in range(_ATTEMPTS):
-        found, _, flag, _ = daqp.solve(
+        found, _, flag, more = daqp.solve(
             np.eye(len(target)),
             -target / size,
             normals,
             upper,
             lower,
-            np.zeros(count, dtype=np.int32),
-            primal_tol=1e-12 * 100.0**attempt,
+            np.zeros(some.size, dtype=np.int32),
+            primal_tol=_PRECISE * 10.0**attempt,
         )
         if flag > 0:
             rest = np.asarray(found)
-            return rest * (size if np.linalg.norm(rest) > _ROUNDING else 0.0)
+            weights[some] = more["lam"] * size / lengths[some]
+            return rest * (size if np.linalg.norm(rest) > _ROUNDING else 0.0), weights
     raise NoSolution("the distance of a wrench from a cone wasn't found", size, "N·m")

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from thesis_pin.contacts.cones import Contact
+from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.contacts.programme import ConeProgramme, Held
 from thesis_pin.numeric.arrays import skew
-from thesis_pin.numeric.nonnegative import nonnegative
 
 Pair = tuple[np.ndarray, np.ndarray]
 """The same quantity of both feet."""
@@ -183,4 +183,5 @@ def _missing(total: np.ndarray, maps: Pair, contacts: tuple[Contact, Contact]) -
     """Size of the least wrench [N·m, forces scaled] two feet can't supply together."""
     reference = maps[0]  # distances are measured about the first sole
     rays = [contacts[0].rays, contacts[1].rays @ np.linalg.inv(maps[1]).T @ reference.T]
-    return nonnegative(np.concatenate(rays).T, reference @ total)[1]
+    rest, _ = beyond_cone(np.concatenate(rays).T, reference @ total)
+    return float(np.linalg.norm(rest))

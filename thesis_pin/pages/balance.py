@@ -6,8 +6,7 @@ import numpy as np
 
 from thesis_pin.pages.balance_scene import scene
 from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
-from thesis_pin.pages.scene import thinned
-from thesis_pin.pages.torque import MOST_SAMPLES, motors_tables
+from thesis_pin.pages.torque import motors_tables
 from thesis_pin.report.balance.curves import plots
 from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.balance.tables import feet_table
@@ -18,7 +17,7 @@ def balance_page(report: BalanceReport) -> bytes:
     """A balance report as one self-contained HTML file.
 
     Args:
-        report: The report; plots show at most 1 201 of its samples.
+        report: The report; plots show every peak of its curves.
     """
     time, held = report.time, report.held
     span = "held" if held else f"{time[-1] - time[0]:.4g} s, {len(time)} samples"
@@ -29,7 +28,7 @@ def balance_page(report: BalanceReport) -> bytes:
             good=report.within_limits,
             verdict=[*report.doubts(), *report.verdict(), *report.warnings()],
             tiles=_tiles(report),
-            plots=plots(report, thinned(time, MOST_SAMPLES)),
+            plots=plots(report),
             tables=_tables(report),
             scene=scene(report),
         )

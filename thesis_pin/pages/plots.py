@@ -5,16 +5,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from thesis_pin.report.curves import BLACK, Area, Band, Curve, Limit, Plot
+from thesis_pin.report.curves import BLACK, Area, Band, Curve, Limit, Plot, condensed
 
 MARGINS = {"l": 58, "r": 14, "t": 12, "b": 44}
 """Fixed, so that the page can place its time cursor over a plot."""
+
+STRETCHES = 600
+"""Of a plot's x axis: about as many as it has columns of pixels."""
 
 _MARKS: dict[str, dict[str, object]] = {"dot": {"size": 4}, "cross": {"size": 6, "symbol": "x"}}
 
 
 def figure(plot: Plot) -> dict[str, object]:
     """A plot as ``{"data": […], "layout": {…}}``, JSON-ready."""
+    plot = condensed(plot, STRETCHES)
     axis = {"gridcolor": "#e3e7eb", "zerolinecolor": "#9aa0a6", "automargin": False}
     x: dict[str, object] = axis | {"title": {"text": plot.across, "standoff": 6}}
     y: dict[str, object] = axis | {"title": {"text": plot.label, "standoff": 4}}

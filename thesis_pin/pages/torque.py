@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
-from thesis_pin.pages.scene import thinned
 from thesis_pin.pages.torque_scene import scene
 from thesis_pin.report.tables import Table
 from thesis_pin.report.torque.curves import plots
@@ -13,15 +12,12 @@ from thesis_pin.report.torque.uncertainty import open_table
 from thesis_pin.report.torque.verdict import carried
 from thesis_pin.report.uncertainty.document import columns_table
 
-MOST_SAMPLES = 1201
-"""Of a plot."""
-
 
 def torque_page(report: TorqueReport) -> bytes:
     """A torque report as one self-contained HTML file.
 
     Args:
-        report: The report; plots show at most :data:`MOST_SAMPLES` of its samples.
+        report: The report; plots show every peak of its curves.
     """
     time = report.joints.time
     return html(
@@ -31,7 +27,7 @@ def torque_page(report: TorqueReport) -> bytes:
             good=report.within_limits,
             verdict=[*report.doubts(), *report.verdict(), *report.warnings()],
             tiles=_tiles(report),
-            plots=plots(report, thinned(time, MOST_SAMPLES)),
+            plots=plots(report),
             tables=[*motors_tables(report), parameters_table(report.parameters), software()],
             scene=scene(report),
         )

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import WrongShape
+from thesis_pin.numeric.arrays import ascending
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Colours that a colour-blind reader can tell apart (Okabe and Ito, 2008)."""
@@ -154,3 +155,66 @@ def both_signs(name: str, values: NDArray[np.float64]) -> list[Limit]:
 def evenly(count: int, most: int) -> NDArray[np.intp]:
     """Indices of at most ``most`` of ``count`` samples, evenly spread, both ends included."""
     return np.linspace(0, count - 1, min(count, most)).round().astype(np.intp)
+
+
+def condensed(plot: Plot, stretches: int) -> Plot:
+    """A plot with as many samples of its curves as show, each peak among them.
+
+    Args:
+        plot: With every sample there is.
+        stretches: Of the x axis, as many as it has columns of pixels; a plane's curves are
+            divided by their samples instead. Curves of so many samples stay whole.
+    """
+    curves = []
+    for curve in plot.curves:
+        x = plot.places(curve)
+        if len(x) > stretches:
+            over_time = curve.x is None
+            values = (curve.y,) if over_time else (curve.y, x)
+            keep = telling(x if over_time else np.arange(len(x)), values, stretches)
+            curve = replace(curve, x=x[keep], y=curve.y[keep])
+        curves.append(curve)
+    return replace(plot, curves=curves)
+
+
+def telling(
+    places: NDArray[np.floating | np.integer],
+    values: Sequence[NDArray[np.float64]],
+    stretches: int,
+) -> NDArray[np.intp]:
+    """Samples by which curves look as they do with all of them.
+
+    Args:
+        places: Where the samples stand, ascending, shape ``(n,)``, n ≥ 2.
+        values: Arrays of shape ``(n,)``; NaN is a gap.
+        stretches: Number of equal parts of the places' range.
+
+    Returns:
+        Indices, ascending: the first sample of each stretch and the last of all; those of the
+        least and the greatest of a stretch's values that lie beyond its first and the next
+        one's; both sides of the first beginning and the first end of a gap in it. Without gaps
+        at most ``1 + (1 + 2 len(values)) (stretches + 1)``.
+    """
+    share = (places - places[0]) / (places[-1] - places[0])
+    starts = np.flatnonzero(np.diff(np.floor(share * stretches), prepend=-1.0))
+    last = len(places) - 1
+    ends = np.append(starts[1:], last)
+
+    def first(chosen: NDArray[np.bool_]) -> NDArray[np.intp]:
+        """The first chosen sample of each stretch that has one."""
+        where = np.flatnonzero(chosen)
+        after = np.searchsorted(where, starts)
+        return where[after[after < len(where)]]
+
+    keep = [starts, np.array([last])]
+    for one in values:
+        for low in (one, -one):
+            least = np.fmin.reduceat(low, starts)
+            # Along a rising or falling stretch nothing is added: neighbours share the ends.
+            least[least >= np.fmin(low[starts], low[ends])] = np.nan
+            keep.append(first(low == np.repeat(least, np.diff(starts, append=last + 1))))
+        gap = np.isnan(one)
+        for before in (gap[:-1], ~gap[:-1]):
+            edge = first(before & (gap[:-1] != gap[1:]))
+            keep += [edge, edge + 1]
+    return np.asarray(ascending(*keep), dtype=np.intp)

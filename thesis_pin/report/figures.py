@@ -19,11 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput
-from thesis_pin.report.curves import BLACK, Plot
+from thesis_pin.report.curves import BLACK, Plot, condensed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+STRETCHES = 1333
+"""Of a plot's x axis: as many as the widest has columns of pixels."""
 
 _LINES = {"solid": "-", "dash": "--", "dot": ":"}
 _MARKS = {"dot": ".", "cross": "x"}
@@ -77,7 +80,7 @@ def panels(rows: Sequence[Sequence[Plot]], width: float, height: float, title: s
     figure, axes = new_figure(width, height, len(rows), len(rows[0]))
     for line, plots in zip(axes, rows, strict=True):
         for axis, plot in zip(line, plots, strict=True):
-            _draw(axis, plot)
+            _draw(axis, condensed(plot, STRETCHES))
     if title:
         figure.suptitle(title)
     return figure

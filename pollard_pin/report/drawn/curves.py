@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_SYMBOLS
@@ -22,8 +21,6 @@ from thesis_pin.report.curves import (
     spread,
 )
 
-Samples = NDArray[np.intp]
-
 _DASHES: tuple[Dash, ...] = ("solid", "dash", "dot")
 _MOTORS = {"base": (0, 1, 2), "wrist": (3, 4, 5)}
 _CHAINS = {
@@ -34,28 +31,27 @@ _CHAINS = {
 }
 
 
-def plots(report: TrajectoryReport, keep: Samples) -> list[Plot]:
+def plots(report: TrajectoryReport) -> list[Plot]:
     """Every plot of a report's page.
 
     Args:
         report: The report.
-        keep: Indices of the samples that are drawn.
     """
     return [
-        path_from_ahead(report, keep),
-        tool_speed(report, keep),
-        reach_margin(report, keep),
-        conditioning(report, keep),
-        loop_reactions(report, keep),
-        *(plot for row in motors(report, keep) for plot in row),
-        _joints(report, keep, 0, "chain 0 and wrist", range(6)),
-        _joints(report, keep, 0, "chains 1 and 2", range(6, 12)),
+        path_from_ahead(report),
+        tool_speed(report),
+        reach_margin(report),
+        conditioning(report),
+        loop_reactions(report),
+        *(plot for row in motors(report) for plot in row),
+        _joints(report, 0, "chain 0 and wrist", range(6)),
+        _joints(report, 0, "chains 1 and 2", range(6, 12)),
     ]
 
 
-def path_from_ahead(report: TrajectoryReport, keep: Samples) -> Plot:
+def path_from_ahead(report: TrajectoryReport) -> Plot:
     """The spray tip's path, seen from ahead and from above."""
-    x, y, z = report.motion.pose[keep, :3].T * 1e3
+    x, y, z = report.motion.pose[:, :3].T * 1e3
     return Plot(
         "Path of the spray tip",
         "Seen from ahead and from above.",
@@ -68,54 +64,54 @@ def path_from_ahead(report: TrajectoryReport, keep: Samples) -> Plot:
     )
 
 
-def tool_speed(report: TrajectoryReport, keep: Samples) -> Plot:
+def tool_speed(report: TrajectoryReport) -> Plot:
     """Speed of the spray tip."""
     return Plot(
         "Speed of the spray tip",
         "Along its path, by which paint is laid on.",
         "speed [m/s]",
-        [Curve("spray tip", report.tool_speed[keep], BLUE)],
-        report.joints.time[keep],
+        [Curve("spray tip", report.tool_speed, BLUE)],
+        report.joints.time,
     )
 
 
-def reach_margin(report: TrajectoryReport, keep: Samples) -> Plot:
+def reach_margin(report: TrajectoryReport) -> Plot:
     """Distance from what can't be reached."""
     return Plot(
         "Reach margin",
         "1 − the largest |cosine| of the closed-form kinematics; 0 is stretched, below "
         "nothing is reached.",
         "margin [-]",
-        [Curve("margin", report.solutions.margin[keep], GREEN)],
-        report.joints.time[keep],
+        [Curve("margin", report.solutions.margin, GREEN)],
+        report.joints.time,
         limits=[Limit("out of reach below", 0.0)],
     )
 
 
-def conditioning(report: TrajectoryReport, keep: Samples) -> Plot:
+def conditioning(report: TrajectoryReport) -> Plot:
     """Condition number of the six motors' Jacobian."""
     return Plot(
         "Conditioning",
         "Condition number of the six motors' Jacobian, lengths in units of 0.1 m.",
         "condition [-], lengths in 0.1 m",
-        [Curve("condition", report.holding.condition[keep], BLUE)],
-        report.joints.time[keep],
+        [Curve("condition", report.holding.condition, BLUE)],
+        report.joints.time,
     )
 
 
-def loop_reactions(report: TrajectoryReport, keep: Samples) -> Plot:
+def loop_reactions(report: TrajectoryReport) -> Plot:
     """Size of the forces in the two ball joints."""
-    forces = report.loop_force_size[keep]
+    forces = report.loop_force_size
     return Plot(
         "Loop reactions",
         "Size of the forces in the two ball joints.",
         "force [N]",
         [Curve(f"ball joint {i + 1}", forces[:, i], PALETTE[i], _DASHES[i]) for i in (0, 1)],
-        report.joints.time[keep],
+        report.joints.time,
     )
 
 
-def motors(report: TrajectoryReport, keep: Samples) -> list[list[Plot]]:
+def motors(report: TrajectoryReport) -> list[list[Plot]]:
     """Torque, speed, power and work (rows) of base and wrist motors (columns): 4.4."""
     quantities = (
         ("Torques", "torque [N·m]", report.torque, "Solved from the closed mechanism."),
@@ -130,10 +126,10 @@ def motors(report: TrajectoryReport, keep: Samples) -> list[list[Plot]]:
                 text,
                 label,
                 [
-                    Curve(ACTUATOR_SYMBOLS[k], values[keep, k], PALETTE[k % 3], _DASHES[k % 3])
+                    Curve(ACTUATOR_SYMBOLS[k], values[:, k], PALETTE[k % 3], _DASHES[k % 3])
                     for k in numbers
                 ],
-                report.joints.time[keep],
+                report.joints.time,
                 areas=_left_open(report, numbers) if values is report.torque else (),
             )
             for place, numbers in _MOTORS.items()
@@ -153,21 +149,18 @@ def _left_open(report: TrajectoryReport, numbers: Sequence[int]) -> list[Area]:
     ]
 
 
-def joints(report: TrajectoryReport, keep: Samples, order: int) -> list[Plot]:
+def joints(report: TrajectoryReport, order: int) -> list[Plot]:
     """Positions, velocities or accelerations of all joints by chain: 4.1, 4.2, 4.3.
 
     Args:
         report: The report.
-        keep: Indices of the samples that are drawn.
         order: 0, 1 or 2.
     """
-    return [_joints(report, keep, order, *chain) for chain in _CHAINS.items()]
+    return [_joints(report, order, *chain) for chain in _CHAINS.items()]
 
 
-def _joints(
-    report: TrajectoryReport, keep: Samples, order: int, name: str, numbers: Sequence[int]
-) -> Plot:
-    some = report.joints.part(keep)
+def _joints(report: TrajectoryReport, order: int, name: str, numbers: Sequence[int]) -> Plot:
+    some = report.joints
     quantity, label, values = (
         ("angles", "angle [°]", some.q),
         ("rates", "rate [°/s]", some.v),

@@ -9,19 +9,15 @@ from pollard_pin.report.tables import motors_table
 from pollard_pin.report.uncertainty.document import open_table
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
-from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
 from thesis_pin.report.uncertainty.document import columns_table
-
-MOST_SAMPLES = 1201
-"""Of a plot."""
 
 
 def trajectory_page(report: TrajectoryReport) -> bytes:
     """A trajectory report as one self-contained HTML file.
 
     Args:
-        report: The report; plots show at most :data:`MOST_SAMPLES` of its samples.
+        report: The report; plots show every peak of its curves.
     """
     return html(
         Page(
@@ -35,7 +31,7 @@ def trajectory_page(report: TrajectoryReport) -> bytes:
                 *(f"Note: {note}." for note in report.path.notes),
             ],
             tiles=_tiles(report),
-            plots=plots(report, thinned(report.joints.time, MOST_SAMPLES)),
+            plots=plots(report),
             tables=_tables(report),
             scene=path_scene(report),
         )

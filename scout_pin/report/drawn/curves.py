@@ -35,33 +35,30 @@ _FEET: tuple[tuple[str, str, Dash], ...] = (
     ("right", ORANGE, "dash"),
 )
 
-Samples = NDArray[np.intp]
-
 _OPEN = "left open by the samples"
 
 
-def plots(report: GaitReport, keep: Samples) -> list[Plot]:
+def plots(report: GaitReport) -> list[Plot]:
     """Every plot of a report's page.
 
     Args:
         report: The report.
-        keep: Indices of the samples that are drawn.
     """
     return [
-        plan(report, keep),
-        stability_margin(report, keep),
-        *_floor(report, keep),
-        torques(report, keep),
-        *_servos(report, keep),
-        *_energy(report, keep),
-        joint_angles(report, keep),
-        _conditioning(report, keep),
+        plan(report),
+        stability_margin(report),
+        *_floor(report),
+        torques(report),
+        *_servos(report),
+        *_energy(report),
+        joint_angles(report),
+        _conditioning(report),
     ]
 
 
-def feet_and_torso(report: GaitReport, keep: Samples) -> Plot:
+def feet_and_torso(report: GaitReport) -> Plot:
     """Torso and feet over time: figure 5.1 of the thesis."""
-    motion = report.motion.part(keep)
+    motion = report.motion
     curves = (
         ("torso y", motion.torso, 1),
         ("left foot y", motion.left_foot, 1),
@@ -81,15 +78,15 @@ def feet_and_torso(report: GaitReport, keep: Samples) -> Plot:
     )
 
 
-def plan(report: GaitReport, keep: Samples) -> Plot:
+def plan(report: GaitReport) -> Plot:
     """Support polygons, zero-moment point and centre of mass from above."""
     areas = []
     for samples, corners in polygons(report.robot, report.motion):
         phase = report.motion.phase[samples[0]]
         colour = SIDE_COLOURS.get(phase, "#777777")
         areas.append(Area(f"{phase} support", corners * 1e3, colour, phase in SIDE_COLOURS))
-    zmp, com = report.zmp[keep] * 1e3, report.com[keep] * 1e3
-    inside = report.margin[keep] > 0
+    zmp, com = report.zmp * 1e3, report.com * 1e3
+    inside = report.margin > 0
     x, y = zmp.T
     curves = [
         Curve("zero-moment point inside", y[inside], BLUE, marks="dot", x=x[inside]),
@@ -107,32 +104,32 @@ def plan(report: GaitReport, keep: Samples) -> Plot:
     )
 
 
-def stability_margin(report: GaitReport, keep: Samples) -> Plot:
+def stability_margin(report: GaitReport) -> Plot:
     """How far the zero-moment point is inside the support polygon."""
     held = report.headlines
-    return _over_time(report, keep)(
+    return _over_time(report)(
         "Stability margin",
         "Distance of the zero-moment point inside the support polygon; negative: the robot "
         "tips. Shaded: one foot stands (blue left, orange right).",
         "margin [mm]",
-        [Curve("margin", report.margin[keep] * 1e3, BLUE)],
+        [Curve("margin", report.margin * 1e3, BLUE)],
         limits=[Limit("tips below", 0.0)],
         areas=[] if held is None else [spread(_OPEN, held.time, held.margin_band * 1e3, BLUE)],
     )
 
 
-def _floor(report: GaitReport, keep: Samples) -> list[Plot]:
-    dynamics = report.dynamics.part(keep)
+def _floor(report: GaitReport) -> list[Plot]:
+    dynamics = report.dynamics
     forces, used = dynamics.wrench[:, :, 2], dynamics.friction_used
     return [
-        _over_time(report, keep)(
+        _over_time(report)(
             "Load on each foot",
             "Vertical force of the floor. In double support it is shared as the least torques "
             "want it.",
             "force [N]",
             [Curve(f"{n} foot", forces[:, k], c, d) for k, (n, c, d) in enumerate(_FEET)],
         ),
-        _over_time(report, keep)(
+        _over_time(report)(
             "Friction in use",
             "Tangential force as a share of what friction allows.",
             "share [%]",
@@ -142,14 +139,14 @@ def _floor(report: GaitReport, keep: Samples) -> list[Plot]:
     ]
 
 
-def torques(report: GaitReport, keep: Samples, side: str = "") -> Plot:
+def torques(report: GaitReport, side: str = "") -> Plot:
     """Joint torques against the servos' stall torque, of one leg or of both."""
     stall = report.robot.stall_torque[_columns(side)]
-    return _over_time(report, keep)(
+    return _over_time(report)(
         f"Joint torques{_of(side)}",
         f"Against the servos' stall torque.{_reading(side)}",
         "torque [N·m]",
-        _joints(report.dynamics.torque[keep], side),
+        _joints(report.dynamics.torque, side),
         limits=both_signs("stall torque", stall),
         areas=_open_torques(report, side),
     )
@@ -166,19 +163,19 @@ def _open_torques(report: GaitReport, side: str) -> list[Area]:
     ]
 
 
-def _servos(report: GaitReport, keep: Samples) -> list[Plot]:
-    torque, speed = report.dynamics.torque[keep], report.joints.part(keep).v
+def _servos(report: GaitReport) -> list[Plot]:
+    torque, speed = report.dynamics.torque, report.joints.v
     no_load = report.robot.no_load_speed
     use = np.abs(torque) / report.robot.stall_torque + np.abs(speed) / no_load
     return [
-        _over_time(report, keep)(
+        _over_time(report)(
             "Joint speeds",
             f"Against the servos' no-load speed.{_reading('')}",
             "speed [rad/s]",
             _joints(speed),
             limits=both_signs("no-load speed", no_load),
         ),
-        _over_time(report, keep)(
+        _over_time(report)(
             "Use of the torque-speed line",
             f"|τ|/stall + |θ̇|/no-load of each servo.{_reading('')}",
             "use [%]",
@@ -188,7 +185,7 @@ def _servos(report: GaitReport, keep: Samples) -> list[Plot]:
     ]
 
 
-def _energy(report: GaitReport, keep: Samples) -> list[Plot]:
+def _energy(report: GaitReport) -> list[Plot]:
     power = report.dynamics.torque * report.joints.v
     step = np.diff(report.joints.time)[:, None] * (power[1:] + power[:-1]) / 2
     work = np.concatenate([np.zeros((1, 12)), np.cumsum(step, axis=0)])
@@ -196,19 +193,19 @@ def _energy(report: GaitReport, keep: Samples) -> list[Plot]:
 
     def curves(values: NDArray[np.float64]) -> list[Curve]:
         legs = [
-            Curve(f"{side} leg", values[keep, _columns(side)].sum(axis=1), colour, dash)
+            Curve(f"{side} leg", values[:, _columns(side)].sum(axis=1), colour, dash)
             for side, colour, dash in parts
         ]
-        return [Curve("both", values[keep].sum(axis=1), BLACK), *legs]
+        return [Curve("both", values.sum(axis=1), BLACK), *legs]
 
     return [
-        _over_time(report, keep)(
+        _over_time(report)(
             "Mechanical power",
             "What the servos give to the robot; negative: they brake it.",
             "power [W]",
             curves(power),
         ),
-        _over_time(report, keep)(
+        _over_time(report)(
             "Work done so far",
             "Integral of the power since the start.",
             "work [mJ]",
@@ -217,20 +214,20 @@ def _energy(report: GaitReport, keep: Samples) -> list[Plot]:
     ]
 
 
-def joint_angles(report: GaitReport, keep: Samples, side: str = "") -> Plot:
+def joint_angles(report: GaitReport, side: str = "") -> Plot:
     """Joint angles over time, of one leg or of both: figure 5.2 of the thesis."""
-    return _over_time(report, keep)(
+    return _over_time(report)(
         f"Joint angles{_of(side)}",
         f"From the servos' neutral pose.{_reading(side)}",
         "angle [°]",
-        _joints(np.degrees(report.joints.q[keep]), side),
+        _joints(np.degrees(report.joints.q), side),
     )
 
 
-def _conditioning(report: GaitReport, keep: Samples) -> Plot:
-    legs, angles = report.robot.legs, report.joints.q[keep].reshape(-1, 2, 6)
+def _conditioning(report: GaitReport) -> Plot:
+    legs, angles = report.robot.legs, report.joints.q.reshape(-1, 2, 6)
     good = [leg_conditioning(legs[side], angles[:, k]) for k, side in enumerate(SIDES)]
-    return _over_time(report, keep)(
+    return _over_time(report)(
         "Conditioning of the legs",
         "Smallest over largest singular value of each leg's Jacobian (lengths divided by "
         "the stretched leg's); 0 is singular.",
@@ -239,7 +236,7 @@ def _conditioning(report: GaitReport, keep: Samples) -> Plot:
     )
 
 
-def _over_time(report: GaitReport, keep: Samples) -> partial[Plot]:
+def _over_time(report: GaitReport) -> partial[Plot]:
     """A plot over time, tinted where one foot stands; the rest is left to say."""
     unit = report.time_unit
     bands = [
@@ -247,7 +244,7 @@ def _over_time(report: GaitReport, keep: Samples) -> partial[Plot]:
         for phase in report.gait.phases
         if (side := phase.support) in SIDE_COLOURS and phase.end > phase.start
     ]
-    return partial(Plot, time=report.joints.time[keep], bands=bands)
+    return partial(Plot, time=report.joints.time, bands=bands)
 
 
 def _joints(values: NDArray[np.float64], side: str = "") -> list[Curve]:

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from scout_pin.coordinates import free_flyer_state
 from scout_pin.report.document import GaitReport
 from scout_pin.report.drawn import curves
-from scout_pin.report.drawn.curves import SIDE_COLOURS, Samples
+from scout_pin.report.drawn.curves import SIDE_COLOURS
 from scout_pin.report.movement import report_states
 from scout_pin.specification import JOINT_NAMES, SIDES
 from thesis_pin.model.loading import joint_id
+from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.pages.drawing import joint_placements
 from thesis_pin.pages.scene import thinned
 from thesis_pin.report.curves import evenly
@@ -23,24 +24,24 @@ from thesis_pin.report.figures import default_style, figure_files, new_figure, p
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MOST_SAMPLES = 4001
-"""More along a curve don't show."""
+EXCHANGED = 4001
+"""Samples of the joints for other programs, at most."""
 
 
 def figures(report: GaitReport) -> dict[str, bytes]:
     """Every figure as PNG and SVG, and the joints for other programs: file name → content."""
-    keep = evenly(len(report.joints.time), MOST_SAMPLES)
-    legs, plan = SIDES, curves.plan(report, keep)
+    legs, plan = SIDES, curves.plan(report)
     drawn = {
-        "feet_and_torso": panels([[curves.feet_and_torso(report, keep)]], 7, 4),
-        "joint_angles": panels([[curves.joint_angles(report, keep, leg)] for leg in legs], 8, 6.5),
+        "feet_and_torso": panels([[curves.feet_and_torso(report)]], 7, 4),
+        "joint_angles": panels([[curves.joint_angles(report, leg)] for leg in legs], 8, 6.5),
         "stick_figures": stick_figures(report),
-        "torques": panels([[curves.torques(report, keep, leg)] for leg in legs], 8, 6.5),
-        "stability": panels([[plan, curves.stability_margin(report, keep)]], 11, 5),
+        "torques": panels([[curves.torques(report, leg)] for leg in legs], 8, 6.5),
+        "stability": panels([[plan, curves.stability_margin(report)]], 11, 5),
     }
     files: dict[str, bytes] = {}
     for name, figure in drawn.items():
         files |= figure_files(name, figure)
+    keep = evenly(len(report.joints.time), EXCHANGED)
     return files | exchange_files(report_states(report, keep))
 
 

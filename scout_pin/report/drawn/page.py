@@ -12,20 +12,16 @@ from scout_pin.report.judged.limits import headline
 from scout_pin.report.tables import joints_table
 from scout_pin.report.uncertainty.document import open_table
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
-from thesis_pin.pages.scene import thinned
 from thesis_pin.report.tables import Table
 from thesis_pin.report.uncertainty.document import columns_table
 from thesis_pin.smoothing.intervals import Interval
-
-MOST_SAMPLES = 1201
-"""Of a plot."""
 
 
 def gait_page(report: GaitReport) -> bytes:
     """A gait report as one self-contained HTML file.
 
     Args:
-        report: The report; plots and animation show at most 1 201 of its samples.
+        report: The report; its animation shows at most 1 201 of its samples, plots every peak.
     """
     seconds = report.joints.time[-1] - report.joints.time[0]
     return html(
@@ -41,7 +37,7 @@ def gait_page(report: GaitReport) -> bytes:
                 *(f"Warning: {one}" for one in implausible(report.robot.specification)),
             ],
             tiles=_tiles(report),
-            plots=plots(report, thinned(report.joints.time, MOST_SAMPLES)),
+            plots=plots(report),
             tables=_tables(report),
             scene=gait_scene(report),
         )

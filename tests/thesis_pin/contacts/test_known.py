@@ -11,7 +11,7 @@ import pytest
 import scout_pin
 from scout_pin.specification import CONES_PATH
 from thesis_pin.contacts.cones import Contact
-from thesis_pin.contacts.known import contact_of, known_form
+from thesis_pin.contacts.known import contacts_of, known_form
 
 SCRIPT = runpy.run_path(str(Path(__file__).parents[3] / "docs" / "shipped.py"))
 SOLE = np.array([[0.0, 0.0], [0.1, 0.0], [0.1, 0.2], [0.0, 0.2]])
@@ -43,7 +43,7 @@ def test_another_sole_gets_its_own_cone(change):
     outline = np.array(scout_pin.Specification.read().legs.left.sole)
     friction = 0.5 if change == "friction" else 0.6
     outline[0, 0] -= 0.0 if change == "friction" else 1e-9
-    found = contact_of(outline, friction, CONES_PATH)
+    (found,) = contacts_of([outline], friction, CONES_PATH)
     same(found, Contact.from_outline(outline, friction))
 
 
@@ -52,6 +52,13 @@ def test_without_a_file_cones_are_found_anew(tmp_path, text):
     path = tmp_path / "cones.json"
     if text is not None:
         path.write_text(text)
-    same(contact_of(SOLE, 0.7, path), Contact.from_outline(SOLE, 0.7))
-    path.write_text(known_form([Contact.from_outline(SOLE, 0.7)]))
-    same(contact_of(SOLE, 0.7, path), Contact.from_outline(SOLE, 0.7))
+    (found,) = contacts_of([SOLE], 0.7, path)
+    same(found, Contact.from_outline(SOLE, 0.7))
+
+
+def test_of_several_soles_each_gets_its_own_cone(tmp_path):
+    path = tmp_path / "cones.json"
+    other = SOLE * [1.0, 2.0]
+    path.write_text(known_form([Contact.from_outline(other, 0.7)]))
+    for found, outline in zip(contacts_of([SOLE, other], 0.7, path), (SOLE, other), strict=True):
+        same(found, Contact.from_outline(outline, 0.7))

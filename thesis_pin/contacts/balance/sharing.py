@@ -138,7 +138,7 @@ def missing(sums: Array, rays: Array, total: Array) -> tuple[float, Array]:
     Returns:
         Its size [N·m, forces scaled] and itself, shape ``(r,)``.
     """
-    rest = beyond_cone(sums @ rays, total)
+    rest, _ = beyond_cone(sums @ rays, total)
     return float(np.linalg.norm(rest)), rest
 
 

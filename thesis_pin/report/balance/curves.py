@@ -27,7 +27,7 @@ MOST_POLYGONS = 12
 """Stances that one picture can show apart."""
 
 
-def ground(report: BalanceReport, keep: Samples) -> Plot:
+def ground(report: BalanceReport) -> Plot:
     """Soles, support polygons and the way of the zero-moment point on the floor."""
     found, floor = report.found, report.found.floor
     areas = []
@@ -41,8 +41,8 @@ def ground(report: BalanceReport, keep: Samples) -> Plot:
             for sample in sorted({int(standing[0]), int(standing[-1])}):
                 corners = floor.flat(found.stance.corners[k][sample])
                 areas.append(Area("soles", corners, BLUE, filled=False))
-    zmp = floor.flat(found.zero_moment_point[keep])
-    com = floor.flat(found.stance.com[keep])
+    zmp = floor.flat(found.zero_moment_point)
+    com = floor.flat(found.stance.com)
     points: Literal["dot"] | None = "dot" if report.held else None
     curves_ = [
         Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=points, x=zmp[:, 0]),
@@ -69,7 +69,7 @@ def _stances(support: NDArray[np.bool_]) -> Samples:
     return np.asarray((ends[:-1] + ends[1:]) // 2, dtype=np.intp)
 
 
-def forces(report: BalanceReport, keep: Samples) -> list[Plot]:
+def forces(report: BalanceReport) -> list[Plot]:
     """Normal force of each foot, and the share of its friction in use."""
     found = report.found
     return [
@@ -78,10 +78,10 @@ def forces(report: BalanceReport, keep: Samples) -> list[Plot]:
             text,
             label,
             [
-                Curve(name, values[keep, k], PALETTE[k % 6], ("solid", "dash")[k // 6 % 2])
+                Curve(name, values[:, k], PALETTE[k % 6], ("solid", "dash")[k // 6 % 2])
                 for k, name in enumerate(report.names)
             ],
-            report.time[keep],
+            report.time,
             limits=limits,
         )
         for title, text, label, values, limits in (
@@ -103,27 +103,27 @@ def forces(report: BalanceReport, keep: Samples) -> list[Plot]:
     ]
 
 
-def margin(report: BalanceReport, keep: Samples) -> Plot:
+def margin(report: BalanceReport) -> Plot:
     """Margin of the zero-moment point."""
     found = report.found
-    inside = np.where(np.isfinite(found.margin), found.margin, np.nan)[keep] * 1e3
+    inside = np.where(np.isfinite(found.margin), found.margin, np.nan) * 1e3
     return Plot(
         "Margin",
         "Distance of the zero-moment point inside the support polygon, negative outside.",
         "margin [mm]",
         [Curve("margin", inside, VERMILLION)],
-        report.time[keep],
+        report.time,
         limits=[Limit("tips", 0.0)],
     )
 
 
-def plots(report: BalanceReport, keep: Samples) -> list[Plot]:
+def plots(report: BalanceReport) -> list[Plot]:
     """Every plot of a report's page."""
     if report.held:
-        return [ground(report, keep)]
+        return [ground(report)]
     return [
-        ground(report, keep),
-        margin(report, keep),
-        *forces(report, keep),
-        *curves.plots(report.motors, keep),
+        ground(report),
+        margin(report),
+        *forces(report),
+        *curves.plots(report.motors),
     ]

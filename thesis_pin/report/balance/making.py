@@ -45,6 +45,7 @@ def balance_report(
     feet: Sequence[Foot] | None = None,
     support: ArrayLike | None = None,
     floor: Floor | None = None,
+    fitted: bool = False,
     sharing: str = "torque",
     precision: float | None = None,
     chosen: Sequence[str] = (),
@@ -65,6 +66,7 @@ def balance_report(
         support: Which feet bear load, booleans ``(n, feet)`` of a motion, ``(feet,)`` of a pose.
         floor: The floor; None for a level one: under a pose that isn't placed at height 0, else
             at the lowest that a foot gets.
+        fitted: Whether the floor says its slope only: its height is taken as if there was none.
         sharing: See :func:`thesis_pin.foot_dynamics`.
         precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
         chosen: What somebody chose before, in sentences; for the verdict.
@@ -83,7 +85,7 @@ def balance_report(
         said.append(f"Feet, which nobody named: {', '.join(foot.name for foot in feet)}.")
     said += _sources(feet)
     if motion is None:
-        setting = held(robot, closed, placed, feet, floor, support)
+        setting = held(robot, closed, placed, feet, floor, support, fitted)
         motion = JointMotion(
             HELD_POSE, HELD, tuple(singles(robot.model)), *_still(robot, setting.whole.joints)
         )
@@ -91,7 +93,7 @@ def balance_report(
         instance("motion", motion, JointMotion, "thesis_pin.read_motion()")
         whole = whole_motion(robot, motion, closed, precision=precision)
         told = motion.base is not None and motion.tool is None
-        setting = moving(robot, whole, feet, floor, support, told)
+        setting = moving(robot, whole, feet, floor, support, told, fitted)
     joints, judge = setting.whole.joints, _judging(robot, feet, setting, sharing, precision)
     every = np.arange(len(joints.time))
     found = judge(joints.q, joints.v, joints.a, None, every)

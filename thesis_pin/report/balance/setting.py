@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.contacts.balance.stance import stance
-from thesis_pin.contacts.floor import Floor
+from thesis_pin.contacts.floor import Floor, raised
 from thesis_pin.contacts.soles.foot import Foot
 from thesis_pin.contacts.standing.anchored import anchored
 from thesis_pin.contacts.standing.phases import detect, lowest_point
@@ -59,6 +59,7 @@ def held(
     feet: Sequence[Foot],
     floor: Floor | None,
     support: ArrayLike | None,
+    fitted: bool = False,
 ) -> Setting:
     """One pose, held for a second.
 
@@ -69,6 +70,7 @@ def held(
         feet: The robot's feet.
         floor: The floor; None for a level one that touches the lowest foot.
         support: Which feet bear load, booleans ``(feet,)``; None for all.
+        fitted: Whether the floor says its slope only, and touches the lowest foot.
     """
     said = []
     stands = np.ones(len(feet), dtype=bool) if support is None else np.asarray(support)
@@ -77,9 +79,9 @@ def held(
     ground = Floor() if floor is None else floor
     if placed:
         places = stance(robot, feet, ground, pose[None])
-        if floor is None:
-            ground = Floor(lowest_point(ground, places))
-            said.append(f"The floor is taken at {ground.height:z.4f} m, where the lowest foot is.")
+        if floor is None or fitted:
+            ground = raised(ground, lowest_point(ground, places))
+            said.append(f"The floor is taken at {_height(ground)}, where the lowest foot is.")
     else:
         found = stand(
             robot, [foot for foot, on in zip(feet, stands, strict=True) if on], pose, ground
@@ -100,6 +102,7 @@ def moving(
     floor: Floor | None,
     support: ArrayLike | None,
     told: bool,
+    fitted: bool = False,
 ) -> Setting:
     """A motion over the floor.
 
@@ -110,6 +113,7 @@ def moving(
         floor: The floor; None for a level one at the lowest that a foot gets.
         support: Which feet bear load, booleans ``(n, feet)``; None to tell it.
         told: Whether the motion says where the root is.
+        fitted: Whether the floor says its slope only, and is at the lowest that a foot gets.
 
     Raises:
         BadInput: It doesn't, and no sole rests all the time.
@@ -131,9 +135,9 @@ def moving(
         said.append(f"Nobody said where the root is: it follows from {foot.name}, which rests.")
         return Setting(whole, ground, stands, foot, tuple(said))
     places = stance(robot, feet, ground, whole.joints.q, whole.joints.v)
-    if floor is None:
-        ground = Floor(lowest_point(ground, places))
-        said.append(f"The floor is taken at {ground.height:z.4f} m, the lowest that a foot gets.")
+    if floor is None or fitted:
+        ground = raised(ground, lowest_point(ground, places))
+        said.append(f"The floor is taken at {_height(ground)}, the lowest that a foot gets.")
     if stands is None:
         stands = detect(ground, places)
         said.append(
@@ -142,6 +146,10 @@ def moving(
             + " of the samples."
         )
     return Setting(whole, ground, stands, None, tuple(said))
+
+
+def _height(floor: Floor) -> str:
+    return f"{floor.height:z.4f} m" + (" at the world's origin" if floor.slope else "")
 
 
 def _resting(feet: Sequence[Foot], stands: Flags) -> Foot:

@@ -21,12 +21,11 @@ PER_PLOT = 12
 _DASHES: tuple[Dash, ...] = ("solid", "dash")
 
 
-def motors(report: TorqueReport, keep: Samples) -> list[list[Plot]]:
+def motors(report: TorqueReport) -> list[list[Plot]]:
     """Torque, speed and power (columns) of the motors, those with a unit and dozen a row.
 
     Args:
         report: The report.
-        keep: Indices of the samples that are drawn.
     """
     rows = []
     for turns in (True, False):
@@ -39,7 +38,6 @@ def motors(report: TorqueReport, keep: Samples) -> list[list[Plot]]:
                 [
                     _plot(
                         report,
-                        keep,
                         (title, text, label),
                         names,
                         values[:, some],
@@ -60,14 +58,13 @@ def motors(report: TorqueReport, keep: Samples) -> list[list[Plot]]:
     return rows
 
 
-def loops(report: TorqueReport, keep: Samples) -> list[Plot]:
+def loops(report: TorqueReport) -> list[Plot]:
     """Size of the force in each loop."""
     names = [loop.name for loop in report.robot.loops]
     size = report.loop_force_size
     return [
         _plot(
             report,
-            keep,
             ("Loop forces", "Size of the force that closes each loop.", "force [N]"),
             names[k : k + PER_PLOT],
             size[:, k : k + PER_PLOT],
@@ -76,7 +73,7 @@ def loops(report: TorqueReport, keep: Samples) -> list[Plot]:
     ]
 
 
-def joints(report: TorqueReport, keep: Samples) -> list[Plot]:
+def joints(report: TorqueReport) -> list[Plot]:
     """Positions of all joints of one freedom: turns, then slides."""
     plots = []
     for turns in (True, False):
@@ -88,7 +85,6 @@ def joints(report: TorqueReport, keep: Samples) -> list[Plot]:
             plots.append(
                 _plot(
                     report,
-                    keep,
                     (
                         "Joint angles" if turns else "Slides",
                         "Motors and passive joints.",
@@ -101,33 +97,32 @@ def joints(report: TorqueReport, keep: Samples) -> list[Plot]:
     return plots
 
 
-def unexplained(report: TorqueReport, keep: Samples) -> Plot:
+def unexplained(report: TorqueReport) -> Plot:
     """Load that neither motors nor loops carry."""
-    share = report.unexplained[keep]
+    share = report.unexplained
     return Plot(
         "Unexplained load",
         "Share of the largest load that neither motors nor loops carry; what is less than may be "
         "left over is drawn as zero.",
         "share [-]",
         [Curve("unexplained", np.where(share > UNEXPLAINED, share, 0.0), VERMILLION)],
-        report.joints.time[keep],
+        report.joints.time,
         limits=[Limit("may be left over", UNEXPLAINED)],
     )
 
 
-def plots(report: TorqueReport, keep: Samples) -> list[Plot]:
+def plots(report: TorqueReport) -> list[Plot]:
     """Every plot of a report's page."""
     return [
-        *(plot for row in motors(report, keep) for plot in row),
-        *loops(report, keep),
-        *joints(report, keep),
-        unexplained(report, keep),
+        *(plot for row in motors(report) for plot in row),
+        *loops(report),
+        *joints(report),
+        unexplained(report),
     ]
 
 
 def _plot(
     report: TorqueReport,
-    keep: Samples,
     words: tuple[str, str, str],
     names: list[str],
     values: Array,
@@ -135,10 +130,10 @@ def _plot(
 ) -> Plot:
     """Curves over time; words are its title, its text and the label of its y axis."""
     curves = [
-        Curve(name, values[keep, k], PALETTE[k % 6], _DASHES[k // 6 % 2])
+        Curve(name, values[:, k], PALETTE[k % 6], _DASHES[k // 6 % 2])
         for k, name in enumerate(names)
     ]
-    return Plot(*words, curves, report.joints.time[keep], areas=areas)
+    return Plot(*words, curves, report.joints.time, areas=areas)
 
 
 def _left_open(report: TorqueReport, some: Samples) -> list[Area]:

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from thesis_pin.report.curves import evenly
 from thesis_pin.report.figures import figure_files, panels
 from thesis_pin.report.torque import curves
 from thesis_pin.report.torque.document import TorqueReport
 
-MOST_SAMPLES = 4001
-"""More along a curve don't show."""
-
 
 def figures(report: TorqueReport) -> dict[str, bytes]:
     """Every figure of a report as PNG and SVG: file name → content."""
-    keep = evenly(len(report.joints.time), MOST_SAMPLES)
     drawn = {
-        "motors": curves.motors(report, keep),
-        "joints": [[plot] for plot in curves.joints(report, keep)],
-        "loops": [[plot] for plot in curves.loops(report, keep)],
+        "motors": curves.motors(report),
+        "joints": [[plot] for plot in curves.joints(report)],
+        "loops": [[plot] for plot in curves.loops(report)],
     }
     files: dict[str, bytes] = {}
     for name, rows in drawn.items():

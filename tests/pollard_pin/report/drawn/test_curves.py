@@ -11,8 +11,6 @@ from pollard_pin.report.drawn.figures import figures
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_SYMBOLS
 from thesis_pin.pages.plots import figure
 
-KEEP = np.arange(0, 101, 4)
-
 
 @pytest.fixture(scope="module")
 def report():
@@ -30,12 +28,12 @@ def drawn(plots):
 
 
 def test_plots_are_figures_that_plotly_itself_accepts(report):
-    for plot in curves.plots(report, KEEP):
+    for plot in curves.plots(report):
         plotly.graph_objects.Figure(figure(plot))
 
 
 def test_each_row_of_motors_has_every_motor_once(report):
-    rows = curves.motors(report, KEEP)
+    rows = curves.motors(report)
     assert [row[0].label for row in rows] == [
         "torque [N·m]",
         "speed [rad/s]",
@@ -54,8 +52,7 @@ def test_each_row_of_motors_has_every_motor_once(report):
 @pytest.mark.parametrize("order", [1, 2])
 def test_rates_and_accelerations_are_the_slopes_of_what_is_drawn_before(pollard, order):
     report = pollard_pin.trajectory_report(pollard, appendix_b(duration=10.0), samples=1501)
-    everything = np.arange(1501)
-    below, above = (drawn(curves.joints(report, everything, k)) for k in (order - 1, order))
+    below, above = (drawn(curves.joints(report, k)) for k in (order - 1, order))
     assert sorted(above) == sorted(JOINT_SYMBOLS)
     for name in JOINT_SYMBOLS:
         slope = np.gradient(below[name], report.joints.time)[1:-1]
@@ -64,8 +61,8 @@ def test_rates_and_accelerations_are_the_slopes_of_what_is_drawn_before(pollard,
 
 
 def test_the_path_is_the_spray_tips_in_millimetres(report):
-    ahead, above = curves.path_from_ahead(report, KEEP).curves
-    tip = report.motion.pose[KEEP, :3] * 1e3
+    ahead, above = curves.path_from_ahead(report).curves
+    tip = report.motion.pose[:, :3] * 1e3
     np.testing.assert_array_equal([ahead.x, ahead.y], tip[:, 1:].T)
     np.testing.assert_array_equal([above.x, above.y], tip[:, [1, 0]].T)
 
@@ -80,6 +77,6 @@ def test_every_figure_comes_as_png_and_svg(report):
 
 
 def test_the_tool_s_speed_is_drawn_in_metres_a_second(report):
-    (plot,) = [plot for plot in curves.plots(report, KEEP) if plot.label == "speed [m/s]"]
+    (plot,) = [plot for plot in curves.plots(report) if plot.label == "speed [m/s]"]
     (curve,) = plot.curves
-    np.testing.assert_array_equal(curve.y, report.tool_speed[KEEP])
+    np.testing.assert_array_equal(curve.y, report.tool_speed)

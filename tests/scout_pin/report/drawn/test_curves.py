@@ -22,8 +22,7 @@ def report():
 
 @pytest.fixture(scope="module")
 def plots(report):
-    every = np.arange(len(report.joints.time))
-    return {plot.title: plot for plot in curves.plots(report, every)}
+    return {plot.title: plot for plot in curves.plots(report)}
 
 
 def test_plots_are_figures_that_plotly_itself_accepts(plots):
@@ -32,15 +31,14 @@ def test_plots_are_figures_that_plotly_itself_accepts(plots):
 
 
 def test_both_legs_have_every_joint_and_one_leg_its_own(report):
-    every = np.arange(len(report.joints.time))
     for draw, values in (
         (curves.torques, report.dynamics.torque),
         (curves.joint_angles, np.degrees(report.joints.q)),
     ):
-        both = draw(report, every).curves
+        both = draw(report).curves
         np.testing.assert_array_equal(np.stack([curve.y for curve in both], axis=1), values)
         for k, side in enumerate(("left", "right")):
-            leg = draw(report, every, side).curves
+            leg = draw(report, side).curves
             assert [f"{side} {curve.name}" for curve in leg] == [c.name for c in both][6 * k :][:6]
             found = np.stack([curve.y for curve in leg], axis=1)
             np.testing.assert_array_equal(found, values[:, 6 * k : 6 * k + 6])
@@ -59,10 +57,9 @@ def test_the_power_of_both_legs_is_torque_times_speed_and_work_its_integral(repo
 def test_points_are_marked_outside_where_no_polygon_of_their_moment_holds_them(report):
     thesis = scout_pin.gait_report(report.robot, scout_pin.load_gait(), samples=41)
     for one, tips in ((report, False), (thesis, True)):
-        every = np.arange(len(one.joints.time))
-        plot = curves.plan(one, every)
+        plot = curves.plan(one)
         inside, outside, _ = plot.curves
-        assert len(inside.y) + len(outside.y) == len(every)
+        assert len(inside.y) + len(outside.y) == len(one.joints.time)
         assert (len(outside.y) > 0) is tips
         hulls = [shapely.Polygon(area.corners) for area in plot.areas]
         for x, y in zip(inside.x, inside.y, strict=True):

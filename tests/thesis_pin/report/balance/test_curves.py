@@ -16,7 +16,7 @@ def test_each_stretch_of_a_stance_is_drawn_once():
 def test_the_floor_of_a_held_pose_shows_its_polygon_soles_and_points():
     robot, feet, pose = standing("talos")
     report = balance_report(robot, pose=pose, feet=feet)
-    plot = ground(report, np.array([0, 1]))
+    plot = ground(report)
     (polygon,) = [one for one in plot.areas if one.name == "support polygon"]
     soles = [one for one in plot.areas if one.name == "soles"]
     assert area(polygon.corners) > sum(area(one.corners) for one in soles[::2]) > 0

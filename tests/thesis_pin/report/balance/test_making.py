@@ -326,6 +326,31 @@ def test_a_foot_that_is_said_to_bear_load_a_sample_too_early_is_warned_of_and_do
     assert late.slides[0].way == pytest.approx(0.01, rel=0.1)
 
 
+def test_a_slope_without_a_height_lies_below_the_feet_of_a_root_that_is_told(tmp_path):
+    slope = Floor(0.0, np.radians(10), 0.7)
+    robot, feet, pose = standing("anymal")
+    q = stand(robot, feet, pose, Floor(0.37, slope.slope, slope.uphill)).q
+    report = balance_report(robot, pose=q, placed=True, feet=feet, floor=slope, fitted=True)
+    assert report.found.floor.height == pytest.approx(0.37, abs=1e-6)
+    assert "The floor is taken at 0.3700 m at the world's origin, where the lowest foot is." in (
+        report.chosen
+    )
+    stated = balance_report(robot, pose=q, placed=True, feet=feet, floor=slope)
+    assert stated.found.floor == slope
+    assert any("off the floor" in said for said in stated.warnings())
+    robot, feet = block()
+    time = np.linspace(0, 1, 21)
+    columns = {"t": time, "j": 0 * time, "base_pitch": -slope.slope + 0 * time}
+    columns |= {f"base_{name}": 0 * time for name in ("x", "y", "z", "roll", "yaw")}
+    (tmp_path / "lean.csv").write_bytes(csv_bytes(columns))
+    told = thesis_pin.read_motion(robot, tmp_path / "lean.csv", smooth="none")
+    report = balance_report(robot, told, feet=feet, floor=Floor(slope=slope.slope), fitted=True)
+    # Its sole is half a metre from the origin along the floor's normal.
+    assert report.found.floor.height == pytest.approx(-0.5 / np.cos(slope.slope))
+    assert report.found.support.all()
+    assert report.off_floor == pytest.approx([0.0], abs=1e-12)
+
+
 @pytest.mark.parametrize(("push", "stands"), [(1.0, True), (10.0, False)])
 def test_the_sample_that_is_named_is_that_of_the_largest_acceleration(tmp_path, push, stands):
     robot, feet = block()
