@@ -1,7 +1,6 @@
-"""Pages in a real browser: they draw, move, obey, and ask nothing of any network."""
+"""Views in a real browser: they draw, move, obey, and ask nothing of any network."""
 
 import signal
-import socket
 import subprocess
 import sys
 import urllib.request
@@ -14,39 +13,14 @@ from chromium import differing, share_drawn
 from example_robots import NAMES, example_robot
 
 import scout_pin
-from scout_pin.report.drawn.page import gait_page
 from scout_pin.report.drawn.view import gait_scene
 from scout_pin.specification import SIDES
-from thesis_pin.pages import drawing, page, scene
+from thesis_pin.pages import drawing, scene
 from thesis_pin.pages import player as viewer
 
 pytestmark = pytest.mark.browser
 
 ROOT = Path(__file__).parents[2]
-
-
-@pytest.fixture(scope="module")
-def report():
-    return scout_pin.gait_report(
-        scout_pin.load(), scout_pin.load_gait(ROOT / "examples" / "walk.toml"), samples=241
-    )
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("pages")
-
-
-@pytest.fixture(scope="module")
-def view_file(report, folder):
-    viewer.write_html(gait_scene(report), folder / "view.html")
-    return folder / "view.html"
-
-
-@pytest.fixture(scope="module")
-def report_file(report, folder):
-    (folder / "report.html").write_bytes(gait_page(report))
-    return folder / "report.html"
 
 
 @pytest.fixture
@@ -278,120 +252,6 @@ def test_any_pinocchio_robot_can_be_shown(browser, folder, artefacts, name):
     image = browser.still(artefacts / f"{Path(name).stem}.png")
     assert share_drawn(image) > 0.02
     assert browser.complaints() == []
-
-
-def test_the_report_page_is_complete_quiet_and_fits_a_phone(browser, report_file, artefacts):
-    for width, height, mobile in ((1280, 900, False), (390, 844, True)):
-        browser.open(report_file.as_uri(), width, height, mobile)
-        browser.until("window.ready && player.framesDrawn > 0")
-        assert browser.requests() == [report_file.as_uri()]
-        assert browser.complaints() == []
-        plots = browser.run("document.querySelectorAll('.plot').length")
-        assert (
-            browser.run("document.querySelectorAll('.plot .main-svg .cartesianlayer').length")
-            == plots
-        )
-        assert browser.run("document.documentElement.scrollWidth") <= width
-        browser.run("player.pause(); player.time = 1.5")
-        browser.still(artefacts / f"report_{width}.png")
-    assert report_file.stat().st_size < 3e6
-
-
-def test_a_page_without_animation_or_plots_needs_neither_library(browser, folder):
-    bare = page.Page(
-        title="Audit",
-        subtitle="no motion here",
-        good=False,
-        verdict=["Two equations fail."],
-        tiles=[page.Tile("fail", "2", False)],
-        plots=[],
-        tables=[page.Table("Claims", ("claim", "verdict"), [("(4.1)", "wrong")], prose=True)],
-    )
-    file = folder / "bare.html"
-    file.write_bytes(page.html(bare))
-    browser.open(file.as_uri())
-    browser.until("window.ready")
-    assert file.stat().st_size < 2e4
-    text = browser.run("document.querySelector('main').innerText")
-    assert "Two equations fail." in text
-    assert "Plots" not in text
-    assert browser.complaints() == []
-
-
-def test_the_report_answers_first(browser, report_file, report):
-    browser.open(report_file.as_uri())
-    browser.until("window.ready")
-    order = browser.run("document.querySelector('main').innerText")
-    places = [
-        order.index(text)
-        for text in (
-            report.verdict()[0],
-            "The motion",
-            "Stability margin",
-            "Joints",
-            "Assumptions",
-            "Parameters",
-            "Software",
-        )
-    ]
-    assert places == sorted(places)
-
-
-def test_plots_follow_the_animation_and_a_click_goes_to_its_moment(browser, report_file):
-    browser.open(report_file.as_uri())
-    browser.until("window.ready && player.framesDrawn > 0")
-    browser.run("player.pause()")
-    place = (
-        "(() => { const plot = document.querySelectorAll('.plot')[1];"
-        "const box = plot.querySelector('.nsewdrag').getBoundingClientRect();"
-        "const cursor = plot.querySelector('.cursor').getBoundingClientRect();"
-        "return (cursor.left + cursor.width / 2 - box.left) / box.width; })()"
-    )
-    for share in (0.25, 0.8):
-        browser.run(f"player.time = {share} * player.duration")
-        assert browser.run(place) == pytest.approx(share, abs=0.01)
-    browser.run(
-        "document.querySelectorAll('.plot .canvas')[1].emit('plotly_click', {points: [{x: 1.25}]})"
-    )
-    assert browser.run("player.time") == pytest.approx(1.25)
-
-
-def test_a_page_cannot_be_made_to_ask_any_network(browser, view_file, report_file):
-    with socket.create_server(("127.0.0.1", 0)) as listening:
-        listening.setblocking(False)
-        address = f"http://127.0.0.1:{listening.getsockname()[1]}/"
-        for file in (view_file, report_file):
-            browser.open(file.as_uri())
-            browser.until("window.player && player.framesDrawn > 0")
-            asked = f"fetch('{address}').then(() => 'sent', (error) => String(error))"
-            assert "TypeError" in browser.run(asked)
-            browser.run(
-                "new Promise((done) => { const image = new Image(); image.onerror = () => done();"
-                f"image.src = '{address}'; }})"
-            )
-            refused = [text for text in browser.complaints() if "Content Security Policy" in text]
-            assert len(refused) >= 2, browser.complaints()
-        with pytest.raises(BlockingIOError):
-            listening.accept()
-
-
-EVIL = "</script><script>window.stolen = 1</script><img src=x onerror='window.stolen = 2'>"
-
-
-def test_texts_of_user_files_are_shown_and_never_run(browser, folder, report):
-    import dataclasses
-
-    gait = dataclasses.replace(report.gait, name=EVIL, source=EVIL)
-    evil = dataclasses.replace(report, gait=gait)
-    for name, content in (("view", viewer.html(gait_scene(evil))), ("report", gait_page(evil))):
-        file = folder / f"evil_{name}.html"
-        file.write_bytes(content)
-        browser.open(file.as_uri())
-        browser.until("window.player && player.framesDrawn > 0")
-        assert EVIL in browser.run("document.title")
-        assert EVIL in browser.run("document.body.innerText")
-        assert browser.run("typeof window.stolen") == "undefined"
-        assert browser.complaints() == []
 
 
 def live(*arguments):

@@ -57,5 +57,7 @@ def _tiles(report: BalanceReport) -> list[Tile]:
 
 
 def _tables(report: BalanceReport) -> list[Table]:
-    closing = (parameters_table(report.parameters), software())
+    # A floor that was found below the feet has their rounding.
+    height = {"floor_height": round(report.found.floor.height, 6) + 0.0}
+    closing = (parameters_table(report.parameters | height), software())
     return [feet_table(report), *motors_tables(report.motors), *closing]

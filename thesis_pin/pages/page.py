@@ -136,11 +136,21 @@ def assumptions_table(assumptions: Iterable[Mapping[str, object]]) -> Table:
 
 def parameters_table(parameters: Mapping[str, object]) -> Table:
     """What a report was asked for; nothing where it was left open."""
-    rows = [
-        (name.replace("_", " "), "–" if value is None else str(value))
-        for name, value in parameters.items()
-    ]
+    rows = [(name.replace("_", " "), in_words(value)) for name, value in parameters.items()]
     return Table("Parameters", ("parameter", "value"), rows, prose=True)
+
+
+def in_words(value: object) -> str:
+    """A parameter's value for people: lists and dictionaries with commas; a dash for nothing."""
+    if isinstance(value, Mapping):
+        return "; ".join(f"{key}: {in_words(one)}" for key, one in value.items()) or "–"
+    if isinstance(value, list | tuple):
+        return ", ".join(in_words(one) for one in value) or "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    return "–" if value is None else str(value)
 
 
 def _json(document: object) -> bytes:

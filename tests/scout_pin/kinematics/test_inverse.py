@@ -6,14 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scout_pin.kinematics.following import choose_branch
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.inverse import BRANCHES, leg_inverse_kinematics
-from scout_pin.kinematics.rates import leg_rates
 from scout_pin.specification import SIDES, Specification
 from scout_pin.urdf import JOINT_AXES, offsets
-from thesis_pin.errors import BadInput, NotFinite, SingularPose, Unreachable, WrongShape
+from thesis_pin.errors import BadInput, NotFinite, WrongShape
 from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.rotations import invert, rotation, transform
 from thesis_pin.numeric.trajectory import BodyMotion
@@ -262,53 +260,6 @@ def test_singular_poses_are_reached_named_and_keep_the_reference(scout, name, st
     assert np.nanmax(without.position_residual) <= 1e-12
 
 
-@pytest.mark.parametrize("name", SINGULAR)
-def test_rates_at_a_singular_pose_are_refused_with_leg_and_sample(scout, name):
-    leg = scout.legs["right"]
-    theta = np.stack([np.full(6, 0.3), SINGULAR[name](leg)])
-    place = leg_forward_kinematics(leg, theta)
-    zero = np.zeros((2, 3))
-    foot = BodyMotion(place[:, :3, :3], place[:, :3, 3], zero, zero, zero, zero)
-    with pytest.raises(SingularPose, match="right leg, sample 1"):
-        leg_rates(leg, theta, foot)
-
-
-@pytest.mark.parametrize("side", SIDES)
-def test_rates_and_accelerations_are_pinocchios(biped, side, rng):
-    """(3.16) and (3.24): from Pinocchio's motion of the sole back to the joints."""
-    model, data = biped.model, biped.model.createData()
-    leg, number = biped.legs[side], SIDES.index(side)
-    count = 200
-    theta, rate, second = rng.uniform(-1, 1, (3, count, 6))
-    motion = BodyMotion(np.empty((count, 3, 3)), *(np.empty((count, 3)) for _ in range(5)))
-    jacobians = np.empty((count, 6, 6))
-    for k in range(count):
-        q, v, a = pin.neutral(model), np.zeros(18), np.zeros(18)
-        q[7 + 6 * number : 13 + 6 * number] = theta[k]
-        v[6 + 6 * number : 12 + 6 * number] = rate[k]
-        a[6 + 6 * number : 12 + 6 * number] = second[k]
-        pin.forwardKinematics(model, data, q, v, a)
-        pin.updateFramePlacements(model, data)
-        frame, axes = biped.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
-        velocity = pin.getFrameVelocity(model, data, frame, axes)
-        acceleration = pin.getFrameClassicalAcceleration(model, data, frame, axes)
-        motion.rotation[k] = data.oMf[frame].rotation
-        motion.position[k] = data.oMf[frame].translation
-        motion.velocity[k], motion.omega[k] = velocity.linear, velocity.angular
-        motion.acceleration[k], motion.alpha[k] = acceleration.linear, acceleration.angular
-        full = pin.computeFrameJacobian(model, data, q, frame, axes)
-        jacobians[k] = full[:, 6 + 6 * number : 12 + 6 * number]
-    solved_rate, solved_second = leg_rates(leg, theta, motion)
-    # An error in the joints is measured by what it does to the foot, and by its
-    # size where the pose is far from singular.
-    for found, expected in ((solved_rate, rate), (solved_second, second)):
-        foot_error = np.einsum("nij,nj->ni", jacobians, found - expected)
-        assert np.abs(foot_error).max() < 1e-10
-        regular = np.linalg.cond(jacobians) < 1e4
-        assert regular.sum() > count / 2
-        assert np.abs(found - expected)[regular].max() < 1e-10
-
-
 def test_motion_seen_from_a_moving_torso_is_its_derivative(rng):
     """BodyMotion.seen_from against central differences of the relative placement."""
     from thesis_pin.numeric.rotations import euler_placement
@@ -340,44 +291,11 @@ def test_motion_seen_from_a_moving_torso_is_its_derivative(rng):
     )
 
 
-def test_whole_body_angles_follow_a_trajectory_without_jumps(scout):
-    import scout_pin
-
-    gait = scout_pin.load_gait()
-    motion = gait.sample(gait.sample_times(801))
-    theta = scout.inverse_kinematics(
-        motion.torso.placement, motion.left_foot.placement, motion.right_foot.placement
-    )
-    assert theta.shape == (len(motion.t), 12)
-    assert np.abs(np.diff(theta, axis=0)).max() < 0.02
-    assert ((theta >= scout.lower) & (theta <= scout.upper)).all()
-    reached = scout.forward_kinematics(theta, motion.torso.placement)
-    np.testing.assert_allclose(reached["left"], motion.left_foot.placement, atol=1e-12)
-
-
 def test_gait_lies_on_the_documented_branches(scout):
     feet = scout.neutral_feet()
     for side, branch in (("left", (1, 1, 1)), ("right", (-1, 1, -1))):
         angles = scout.leg_inverse_kinematics(side, feet[side]).angles
         np.testing.assert_allclose(angles[BRANCHES.index(branch)], 0.0, atol=1e-12)
-
-
-def test_a_reference_picks_the_nearest_valid_branch(scout, rng):
-    for _ in range(30):
-        theta = rng.uniform(-1.5, 1.5, 12)
-        torso = transform(rotation("y", 0.2) @ rotation("z", -0.4), rng.normal(size=3))
-        feet = scout.forward_kinematics(theta, torso)
-        found = scout.inverse_kinematics(torso, feet["left"], feet["right"], reference=theta)
-        np.testing.assert_allclose(found, theta, atol=1e-8)
-
-
-def test_an_unreachable_sample_is_named_with_side_and_reason(scout):
-    torso = np.broadcast_to(np.eye(4), (3, 4, 4))
-    feet = {side: np.tile(pose, (3, 1, 1)) for side, pose in scout.neutral_feet().items()}
-    feet["right"][2, 2, 3] -= 0.2
-    with pytest.raises(Unreachable, match="right foot, sample 2: unreachable") as caught:
-        scout.inverse_kinematics(torso, feet["left"], feet["right"])
-    assert "mm" in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -400,72 +318,3 @@ def test_urdf_offsets_are_the_leg_geometry(biped):
         np.testing.assert_array_equal(
             offsets(biped.specification.leg(side), sign), leg_offsets(biped.legs[side])
         )
-
-
-@pytest.mark.parametrize("count", [1, 20, 5000])
-def test_following_a_motion_gives_the_angles_of_the_poses(scout, count):
-    """One branch along a motion, in blocks, against all branches of every pose."""
-    import scout_pin
-
-    gait = scout_pin.load_gait()
-    motion = gait.sample(np.linspace(gait.start, gait.end, count))
-    bodies = (motion.torso, motion.left_foot, motion.right_foot)
-    found = scout.follow(*bodies)
-    np.testing.assert_allclose(
-        scout.inverse_kinematics(*(body.placement for body in bodies)), found, atol=1e-12
-    )
-    for k, (side, foot) in enumerate(zip(SIDES, bodies[1:], strict=True)):
-        target = foot.seen_from(motion.torso).placement
-        all_8 = choose_branch(leg_inverse_kinematics(scout.legs[side], target), side)
-        np.testing.assert_allclose(found[:, 6 * k : 6 * k + 6], all_8, atol=1e-12)
-
-
-def test_a_motion_no_branch_is_valid_along_is_followed_from_branch_to_branch(scout, rng):
-    """Random configurations within the limits: no branch reaches all of them."""
-    theta = np.zeros((40, 12))
-    theta[:, :6] = rng.uniform(scout.lower[:6], scout.upper[:6], (40, 6))
-    placed = scout.forward_kinematics(theta)
-    still = BodyMotion(np.tile(np.eye(3), (40, 1, 1)), *np.zeros((5, 40, 3)))
-
-    def body(placement):
-        return BodyMotion(placement[:, :3, :3], placement[:, :3, 3], *np.zeros((4, 40, 3)))
-
-    found = scout.follow(still, body(placed["left"]), body(placed["right"]))
-    solutions = scout.leg_inverse_kinematics("left", placed["left"])
-    assert not solutions.valid.all(axis=0).any()
-    np.testing.assert_array_equal(
-        found, scout.inverse_kinematics(still.placement, placed["left"], placed["right"])
-    )
-
-
-def test_following_refuses_unreachable_samples_and_what_is_no_rotation(scout):
-    import scout_pin
-
-    gait = scout_pin.load_gait()
-    motion = gait.sample(np.linspace(gait.start, gait.end, 5000))
-    motion.left_foot.position[4321] += 1.0
-    with pytest.raises(Unreachable, match="left foot, sample 4321"):
-        scout.follow(motion.torso, motion.left_foot, motion.right_foot)
-    motion.left_foot.rotation[3210] *= 1.001
-    with pytest.raises(BadInput, match=r"left foot isn't a rigid placement at index \(3210,\)"):
-        scout.follow(motion.torso, motion.left_foot, motion.right_foot)
-
-
-def test_torques_of_a_wrench_on_the_foot_are_pinocchios_transposed_jacobian(scout, rng):
-    from scout_pin.kinematics.screws import LegScrews
-
-    theta = rng.uniform(-1, 1, (20, 12))
-    force, moment = rng.normal(size=(2, 3, 20))
-    data = scout.model.createData()
-    for k, side in enumerate(SIDES):
-        mine = slice(6 * k, 6 * k + 6)
-        torques = np.array(LegScrews(scout.legs[side], theta[:, mine]).torques(force, moment))
-        frame = scout.sole_frames[side]
-        for n in range(20):
-            q = pin.neutral(scout.model)
-            q[7:] = theta[n]
-            pin.computeJointJacobians(scout.model, data, q)
-            pin.updateFramePlacements(scout.model, data)
-            jacobian = pin.getFrameJacobian(scout.model, data, frame, pin.WORLD)
-            expected = jacobian[:, 6:][:, mine].T @ np.concatenate([force[:, n], moment[:, n]])
-            np.testing.assert_allclose(torques[:, n], expected, atol=1e-12)

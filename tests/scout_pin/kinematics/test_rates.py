@@ -1,13 +1,17 @@
-"""Joint rates: which sample is refused, however long the motion is."""
+"""Joint rates, against Pinocchio; which sample is refused, however long the motion is."""
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.rates import leg_rates
 from scout_pin.kinematics.screws import LegScrews
+from scout_pin.specification import SIDES
 from thesis_pin.errors import SingularPose
 from thesis_pin.numeric.trajectory import BodyMotion
+
+from .test_inverse import SINGULAR
 
 
 @pytest.mark.parametrize("bad", [3, 4095, 4096, 9000])
@@ -38,3 +42,50 @@ def test_hip_and_ankle_axes_are_in_line_by_their_angle_not_by_the_legs_length(sc
     else:
         with pytest.raises(SingularPose, match="in line"):
             screws.refuse_singular()
+
+
+@pytest.mark.parametrize("name", SINGULAR)
+def test_rates_at_a_singular_pose_are_refused_with_leg_and_sample(scout, name):
+    leg = scout.legs["right"]
+    theta = np.stack([np.full(6, 0.3), SINGULAR[name](leg)])
+    place = leg_forward_kinematics(leg, theta)
+    zero = np.zeros((2, 3))
+    foot = BodyMotion(place[:, :3, :3], place[:, :3, 3], zero, zero, zero, zero)
+    with pytest.raises(SingularPose, match="right leg, sample 1"):
+        leg_rates(leg, theta, foot)
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_rates_and_accelerations_are_pinocchios(biped, side, rng):
+    """(3.16) and (3.24): from Pinocchio's motion of the sole back to the joints."""
+    model, data = biped.model, biped.model.createData()
+    leg, number = biped.legs[side], SIDES.index(side)
+    count = 200
+    theta, rate, second = rng.uniform(-1, 1, (3, count, 6))
+    motion = BodyMotion(np.empty((count, 3, 3)), *(np.empty((count, 3)) for _ in range(5)))
+    jacobians = np.empty((count, 6, 6))
+    for k in range(count):
+        q, v, a = pin.neutral(model), np.zeros(18), np.zeros(18)
+        q[7 + 6 * number : 13 + 6 * number] = theta[k]
+        v[6 + 6 * number : 12 + 6 * number] = rate[k]
+        a[6 + 6 * number : 12 + 6 * number] = second[k]
+        pin.forwardKinematics(model, data, q, v, a)
+        pin.updateFramePlacements(model, data)
+        frame, axes = biped.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
+        velocity = pin.getFrameVelocity(model, data, frame, axes)
+        acceleration = pin.getFrameClassicalAcceleration(model, data, frame, axes)
+        motion.rotation[k] = data.oMf[frame].rotation
+        motion.position[k] = data.oMf[frame].translation
+        motion.velocity[k], motion.omega[k] = velocity.linear, velocity.angular
+        motion.acceleration[k], motion.alpha[k] = acceleration.linear, acceleration.angular
+        full = pin.computeFrameJacobian(model, data, q, frame, axes)
+        jacobians[k] = full[:, 6 + 6 * number : 12 + 6 * number]
+    solved_rate, solved_second = leg_rates(leg, theta, motion)
+    # An error in the joints is measured by what it does to the foot, and by its
+    # size where the pose is far from singular.
+    for found, expected in ((solved_rate, rate), (solved_second, second)):
+        foot_error = np.einsum("nij,nj->ni", jacobians, found - expected)
+        assert np.abs(foot_error).max() < 1e-10
+        regular = np.linalg.cond(jacobians) < 1e4
+        assert regular.sum() > count / 2
+        assert np.abs(found - expected)[regular].max() < 1e-10

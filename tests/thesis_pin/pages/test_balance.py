@@ -8,8 +8,10 @@ from standing_robots import standing
 
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot
-from thesis_pin.pages.balance import balance_page
+from thesis_pin.pages.balance import _tiles, balance_page
 from thesis_pin.pages.balance_scene import scene
+from thesis_pin.pages.page import in_words
+from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.balance.making import balance_report
 
 
@@ -29,6 +31,29 @@ def test_arrows_start_where_the_floor_pushes_and_point_as_it_does(report):
     assert polygon.outlines[0][:, 2] == pytest.approx(1e-3)  # a little above the floor
     np.testing.assert_array_equal(items["zmp"].position, report.found.zero_moment_point)
     assert scene(report).floor == 0.0
+
+
+def test_parameters_are_words_without_a_floor_s_rounding(report):
+    grounded = replace(report.found, floor=Floor(-3.6e-10))
+    page = balance_page(BalanceReport(report.motors, grounded, True)).decode()
+    parameters = page[page.index(">Parameters<") : page.index(">Software<")]
+    left, right = report.names
+    assert f"{left}, {right}" in parameters
+    assert "0.6, 0.6" in parameters
+    assert "e-10" not in parameters
+    assert not {"[", "{", "None"} & set(parameters)
+    assert in_words({"a": (1.5, True), "b": None, "c": []}) == "a: 1.5, yes; b: –; c: –"
+
+
+@pytest.mark.parametrize(("margin", "good"), [(0.01, True), (-9e-5, None)])
+def test_a_margin_outside_by_less_than_counts_has_no_tick(report, margin, good):
+    near = replace(report.found)
+    near.__dict__["margin"] = np.full(2, margin)  # as if it were found
+    page = balance_page(BalanceReport(report.motors, near, True)).decode()
+    tile = page[page.index("least margin") - 200 : page.index("least margin") + 200]
+    assert f"{margin * 1e3:.3g} mm" in tile
+    mark = _tiles(BalanceReport(report.motors, near, True))[1]
+    assert (mark.label, mark.good) == ("least margin", good)
 
 
 def test_a_foot_off_the_floor_has_no_arrow_and_a_slope_is_drawn():

@@ -196,7 +196,11 @@ def _rotation(placement: Array) -> Array:
 
 
 def refuse_redundant(
-    robot: ClosedRobot, view: ClosedRobot, q: Array, precision: float | None
+    robot: ClosedRobot,
+    view: ClosedRobot,
+    q: Array,
+    precision: float | None,
+    remedy: str = "Tell more coordinates of the frame, or add columns of some joints",
 ) -> None:
     """Refuse a frame that may rest while motors move; harmless idle rods are none."""
     motors = set(robot.actuators or singles(robot.model))
@@ -205,5 +209,5 @@ def refuse_redundant(
             raise SingularPose(
                 f"{view.leader} don't determine the other joints: {', '.join(loose[:6])} "
                 "move while they stand still",
-                remedy="Tell more coordinates of the frame, or add columns of some joints",
+                remedy=remedy,
             )

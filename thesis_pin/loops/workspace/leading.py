@@ -28,6 +28,8 @@ _ITERATIONS = 12  # Newton steps from a neighbour, of which four are the rule
 _OUTSIDE = 1e-7  # share of a column outside the space that equations span which is rounding
 _MANY = 60  # Newton steps on the way from the pose, which may be singular
 
+_MORE = "Name more with --along or --at"
+
 
 class Led:
     """A robot, or one seen from a frame, whose led coordinates are those of a grid.
@@ -76,12 +78,12 @@ class Led:
         self.start = np.array([own[axis.name] for axis in grid.axes])
         self.survey: Survey = surveyed(self.view, self.q, precision)
         if self.tool is not None:
-            refuse_redundant(robot, self.view, self.q, precision)
+            refuse_redundant(robot, self.view, self.q, precision, _MORE)
         if heavy := [group for group in self.survey.idle if not group.light]:
             names = "; ".join(dict.fromkeys(", ".join(group.joints[:6]) for group in heavy))
             raise SingularPose(
                 f"what leads doesn't determine the other joints: {names} move meanwhile",
-                remedy="Name more with --along or --at",
+                remedy=_MORE,
             )
         matrix = self.view.system.jacobian(self.view.system.poses(self._data, self.q[None]))[0]
         scaled = self.view.scale.rows[:, None] * matrix * self.view.scale.columns

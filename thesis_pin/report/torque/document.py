@@ -79,7 +79,8 @@ class TorqueReport(TorqueNumbers):
             how = THROUGH if self.motion.variants is None else WITHIN
             said.append(INTERPOLATED.format(names=", ".join(self.motion.interpolated), how=how))
         if self.whole.still:
-            said.append(f"No column moves {', '.join(self.whole.still)}: they stay at the pose.")
+            stay = "it stays" if len(self.whole.still) == 1 else "they stay"
+            said.append(f"No column moves {', '.join(self.whole.still)}: {stay} at the pose.")
         return said + list(self.robot.description.warnings)
 
     @property

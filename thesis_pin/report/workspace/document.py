@@ -116,7 +116,8 @@ def sentences(space: Workspace) -> Iterator[str]:
         if number and (state != CUT_OFF or int((space.state == OPEN).sum()) == 0):
             yield f"{number} cells: {MEANINGS[state]}."
     if space.still:
-        yield f"Nothing leads {', '.join(space.still)}: they stay at the pose."
+        stay = "it stays" if len(space.still) == 1 else "they stay"
+        yield f"Nothing leads {', '.join(space.still)}: {stay} at the pose."
     if space.rooted:
         yield "The root is held: places and turns are seen from it."
     if space.seams:

@@ -17,6 +17,7 @@ from thesis_pin.loops.workspace.mapped import (
     SINGULAR,
     evaluate_workspace,
 )
+from thesis_pin.report.workspace.document import sentences
 
 X, Z = np.linspace(-0.52, 0.71, 31), np.linspace(-0.61, 0.62, 33)
 
@@ -206,6 +207,7 @@ def test_motors_that_nothing_leads_stay_at_the_pose(five_bar):
     robot, pose = five_bar
     space = evaluate_workspace(robot, {"left_joint": [2.0, 2.1, 2.2]}, pose=pose)
     assert space.still == ("right_joint",)
+    assert "Nothing leads right_joint: it stays at the pose." in sentences(space)
     np.testing.assert_allclose(space.motors[..., 1], pose[2], atol=1e-12)
 
 
@@ -307,6 +309,13 @@ def test_grids_that_make_no_sense_are_refused(five_bar, along, options, error, s
     robot, pose = five_bar
     with pytest.raises(error, match=says):
         evaluate_workspace(robot, along, pose=pose, **options)
+
+
+def test_a_frame_that_is_told_too_little_is_answered_with_options_of_a_workspace(five_bar):
+    robot, pose = five_bar
+    with pytest.raises(SingularPose) as caught:
+        evaluate_workspace(robot, {"x": [0.05, 0.1]}, frame="left_tip", pose=pose)
+    assert caught.value.remedy == "Name more with --along or --at"
 
 
 def test_progress_ends_at_the_whole(five_bar):
