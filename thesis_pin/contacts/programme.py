@@ -10,15 +10,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate, pairwise
 
 import daqp
 import numpy as np
 
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.tolerances import TOLERANCES
-
-Pair = tuple[np.ndarray, np.ndarray]
-"""The same quantity of both feet."""
 
 _AT_ONCE = 128  # samples whose wrenches are held against some hundred facets
 _NEXT = (
@@ -27,43 +25,69 @@ _NEXT = (
 
 
 @dataclass(frozen=True)
-class ConeProgramme:
-    """½ wᵀ H w − gᵀ w as small as two cones allow, for many samples.
+class Held:
+    """What one cone holds: ``offset + map @ z``, linear in the unknowns z.
 
     Attributes:
-        hessian: H, positive definite, shape ``(n, 6, 6)``.
-        gradient: g, shape ``(n, 6)``.
-        maps: From w, and from ``total`` − w, to what the cones hold, each ``(n, 6, 6)``.
-        total: Shape ``(n, 6)``.
-        facets: Outward unit normals of the two cones, each ``(facets, 6)``.
+        facets: Outward unit normals of the cone, shape ``(facets, c)``.
+        maps: From the unknowns, shape ``(n, c, d)``.
+        offset: What it holds where the unknowns are zero, shape ``(n, c)``.
+    """
+
+    facets: np.ndarray
+    maps: np.ndarray
+    offset: np.ndarray
+
+    def beyond(self, z: np.ndarray, rows: np.ndarray | slice) -> np.ndarray:
+        """By what z ``(m, d)`` of some samples pass each facet, ``(m, facets)``."""
+        held = np.matmul(self.maps[rows], z[:, :, None])[:, :, 0] + self.offset[rows]
+        return np.asarray(held @ self.facets.T)
+
+
+@dataclass(frozen=True)
+class ConeProgramme:
+    """½ zᵀ H z − gᵀ z as small as cones allow, for many samples.
+
+    Attributes:
+        hessian: H, positive definite, shape ``(n, d, d)``.
+        gradient: g, shape ``(n, d)``.
+        cones: At least one.
+        slack: By how much facets may be passed.
     """
 
     hessian: np.ndarray
     gradient: np.ndarray
-    maps: Pair
-    total: np.ndarray
-    facets: Pair
+    cones: tuple[Held, ...]
+    slack: float = 0.0
 
-    def beyond(self, w: np.ndarray, rows: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
-        """By what given w ``(m, 6)`` of some samples pass each facet, ``(m, facets)`` a cone."""
-        first, second = (
-            np.matmul(maps[rows], load[:, :, None])[:, :, 0] @ facets.T
-            for maps, load, facets in zip(
-                self.maps, (w, self.total[rows] - w), self.facets, strict=True
-            )
-        )
-        return first, second
+    def least(self, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The optimum of all samples, from the one that there would be without cones.
 
-    def furthest(self, w: np.ndarray) -> np.ndarray:
-        """By how much w of all samples ``(n, 6)`` pass a facet at most, ``(n,)``."""
-        most = np.empty(len(w))
-        for part in blocks(len(w), _AT_ONCE):
-            most[part] = self._furthest(w[part], part)
+        Args:
+            free: Shape ``(n, d)``; it is the optimum where it is in all cones.
+
+        Returns:
+            z, ``(n, d)``, and whether any z is admissible, ``(n,)``: z is ``free`` if none is.
+        """
+        least, possible = free.copy(), np.ones(len(free), dtype=bool)
+        limited = np.flatnonzero(self.furthest(free) > self.slack)
+        found, possible[limited] = self.solve(limited)
+        inside = possible[limited]
+        least[limited[inside]] = found[inside]
+        return least, possible
+
+    def furthest(self, z: np.ndarray) -> np.ndarray:
+        """By how much z of all samples ``(n, d)`` pass a facet at most, ``(n,)``."""
+        most = np.empty(len(z))
+        for part in blocks(len(z), _AT_ONCE):
+            most[part] = self._furthest(z[part], part)
         return most
 
-    def _furthest(self, w: np.ndarray, rows: np.ndarray | slice) -> np.ndarray:
-        first, second = self.beyond(w, rows)
-        return np.asarray(np.maximum(first.max(axis=1), second.max(axis=1)))
+    def _furthest(self, z: np.ndarray, rows: np.ndarray | slice) -> np.ndarray:
+        most = self.cones[0].beyond(z, rows).max(axis=1)
+        for cone in self.cones[1:]:
+            np.maximum(most, cone.beyond(z, rows).max(axis=1), out=most)
+        return np.asarray(most)
 
     def solve(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The optimum of some samples in order.
@@ -72,9 +96,12 @@ class ConeProgramme:
             rows: Numbers of the samples, shape ``(m,)``.
 
         Returns:
-            Their w, ``(m, 6)``, and whether any w is admissible, ``(m,)``: w is NaN if none is.
+            Their z, ``(m, d)``, and whether any z is admissible, ``(m,)``: z is NaN if none is.
         """
-        found, possible = np.full((len(rows), 6), np.nan), np.ones(len(rows), dtype=bool)
+        found, possible = (
+            np.full((len(rows), self.gradient.shape[1]), np.nan),
+            np.ones(len(rows), dtype=bool),
+        )
         left, window = np.arange(len(rows)), _NEXT
         binding: np.ndarray | None = None
         while left.size:
@@ -85,8 +112,8 @@ class ConeProgramme:
                     continue
                 found[left[0]], binding = asked
             some = left[:window]
-            w, optimal = self._bound_by(binding, rows[some])
-            found[some[optimal]] = w[optimal]
+            z, optimal = self._bound_by(binding, rows[some])
+            found[some[optimal]] = z[optimal]
             done = optimal.copy()
             done[0] |= (
                 searched  # where binding facets depend on each other the solver's answer stands
@@ -99,33 +126,33 @@ class ConeProgramme:
         return found, possible
 
     def _bound_by(self, binding: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """What w would be if some facets bound it ``(m, 6)``, and whether that is the optimum."""
-        first = len(self.facets[0])
-        one = self.facets[0][binding[binding < first]] @ self.maps[0][rows]
-        other = -self.facets[1][binding[binding >= first] - first] @ self.maps[1][rows]
-        normals = np.concatenate([one, other], axis=1)
-        bounds = np.zeros(normals.shape[:2])
-        bounds[:, one.shape[1] :] = np.matmul(other, self.total[rows, :, None])[:, :, 0]
-        size = 6 + len(binding)
+        """What z would be if some facets bound it ``(m, d)``, and whether that is the optimum."""
+        own = self.gradient.shape[1]
+        size = own + len(binding)
         matrix, right = np.zeros((len(rows), size, size)), np.empty((len(rows), size, 1))
-        matrix[:, :6, :6], matrix[:, 6:, :6] = self.hessian[rows], normals
-        matrix[:, :6, 6:] = np.swapaxes(normals, 1, 2)
-        right[:, :6, 0], right[:, 6:, 0] = self.gradient[rows], bounds
+        matrix[:, :own, :own], right[:, :own, 0] = self.hessian[rows], self.gradient[rows]
+        cuts = (own + np.searchsorted(binding, self._ends)).tolist()
+        for cone, first, (start, end) in zip(self.cones, self._ends, pairwise(cuts), strict=False):
+            if start < end:
+                facets = cone.facets[binding[start - own : end - own] - first]
+                matrix[:, start:end, :own] = facets @ cone.maps[rows]
+                right[:, start:end, 0] = self.slack - cone.offset[rows] @ facets.T
+        matrix[:, :own, own:] = np.swapaxes(matrix[:, own:, :own], 1, 2)
         try:
             found = np.linalg.solve(matrix, right)[:, :, 0]
         except np.linalg.LinAlgError:  # facets that depend on each other
-            return np.zeros((len(rows), 6)), np.zeros(len(rows), dtype=bool)
-        w = found[:, :6]
-        pressed = (found[:, 6:] >= 0.0).all(axis=1)
-        return w, pressed & (self._furthest(w, rows) <= TOLERANCES.facet)
+            return np.zeros((len(rows), own)), np.zeros(len(rows), dtype=bool)
+        z = found[:, :own]
+        pressed = (found[:, own:] >= 0.0).all(axis=1)
+        return z, pressed & (self._furthest(z, rows) <= self.slack + TOLERANCES.facet)
 
     def _search(self, row: int) -> tuple[np.ndarray, np.ndarray] | None:
-        """The w of one sample and the facets that bind it; None if none is admissible."""
-        normals, bounds, lower, sense, first = self._room
-        maps, second = self.maps[0][row], self.maps[1][row]
-        np.matmul(self.facets[0], maps, out=normals[:first])
-        np.matmul(self.facets[1], -second, out=normals[first:])
-        np.matmul(self.facets[1], -(second @ self.total[row]), out=bounds[first:])
+        """The z of one sample and the facets that bind it; None if none is admissible."""
+        normals, bounds, lower, sense = self._room
+        for cone, (start, end) in zip(self.cones, pairwise(self._ends), strict=True):
+            np.matmul(cone.facets, cone.maps[row], out=normals[start:end])
+            np.matmul(cone.facets, -cone.offset[row], out=bounds[start:end])
+        bounds += self.slack
         sense[:] = 0
         solution, _, flag, more = daqp.solve(
             self.hessian[row],
@@ -139,9 +166,13 @@ class ConeProgramme:
         return (solution, np.flatnonzero(more["lam"])) if flag > 0 else None
 
     @cached_property
-    def _room(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, int]:
-        """Large arrays that :meth:`_search` fills anew, and how many facets the first cone has."""
-        first = len(self.facets[0])
-        count = first + len(self.facets[1])
+    def _ends(self) -> list[int]:
+        """Where each cone's facets begin among all, and their number."""
+        return [0, *accumulate(len(cone.facets) for cone in self.cones)]
+
+    @cached_property
+    def _room(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Large arrays that :meth:`_search` fills anew."""
+        count = self._ends[-1]
         lower, sense = np.full(count, -1e30), np.zeros(count, dtype=np.int32)
-        return np.empty((count, 6)), np.zeros(count), lower, sense, first
+        return np.empty((count, self.gradient.shape[1])), np.zeros(count), lower, sense

@@ -9,8 +9,11 @@ import numpy as np
 
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.contacts.polar import beyond_cone
-from thesis_pin.contacts.programme import ConeProgramme, Pair
+from thesis_pin.contacts.programme import ConeProgramme, Held
 from thesis_pin.numeric.arrays import skew
+
+Pair = tuple[np.ndarray, np.ndarray]
+"""The same quantity of both feet."""
 
 
 def share_load(
@@ -104,12 +107,14 @@ class LoadSharing:
         """The same problem by its normal equations."""
         turned = np.swapaxes(self.matrix, 1, 2)
         one, other = self.contacts
+        whole = np.matmul(self.maps[1], self.total[:, :, None])[:, :, 0]
         return ConeProgramme(
             turned @ self.matrix,
             np.matmul(turned, self.target[:, :, None])[:, :, 0],
-            self.maps,
-            self.total,
-            (one.facets, other.facets),
+            (
+                Held(one.facets, self.maps[0], np.zeros_like(whole)),
+                Held(other.facets, -self.maps[1], whole),
+            ),
         )
 
     def without_limits(self) -> np.ndarray:
@@ -130,21 +135,17 @@ class LoadSharing:
         Returns:
             Shape ``(m, facets)``, at most zero inside.
         """
-        return np.concatenate(self.programme.beyond(w[part], part), axis=1)
+        cones = self.programme.cones
+        return np.concatenate([cone.beyond(w[part], part) for cone in cones], axis=1)
 
     def solve(self) -> tuple[np.ndarray, np.ndarray]:
         """What :func:`share_load` returns."""
-        count, unit = len(self.total), _unit(self.contacts)
-        violation, first = np.zeros(count), np.empty((count, 6))
-        if count:
-            first = self.without_limits()
-            limited = np.flatnonzero(self.programme.furthest(first) > 0)
-            found, possible = self.programme.solve(limited)
-            first[limited[possible]] = found[possible]
-            for row in limited[~possible]:
-                violation[row] = _missing(
-                    self.total[row], (self.maps[0][row], self.maps[1][row]), self.contacts
-                )
+        unit, violation = _unit(self.contacts), np.zeros(len(self.total))
+        first, possible = self.programme.least(self.without_limits())
+        for row in np.flatnonzero(~possible):
+            violation[row] = _missing(
+                self.total[row], (self.maps[0][row], self.maps[1][row]), self.contacts
+            )
         return np.stack([first, self.total - first], axis=1) / unit, violation
 
     def least_torques(self) -> tuple[np.ndarray, np.ndarray]:

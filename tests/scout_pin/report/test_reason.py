@@ -138,10 +138,9 @@ def test_intervals_in_json_say_what_they_were_made_from(scout, tmp_path):
 
 def test_plots_and_page_show_what_is_open(scout, tmp_path):
     report = gait_report(scout, load_gait(log(tmp_path / "log.csv", 60.0, 4)), samples=101)
-    keep = np.arange(len(report.joints.time))
-    (area,) = stability_margin(report, keep).areas
+    (area,) = stability_margin(report).areas
     assert area.corners[:, 1].min() == pytest.approx(report.headlines.margin_band[0].min() * 1e3)
-    assert len(torques(report, keep, "left").areas) == 6
+    assert len(torques(report, "left").areas) == 6
     page = gait_page(report).decode()
     assert "left open by the samples" in page or "leaves open" in page
 

@@ -97,6 +97,13 @@ class Grips:
             rows.append(wide)
         return np.concatenate(rows)
 
+    @property
+    def cones(self) -> list[tuple[Array, slice]]:
+        """Normals of cones, and of which unknowns: a sole's own; corners' few all at once."""
+        if any(grip.corner is None for grip in self.each):
+            return [(g.facets, place) for g, place in zip(self.each, self.places, strict=True)]
+        return [(self.facets, slice(0, self.size))]
+
     def point(self, stance: Stance, grip: Grip) -> Array:
         """Where a grip's force acts in the world [m], shape ``(n, 3)``."""
         if grip.corner is None:

@@ -2,8 +2,8 @@
 
 Unknowns u, torques t − T u, the floor's wrench E u = e. With u = E⁺ e + N z, N the null space
 of E, what is left to choose is z. Where nothing is, the answer is exact and needs no solver;
-where the best z without the floor's limits keeps them, it is the answer; else a quadratic
-programme has it (DAQP, an active-set method: exact up to rounding).
+where the best z without the floor's limits keeps them, it is the answer; else
+:mod:`thesis_pin.contacts.programme` has it.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
-import daqp
 import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.contacts.balance.grips import Grips
 from thesis_pin.contacts.cones import FRICTION_EDGES
 from thesis_pin.contacts.polar import beyond_cone
+from thesis_pin.contacts.programme import ConeProgramme, Held
 from thesis_pin.errors import NoSolution
 from thesis_pin.tolerances import TOLERANCES
 
@@ -28,9 +28,7 @@ SHARINGS: tuple[str, ...] = get_args(Sharing)
 
 _TIE = 1e-9  # Hessians that are flatter, relative to their steepest, get a tie-break
 _LEAST_FORCE = 1e-3  # weight of the force where load is spread equally and more is open
-_NONE = -1e30  # no lower bound
-_PRECISE = 1e-10  # of the programme, relative to the load
-_BARELY = 1e-6  # by how much forces may leave their cones where all others leave them further
+_BARELY = 1e-6  # by how much forces may leave their cones where rounding alone rules others out
 _ASTRAY = 1e-4  # beyond which forces of a load that the floor can give are no answer
 
 
@@ -154,17 +152,16 @@ def _chosen(
     size = problem.scale
     target, start = target / size, least / size
     best = (np.linalg.pinv(matrix, rcond=_TIE) @ target[..., None])[..., 0]
-    facets = problem.grips.facets
-    found = start + (free @ best[..., None])[..., 0]
-    normals = np.einsum("cm,kmf->kcf", facets, free)
-    bounds = -start @ facets.T
-    for k in np.flatnonzero((found @ facets.T > 0).any(axis=1)).tolist():
-        for slack in (0.0, _BARELY):  # on the border rounding alone may rule all forces out
-            z = _solved(matrix[k], target[k], normals[k], bounds[k] + slack)
-            if z is not None:
-                found[k] = start[k] + free[k] @ z
-                break
-    return found * size
+    cones = tuple(
+        Held(facets, free[:, place], start[:, place]) for facets, place in problem.grips.cones
+    )
+    hessian, gradient = _normal_equations(matrix, target)
+    programme = ConeProgramme(hessian, gradient, cones)
+    z, possible = programme.least(best)
+    stuck = np.flatnonzero(~possible)
+    barely, possible = replace(programme, slack=_BARELY).solve(stuck)
+    z[stuck[possible]] = barely[possible]
+    return np.asarray((start + (free @ z[..., None])[..., 0]) * size)
 
 
 def _cost(
@@ -185,25 +182,11 @@ def _cost(
     return matrix, target
 
 
-def _solved(matrix: Array, target: Array, normals: Array, bounds: Array) -> Array | None:
-    """Least |target − matrix z|² with normals z ≤ bounds; None if there is no such z.
-
-    Starting from what bound the sample before makes four iterations of five, and no time: a
-    call costs what it takes to look at all facets.
-    """
-    hessian = matrix.T @ matrix
+def _normal_equations(matrix: Array, target: Array) -> tuple[Array, Array]:
+    """Positive definite H and g of |target − matrix z|²; of what costs the same, the least z."""
+    turned = np.swapaxes(matrix, 1, 2)
+    hessian = turned @ matrix
     steep = np.linalg.eigvalsh(hessian)
-    if steep[0] < _TIE * steep[-1]:  # of what costs the same, the least force
-        hessian = hessian + _TIE * steep[-1] * np.eye(len(hessian))
-    count = len(bounds)
-    solution, _, flag, _ = daqp.solve(
-        hessian,
-        -matrix.T @ target,
-        np.ascontiguousarray(normals),
-        bounds,
-        np.full(count, _NONE),
-        np.zeros(count, dtype=np.int32),
-        primal_tol=_PRECISE,
-        dual_tol=_PRECISE,
-    )
-    return np.array(solution) if flag > 0 else None
+    flat = steep[:, 0] < _TIE * steep[:, -1]
+    hessian[flat] += _TIE * steep[flat, -1, None, None] * np.eye(hessian.shape[1])
+    return hessian, (turned @ target[..., None])[..., 0]

@@ -101,27 +101,8 @@ def read_motion(
     elif not joints:
         raise BadInput("no column is a joint's", where=table.file, allowed=", ".join(kinds))
     placed = BASE_PLACE if lead is None else lead("x", "y", "z")
-    asked = doubted(
-        table.file,
-        _at(values, [*(joint for joint in joints if not kinds[joint].turns), *placed]),
-        _at(
-            values,
-            [
-                *(one for one in joints if kinds[one].turns and kinds[one].high < np.inf),
-                *(BASE_ANGLES if lead is None else lead.turning()),
-            ],
-        ),
-    )
-    warnings = []
-    for joint in joints:
-        if kinds[joint].turns:
-            found, doubts = unwound(joint, values[joint, 0].values)
-            values[joint, 0] = replace(values[joint, 0], values=found)
-            warnings += doubts
-        warnings += unlike(
-            joint, time.values, [values[joint, o] for o in range(3) if (joint, o) in values]
-        )
-    warnings += odd_rates(values, time.values)
+    asked = _doubted(robot, table, values, joints, lead)
+    warnings = _unwound(robot, values, joints, time.values) + odd_rates(values, time.values)
     read = _differentiated(robot, table, time, values, placed)
     friction = bool(robot.model.upperDryFrictionLimit.any())
     resolved, notes = quanta(read, how), [*table.dialect.notes, *asked, *said]
@@ -179,6 +160,40 @@ def _lead(robot: ClosedRobot, frame: str | None, euler: str | None) -> Names | N
             remedy="Tell the base and the joints, or fix the root",
         )
     return Names.of(frame, singles(robot.model))
+
+
+def _doubted(
+    robot: ClosedRobot,
+    table: Table,
+    values: Mapping[tuple[str, int], Column],
+    joints: Sequence[str],
+    lead: Names | None,
+) -> tuple[str, ...]:
+    """What is to be asked of positions that may be in another unit."""
+    kinds = singles(robot.model)
+    slides = [joint for joint in joints if not kinds[joint].turns]
+    turns = [joint for joint in joints if kinds[joint].turns and kinds[joint].high < np.inf]
+    places = BASE_PLACE if lead is None else lead("x", "y", "z")
+    angles = BASE_ANGLES if lead is None else lead.turning()
+    return doubted(table.file, _at(values, [*slides, *places]), _at(values, [*turns, *angles]))
+
+
+def _unwound(
+    robot: ClosedRobot,
+    values: dict[tuple[str, int], Column],
+    joints: Sequence[str],
+    time: Array,
+) -> list[str]:
+    """Unwind the joints' angles in place; returns what is to be warned of."""
+    kinds, warnings = singles(robot.model), list[str]()
+    for joint in joints:
+        if kinds[joint].turns:
+            found, doubts = unwound(joint, values[joint, 0].values)
+            values[joint, 0] = replace(values[joint, 0], values=found)
+            warnings += doubts
+        orders = [values[joint, o] for o in range(3) if (joint, o) in values]
+        warnings += unlike(joint, time, orders)
+    return warnings
 
 
 def _at(values: Mapping[tuple[str, int], Column], names: Sequence[str]) -> list[Column]:

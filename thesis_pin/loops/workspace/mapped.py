@@ -140,32 +140,15 @@ def evaluate_workspace(
     grid = grid_of(robot, along, at, frame)
     led = Led(robot, grid, closed, precision)
     wave = spread(led, progress)
-    state = np.full(len(wave.state), CUT_OFF, dtype=np.int8)
-    for became, word in (
-        (continuation.OPEN, OPEN),
-        (continuation.OTHER, OTHER),
-        (continuation.SINGULAR, SINGULAR),
-        (continuation.CLOSED, REACHABLE),
-    ):
-        state[wave.state == became] = word
     q = _unwound(robot, wave.q[:, -robot.model.nq :])
-    names, excess = _excess(robot, q)
-    beyond = np.where(excess.max(axis=1) > TOLERANCES.joint_limit, excess.argmax(axis=1), -1)
-    beyond[state != REACHABLE] = -1
-    state[beyond >= 0] = LIMIT
-    condition, determinant = np.full((2, len(state)), np.nan)
+    state, beyond, names = _named(robot, wave.state, q)
     good = np.flatnonzero(state == REACHABLE)
     some = q[good[np.linspace(0, len(good) - 1, _SHOWN).astype(int)]] if good.size else closed[None]
     rows = Tool(frame or "", grid.told).rows
     told = () if grid.joints else grid.told
     how = measure(robot, some, frame, told, rows, length, precision)
-    for first in range(0, len(good), _BLOCK):
-        part = good[first : first + _BLOCK]
-        condition[part], determinant[part] = conditioned(robot, how, q[part], precision)
-    lost = np.zeros(len(state), dtype=bool)
-    lost[good] = ~(condition[good] < 1 / TOLERANCES.near_singular)
-    state[lost] = SINGULAR
-    condition[lost] = determinant[lost] = np.nan
+    condition, determinant = _conditions(robot, how, q, good, precision)
+    state[good[np.isnan(condition[good])]] = SINGULAR
     shape = grid.shape
     return Workspace(
         robot,
@@ -182,6 +165,38 @@ def evaluate_workspace(
         wave.seams,
         rooted,
     )
+
+
+def _named(
+    robot: ClosedRobot, became: NDArray[np.int8], q: Array
+) -> tuple[NDArray[np.int8], NDArray[np.intp], tuple[str, ...]]:
+    """What cells are called, which joint leaves its range by most, -1 for none, and the joints."""
+    state = np.full(len(became), CUT_OFF, dtype=np.int8)
+    for one, word in (
+        (continuation.OPEN, OPEN),
+        (continuation.OTHER, OTHER),
+        (continuation.SINGULAR, SINGULAR),
+        (continuation.CLOSED, REACHABLE),
+    ):
+        state[became == one] = word
+    names, excess = _excess(robot, q)
+    beyond = np.where(excess.max(axis=1) > TOLERANCES.joint_limit, excess.argmax(axis=1), -1)
+    beyond[state != REACHABLE] = -1
+    state[beyond >= 0] = LIMIT
+    return state, beyond, names
+
+
+def _conditions(
+    robot: ClosedRobot, how: Measure, q: Array, good: NDArray[np.intp], precision: float | None
+) -> tuple[Array, Array]:
+    """Condition numbers and determinants of some cells; NaN of others, and of singular ones."""
+    condition, determinant = np.full((2, len(q)), np.nan)
+    for first in range(0, len(good), _BLOCK):
+        part = good[first : first + _BLOCK]
+        condition[part], determinant[part] = conditioned(robot, how, q[part], precision)
+    lost = good[~(condition[good] < 1 / TOLERANCES.near_singular)]
+    condition[lost] = determinant[lost] = np.nan
+    return condition, determinant
 
 
 def _rooted(robot: ClosedRobot) -> ClosedRobot:

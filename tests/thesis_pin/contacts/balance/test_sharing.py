@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import minimize
 from standing_robots import random_pose, random_states, standing
 
+from thesis_pin.contacts import programme
 from thesis_pin.contacts.balance.dynamics import foot_dynamics
 from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.contacts.floor import Floor
@@ -133,6 +134,27 @@ def test_no_admissible_forces_need_less_torque_or_less_force_than_those_that_wer
         assert (torques(by["torque"]) <= torques(other) * (1 + 1e-9)).all()
         assert (forces(by["force"]) <= forces(other) * (1 + 1e-9)).all()
         assert (apart(by["equal"]) <= apart(other) * (1 + 1e-4)).all()
+
+
+@pytest.mark.parametrize("name", ["anymal", "talos"])
+@pytest.mark.parametrize("sharing", ["torque", "force", "equal"])
+def test_along_a_motion_each_sample_has_the_forces_that_it_has_alone(name, sharing, monkeypatch):
+    robot, feet, pose = standing(name)
+    q = np.tile(stand(robot, feet, pose).q, (80, 1))
+    a = np.zeros((80, robot.model.nv))
+    push = {"anymal": 4.5, "talos": 0.8}[name]
+    a[:, 0] = np.linspace(-push, push, 80)
+    a[:, 1] = push * np.cos(np.linspace(0, 4, 80))
+    asked, solver = [], programme.daqp.solve
+    monkeypatch.setattr(programme.daqp, "solve", lambda *a, **k: asked.append(1) or solver(*a, **k))
+    found = foot_dynamics(robot, feet, q, 0 * a, a, sharing=sharing)
+    together = len(asked)
+    alone = [foot_dynamics(robot, feet, *x, sharing=sharing) for x in zip(q, 0 * a, a, strict=True)]
+    assert 0 < together < len(asked) - together  # what bound one sample served others
+    size = np.abs(found.wrench).max()
+    for k, one in enumerate(alone):
+        assert np.allclose(found.wrench[k], one.wrench[0], rtol=0, atol=1e-8 * size)
+        assert found.violation[k] == one.violation[0]
 
 
 @settings(max_examples=25, deadline=None)

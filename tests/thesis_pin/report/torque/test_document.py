@@ -272,7 +272,7 @@ def test_a_load_left_over_by_rounding_is_drawn_as_none():
     rounding = np.full(len(TIME), 3e-16)
     rounding[7] = 2e-3
     report = replace(report, dynamics=replace(report.dynamics, unexplained=rounding))
-    plot = unexplained(report, np.arange(len(TIME)))
+    plot = unexplained(report)
     (curve,) = plot.curves
     assert np.flatnonzero(curve.y).tolist() == [7]
     assert [limit.value for limit in plot.limits] == [1e-6]
