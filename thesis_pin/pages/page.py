@@ -136,11 +136,21 @@ def assumptions_table(assumptions: Iterable[Mapping[str, object]]) -> Table:
 
 def parameters_table(parameters: Mapping[str, object]) -> Table:
     """What a report was asked for; nothing where it was left open."""
-    rows = [
-        (name.replace("_", " "), "–" if value is None else str(value))
-        for name, value in parameters.items()
-    ]
+    rows = [(name.replace("_", " "), _said(value)) for name, value in parameters.items()]
     return Table("Parameters", ("parameter", "value"), rows, prose=True)
+
+
+def _said(value: object) -> str:
+    """A parameter in words: no brackets and no seventeen digits."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    if isinstance(value, Mapping):
+        return ", ".join(f"{key} {_said(each)}" for key, each in value.items()) or "–"
+    if isinstance(value, list | tuple):
+        return ", ".join(map(_said, value)) or "–"
+    return "–" if value is None else str(value)
 
 
 def _json(document: object) -> bytes:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,15 +41,17 @@ def ground(report: BalanceReport, keep: Samples) -> Plot:
                 areas.append(Area("soles", corners, BLUE, filled=False))
     zmp = floor.flat(found.zero_moment_point[keep])
     com = floor.flat(found.stance.com[keep])
-    points: Literal["dot"] | None = "dot" if report.held else None
+    # At rest one lies on the other: a cross about a dot shows both.
+    dot, cross = ("dot", "cross") if report.held else (None, None)
     curves_ = [
-        Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=points, x=zmp[:, 0]),
-        Curve("centre of mass, from above", com[:, 1], ORANGE, "dash", points, com[:, 0]),
+        Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=dot, x=zmp[:, 0]),
+        Curve("centre of mass, from above", com[:, 1], ORANGE, "dash", cross, com[:, 0]),
     ]
-    for k, foot in enumerate(found.feet):
-        if foot.kind != "sole" and found.support[:, k].any():
-            flat = floor.flat(found.stance.origin[found.support[:, k], k])
-            curves_.append(Curve("points of contact", flat[:, 1], BLUE, marks="dot", x=flat[:, 0]))
+    pointed = np.array([foot.kind != "sole" for foot in found.feet])
+    bearing = found.support[keep] & pointed
+    if bearing.any():
+        flat = floor.flat(found.stance.origin[keep][bearing])
+        curves_.append(Curve("points of contact", flat[:, 1], BLUE, marks="dot", x=flat[:, 0]))
     return Plot(
         "On the floor",
         "Where the load acts, among what bears it; in the floor's own axes.",
