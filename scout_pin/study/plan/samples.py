@@ -18,12 +18,12 @@ import numpy as np
 
 from scout_pin.dynamics.inverse import walking
 from scout_pin.model import Scout
-from scout_pin.study.plan.floor import contacts, pressed
 from scout_pin.study.plan.footing import Footing
-from scout_pin.study.plan.reach import STRAIGHT
-from scout_pin.study.plan.sloped import Sloped
-from scout_pin.study.plan.slopes import StateSlopes, state_slopes
-from scout_pin.study.plan.state import State, state
+from scout_pin.study.plan.sampling.floor import contacts, pressed
+from scout_pin.study.plan.sampling.reach import STRAIGHT
+from scout_pin.study.plan.sampling.sloped import Sloped
+from scout_pin.study.plan.sampling.slopes import StateSlopes, state_slopes
+from scout_pin.study.plan.sampling.state import State, state
 from thesis_pin.errors import WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import instance

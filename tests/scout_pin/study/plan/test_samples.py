@@ -12,10 +12,10 @@ from scout_pin.motion.gait import GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.footing import Footing
-from scout_pin.study.plan.jets import torso_motion
-from scout_pin.study.plan.reach import STRAIGHT, soft_angles, softened
 from scout_pin.study.plan.samples import Quantities, Sampler
-from scout_pin.study.plan.sharing import _binding
+from scout_pin.study.plan.sampling.jets import torso_motion
+from scout_pin.study.plan.sampling.reach import STRAIGHT, soft_angles, softened
+from scout_pin.study.plan.sampling.sharing import _binding
 from thesis_pin.errors import BadInput, SingularPose, TrajectoryError
 from thesis_pin.numeric.rotations import rotation
 from thesis_pin.numeric.trajectory import BodyMotion

@@ -19,9 +19,9 @@ import pinocchio as pin
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.footing import Footing
-from scout_pin.study.plan.jets import JET, root_slopes
-from scout_pin.study.plan.sharing import shared_slopes
-from scout_pin.study.plan.state import State
+from scout_pin.study.plan.sampling.jets import JET, root_slopes
+from scout_pin.study.plan.sampling.sharing import shared_slopes
+from scout_pin.study.plan.sampling.state import State
 
 ROOT = slice(0, 6)
 LEGS = (slice(6, 12), slice(12, 18))

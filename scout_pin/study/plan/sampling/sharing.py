@@ -13,7 +13,7 @@ import pinocchio as pin
 from scout_pin.dynamics.inverse import joint_friction
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
-from scout_pin.study.plan.state import State
+from scout_pin.study.plan.sampling.state import State
 
 _BINDS = 1e-8
 """Distance from a facet, relative to the wrench, within which it binds."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.study.plan.footing import Footing
-from scout_pin.study.plan.sloped import Sloped
+from scout_pin.study.plan.sampling.sloped import Sloped
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.contacts.polar import beyond_cone

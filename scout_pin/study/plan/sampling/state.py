@@ -18,8 +18,8 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.footing import Footing
-from scout_pin.study.plan.jets import torso_motion
-from scout_pin.study.plan.reach import soft_angles
+from scout_pin.study.plan.sampling.jets import torso_motion
+from scout_pin.study.plan.sampling.reach import soft_angles
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
 from thesis_pin.numeric.turns import fitted
