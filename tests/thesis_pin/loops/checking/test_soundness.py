@@ -59,7 +59,7 @@ def test_a_pose_where_branches_cross_is_named_as_what_the_dynamics_refuse(tmp_pa
     assert found.document()["freedom"]["independent_elsewhere"] == 3
     assert "3 equations are independent: branches cross" in " ".join(found.sentences())
     still = np.zeros(one.model.nv)
-    with pytest.raises(SingularPose, match="3 equations .* branches cross"):
+    with pytest.raises(SingularPose, match=r"3 equations .* branches cross"):
         inverse_dynamics(one, found.closed, still, still)
     bent = soundness.check(robot("four_bar"))
     assert bent.mobility.independent == bent.mobility.elsewhere
