@@ -11,18 +11,16 @@ A_τ = [0; I] instead of the printed (4.15)–(4.23); see docs/audit/scout.md.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pinocchio as pin
 
-from scout_pin.coordinates import fill_root
 from scout_pin.dynamics.load_sharing import share_load
+from scout_pin.dynamics.state import Block, Room
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.screws import Joints, LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
-from scout_pin.motion.trajectory import fill_rates, followed
+from scout_pin.motion.trajectory import followed
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics, MotionContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
@@ -95,7 +93,7 @@ def inverse_dynamics(
     forces = np.empty((BLOCK if long else count, 18))
     torque = np.empty((count, 12)) if long else forces[:, 6:]
     wrench, violation = np.zeros((count, 2, 6)), np.full(count, np.nan)
-    room = _Room(robot, min(count, BLOCK))
+    room = Room(robot, min(count, BLOCK))
     for part in blocks(count):
         here, given = motion.part(part), None if joints is None else joints.part(part)
         found = forces[: len(here.t)] if long else forces[part]
@@ -114,57 +112,11 @@ def inverse_dynamics(
     )
 
 
-@dataclass(frozen=True)
-class _Block:
-    """What Pinocchio reads of a block of samples, joints first, and what is known of the legs.
-
-    Attributes:
-        q, v, a: Shapes ``(19, n)``, ``(18, n)``, ``(18, n)``.
-        screws: Of each leg; None where they have to be worked out.
-        resting: As of :class:`JointTrajectory`.
-    """
-
-    q: np.ndarray
-    v: np.ndarray
-    a: np.ndarray
-    screws: tuple[LegScrews | None, LegScrews | None]
-    resting: np.ndarray | None
-
-
-class _Room:
-    """Memory that all blocks share."""
-
-    def __init__(self, robot: Scout, count: int) -> None:
-        self.q, self.v, self.a = (np.empty((size, count)) for size in (19, 18, 18))
-
-    def block(
-        self,
-        robot: Scout,
-        motion: GaitMotion,
-        q: np.ndarray,
-        joints: JointTrajectory | None,
-        first: int,
-    ) -> _Block:
-        """Take in a block, whose rates are worked out unless its trajectory is given.
-
-        It is good until the next one is taken in.
-        """
-        own = self.q[:, : len(q)], self.v[:, : len(q)], self.a[:, : len(q)]
-        screws: tuple[LegScrews | None, LegScrews | None] = (None, None)
-        own[0][7:] = q.T
-        if joints is None:
-            screws = fill_rates(robot, motion, q, (own[1][6:], own[2][6:]), first)
-        else:
-            own[1][6:], own[2][6:] = joints.v.T, joints.a.T
-        fill_root(motion.torso, own)
-        return _Block(*own, screws, None if joints is None else joints.resting)
-
-
 def _fill(
     kept: tuple[np.ndarray, np.ndarray, np.ndarray],
     robot: Scout,
     motion: GaitMotion,
-    block: _Block,
+    block: Block,
 ) -> None:
     """Work out one block of samples; its last twelve forces are to be the joints' torques."""
     forces, wrench, violation = kept
