@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from scout_pin.coordinates import fill_root
+from scout_pin.dynamics import one_sample
 from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
@@ -56,5 +57,5 @@ class Room:
             screws = fill_rates(robot, motion, q, (own[1][6:], own[2][6:]), first)
         else:
             own[1][6:], own[2][6:] = joints.v.T, joints.a.T
-        fill_root(motion.torso, own)
+        (fill_root if len(q) > 1 else one_sample.fill_root)(motion.torso, own)
         return Block(*own, screws, None if joints is None else joints.resting)
