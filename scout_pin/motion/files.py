@@ -5,7 +5,7 @@ The formats are described in docs/scout.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -21,7 +21,15 @@ from thesis_pin.model.limits import LIMITS, Key
 from thesis_pin.model.shipped import read_shipped
 from thesis_pin.model.strict import Held, Positive, Strict
 from thesis_pin.numeric.checks import choice
-from thesis_pin.numeric.interpolation import METHODS, constant, interpolate, join, jumps, polynomial
+from thesis_pin.numeric.interpolation import (
+    METHODS,
+    MOST_COEFFICIENTS,
+    constant,
+    interpolate,
+    join,
+    jumps,
+    polynomial,
+)
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.smoothing.stated import stated
 from thesis_pin.tolerances import TOLERANCES
@@ -30,10 +38,14 @@ GAITS = Path(__file__).parents[1] / "gaits"
 PRESETS = ("thesis", "thesis-program")
 
 Method = Literal["linear", "quadratic", "cubic", "free", "quintic"]
+Coefficients = Annotated[tuple[float, ...], Held(min_length=1, max_length=MOST_COEFFICIENTS)]
 
 
 class Segment(Strict):
-    """Part of a curve: nodes to interpolate, or a polynomial, over an interval of t.
+    """Part of a curve over an interval of t: nodes to interpolate, a polynomial, or pieces.
+
+    A piece's coefficients count from its own start, not from t = 0 as a polynomial's do: far from
+    there a polynomial's digits cancel, and curves of programs that plan keep every bit.
 
     ``until`` carries the last piece of a node segment past its last node, as the
     thesis does with y_B; only quadratic curves do so literally, other methods
@@ -43,6 +55,7 @@ class Segment(Strict):
     t: Annotated[tuple[float, ...], Held(min_length=2)]
     value: Annotated[tuple[float, ...], Held(min_length=1)] | None = None
     polynomial: Annotated[tuple[float, ...], Held(min_length=1)] | None = None
+    pieces: Annotated[tuple[Coefficients, ...], Held(min_length=1)] | None = None
     interpolation: Method | None = None
     until: float | None = None
 
@@ -120,8 +133,9 @@ class GaitFile(BranchKeys):
             return
         for k, segment in enumerate(curve):
             here = (*key, k)
-            if (segment.value is None) == (segment.polynomial is None):
-                yield here, "needs either value or polynomial", None
+            given = (segment.value, segment.polynomial, segment.pieces)
+            if sum(one is not None for one in given) != 1:
+                yield here, "needs either value or polynomial or pieces", None
             if segment.value is not None and len(segment.value) != len(segment.t):
                 yield (
                     (*here, "value"),
@@ -130,6 +144,15 @@ class GaitFile(BranchKeys):
                 )
             if segment.polynomial is not None and (len(segment.t) != 2 or segment.interpolation):
                 yield here, "a polynomial takes t = [start, end] and no interpolation", segment.t
+            if segment.pieces is not None and len(segment.pieces) != len(segment.t) - 1:
+                yield (
+                    (*here, "pieces"),
+                    f"must have one list of coefficients for each of the {len(segment.t) - 1} "
+                    "intervals between nodes in t",
+                    len(segment.pieces),
+                )
+            if segment.pieces is not None and (segment.interpolation or segment.until is not None):
+                yield here, "pieces take neither interpolation nor until", None
             if any(b <= a for a, b in zip(segment.t, segment.t[1:], strict=False)):
                 yield (*here, "t"), "must increase strictly", segment.t
             if segment.until is not None and segment.until <= segment.t[-1]:
@@ -266,6 +289,9 @@ def _join_segments(curve: tuple[Segment, ...], override: str | None, default: st
         if segment.polynomial is not None:
             pieces.append(polynomial(segment.t[0], segment.t[1], segment.polynomial))
             continue
+        if segment.pieces is not None:
+            pieces.append(_piecewise(segment.t, segment.pieces))
+            continue
         values = segment.value or ()
         constant_value = len(set(values)) == 1
         method = override or segment.interpolation or default
@@ -282,3 +308,10 @@ def _join_segments(curve: tuple[Segment, ...], override: str | None, default: st
             piece = Piecewise(piece.c, np.append(piece.x[:-1], segment.end))
         pieces.append(piece)
     return join(pieces)
+
+
+def _piecewise(t: Sequence[float], pieces: Sequence[Coefficients]) -> Piecewise:
+    """Pieces whose coefficients count from each one's start, highest power first."""
+    order = max(map(len, pieces))
+    rows = [(*[0.0] * (order - len(piece)), *piece) for piece in pieces]
+    return Piecewise(np.array(rows).T, np.array(t))

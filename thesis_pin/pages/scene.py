@@ -31,12 +31,14 @@ class Group:
         label: Text of the legend.
         colours: Colours of the legend with what each one means; a meaning may be empty.
         visible: Whether it is shown at first.
+        key: Letter that shows or hides it besides its number in the legend; empty for none.
     """
 
     name: str
     label: str
     colours: tuple[tuple[str, str], ...] = ()
     visible: bool = True
+    key: str = ""
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,7 @@ class Shape(Item):
         local: The shape's placement in the moving frame, shape ``(4, 4)``.
         colour: ``#rrggbb``.
         opacity: 0 to 1.
+        ghost: Whether it gives way to what it coincides with and throws no shadow.
     """
 
     sampled: ClassVar[Shapes] = {"placement": (-1, 7)}
@@ -86,6 +89,7 @@ class Shape(Item):
     local: np.ndarray
     colour: str = GREY
     opacity: float = 1.0
+    ghost: bool = False
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,8 @@ def _picture(space: Workspace) -> str:
     width, height = (int.from_bytes(png[k : k + 4], "big") for k in (16, 20))
     data = base64.b64encode(png).decode()
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}">'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}"'
+        f' style="min-width: {width // 3}px">'
         f'<image width="{width}" height="{height}" href="data:image/png;base64,{data}"/></svg>'
     )
 
@@ -117,4 +118,5 @@ def _said(space: Workspace) -> str:
     """What the picture shows, in a sentence."""
     states = [word for k, word in enumerate(WORDS[1:], 1) if (space.state == k).any()]
     rest = f"; the rest is {', '.join(states)}" if states else ""
-    return f"Condition number {space.measure.said()}, by colour{rest}."
+    colour = ", by colour" if sum(size > 1 for size in space.grid.shape) > 1 else ""
+    return f"Condition number {space.measure.said()}{colour}{rest}."

@@ -18,6 +18,7 @@ BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = PALETTE
 BLACK = "#000000"
 
 Dash = Literal["solid", "dash", "dot"]
+Marks = Literal["dot", "cross"] | None
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ class Curve:
     y: NDArray[np.float64]
     colour: str
     dash: Dash = "solid"
-    marks: Literal["dot", "cross"] | None = None
+    marks: Marks = None
     x: NDArray[np.float64] | None = None
 
 

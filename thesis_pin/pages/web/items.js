@@ -56,9 +56,11 @@ function makers(THREE) {
     const material = paint(item.colour, {
       ...(item.geometry.type === "mesh" ? { flatShading: true, shininess: 5 } : {}),
       transparent: item.opacity < 1, opacity: item.opacity, depthWrite: item.opacity === 1,
+      // A ghost lies behind what it coincides with, or the two would flicker.
+      polygonOffset: item.ghost, polygonOffsetFactor: 1, polygonOffsetUnits: 4,
     });
     const mesh = new THREE.Mesh(surface(item.geometry), material);
-    mesh.castShadow = mesh.receiveShadow = true;
+    mesh.castShadow = mesh.receiveShadow = !item.ghost;
     mesh.matrixAutoUpdate = false;
     mesh.matrix.fromArray(item.local).transpose();  // sent by rows
     const object = new THREE.Group().add(mesh);

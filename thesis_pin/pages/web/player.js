@@ -82,7 +82,7 @@ function makePlayer(root, scene, options = {}) {
 
   // -- controls
   const values = scene.readouts.map(() => make("dd", {}));
-  const boxes = new Map();
+  const boxes = new Map(), letters = new Map();
   const legend = make("ul", { className: "legend" });
   for (const group of groups.values()) {
     const box = make("input", { type: "checkbox", checked: group.visible });
@@ -99,6 +99,10 @@ function makePlayer(root, scene, options = {}) {
     };
     for (const [colour, meaning] of group.colours) if (!meaning) text.append(swatch(colour));
     text.append(group.label);
+    if (group.key) {
+      letters.set(group.key, box);
+      text.append(" ", make("kbd", { textContent: group.key }));
+    }
     for (const [colour, meaning] of group.colours) {
       if (meaning) text.append(make("span", { className: "meaning" }, swatch(colour), meaning));
     }
@@ -189,7 +193,8 @@ function makePlayer(root, scene, options = {}) {
   (options.keys || root).addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const native = event.target.closest("button, input, select, summary, a");
-    const box = [...boxes.values()][Number(event.key) - 1];
+    const box = [...boxes.values()][Number(event.key) - 1]
+      || letters.get(event.key.toLowerCase());
     if (box && !native?.matches("select")) {
       box.click();
     } else if (keys[event.key] && !native) {

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,6 +15,7 @@ from thesis_pin.report.curves import (
     Area,
     Curve,
     Limit,
+    Marks,
     Plot,
 )
 from thesis_pin.report.torque import curves
@@ -43,15 +42,21 @@ def ground(report: BalanceReport) -> Plot:
                 areas.append(Area("soles", corners, BLUE, filled=False))
     zmp = floor.flat(found.zero_moment_point)
     com = floor.flat(found.stance.com)
-    points: Literal["dot"] | None = "dot" if report.held else None
+    # At rest one lies on the other: a cross about a dot shows both.
+    dot: Marks = "dot" if report.held else None
+    cross: Marks = "cross" if report.held else None
     curves_ = [
-        Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=points, x=zmp[:, 0]),
-        Curve("centre of mass, from above", com[:, 1], ORANGE, "dash", points, com[:, 0]),
+        Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=dot, x=zmp[:, 0]),
+        Curve("centre of mass, from above", com[:, 1], ORANGE, "dash", cross, com[:, 0]),
     ]
-    for k, foot in enumerate(found.feet):
-        if foot.kind != "sole" and found.support[:, k].any():
-            flat = floor.flat(found.stance.origin[found.support[:, k], k])
-            curves_.append(Curve("points of contact", flat[:, 1], BLUE, marks="dot", x=flat[:, 0]))
+    touching = [
+        floor.flat(found.stance.origin[found.support[:, k], k])
+        for k, foot in enumerate(found.feet)
+        if foot.kind != "sole"
+    ]
+    if sum(map(len, touching)):
+        at = np.concatenate(touching)
+        curves_.append(Curve("points of contact", at[:, 1], BLUE, marks="dot", x=at[:, 0]))
     return Plot(
         "On the floor",
         "Where the load acts, among what bears it; in the floor's own axes.",

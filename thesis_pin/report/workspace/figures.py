@@ -115,20 +115,26 @@ def _plane(
 
 def _line(space: Workspace, axis: int) -> Figure:
     """Condition over one coordinate."""
+    from matplotlib.ticker import FuncFormatter
+
     figure, axes = new_figure(8.0, 4.0)
     ax, along = axes[0, 0], space.grid.axes[axis]
     ax.plot(along.values, space.condition.ravel(), color="black")
     for k, shade in SHADES.items():
-        there = space.state.ravel() == k
-        ax.plot(along.values[there], np.ones(int(there.sum())), ".", color=shade, label=WORDS[k])
+        if (there := space.state.ravel() == k).any():
+            ones = np.ones(int(there.sum()))
+            ax.plot(along.values[there], ones, ".", color=shade, label=WORDS[k])
     if (space.state != 0).any():
         ax.legend(fontsize=8)
     ax.set(
         xlabel=f"{along.name} [{along.unit}]",
         ylabel="condition number",
         yscale="log",
-        title=f"{space.robot.model.name}: {space.measure.said()}",
+        title=f"{space.robot.model.name}: condition number {space.measure.said()}",
     )
+    plain = FuncFormatter(lambda value, _: f"{value:g}")
+    ax.yaxis.set_major_formatter(plain)
+    ax.yaxis.set_minor_formatter(plain)
     ax.grid(alpha=0.3)
     return figure
 

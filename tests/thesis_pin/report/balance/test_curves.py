@@ -22,3 +22,16 @@ def test_the_floor_of_a_held_pose_shows_its_polygon_soles_and_points():
     assert area(polygon.corners) > sum(area(one.corners) for one in soles[::2]) > 0
     zmp = next(curve for curve in plot.curves if curve.name == "zero-moment point")
     np.testing.assert_allclose(zmp.x[0], report.found.zero_moment_point[0, 0], atol=1e-12)
+    points = {curve.name: curve for curve in plot.curves}
+    com = points["centre of mass, from above"]
+    np.testing.assert_allclose(com.x, points["zero-moment point"].x, atol=1e-9)
+    assert com.marks != points["zero-moment point"].marks  # else one hides the other
+
+
+def test_points_of_contact_of_all_feet_share_a_line_of_the_legend():
+    robot, feet, pose = standing("anymal")
+    report = balance_report(robot, pose=pose, feet=feet)
+    (points,) = [curve for curve in ground(report).curves if curve.name == "points of contact"]
+    want = report.found.floor.flat(report.found.stance.origin[0])
+    found = np.unique(np.stack([points.x, points.y], axis=1).round(9), axis=0)
+    np.testing.assert_allclose(found, np.unique(want.round(9), axis=0), atol=1e-12)

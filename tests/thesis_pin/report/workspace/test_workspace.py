@@ -65,7 +65,10 @@ def test_planes_lines_and_volumes_are_drawn(space):
     assert set(workspace_files(space)) == {"workspace.png", "workspace.svg"}
     robot, pose = space.robot, space.q[space.reachable][0]
     line = evaluate_workspace(robot, {"left_joint": np.linspace(1.8, 2.4, 5)}, pose=pose)
-    assert len(workspace_figure(line).axes) == 1
+    (ax,) = workspace_figure(line).axes
+    assert ax.get_legend() is None
+    assert "condition number of the motors" in ax.get_title()
+    assert "by colour" not in workspace_page(line).decode()
     two = mechanisms.built("delta")
     cube = {name: np.linspace(low, low + 0.1, 3) for name, low in (("x", 0), ("y", -0.05))}
     cube["z"] = np.linspace(-0.4, -0.3, 3)
@@ -103,7 +106,9 @@ def test_the_page_holds_picture_numbers_and_animation(space):
     page = workspace_page(space).decode()
     assert "data:image/png;base64," in page
     assert "reachable" in page
-    assert "of the motors against x z of frame left_tip" in page
+    assert "of the motors against x z of frame left_tip, by colour" in page
+    assert "<td>x, z</td>" in page
+    assert "[&#39;" not in page
 
 
 def test_a_grid_that_nothing_reaches_has_a_page_without_animation(space):
