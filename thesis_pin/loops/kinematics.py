@@ -142,6 +142,8 @@ class Mobility:
         noise: How far the file's digits let dependent equations differ [rad].
         weakest: Scaled singular value of the weakest independent equation [rad].
         idle: Motions that no motor holds, base aside.
+        elsewhere: Number of equations that are independent at generic poses of the assembly;
+            more than ``independent`` where branches cross, which the dynamics refuse.
     """
 
     equations: int
@@ -156,6 +158,7 @@ class Mobility:
     noise: float = 0.0
     weakest: float = 1.0
     idle: tuple[IdleGroup, ...] = ()
+    elsewhere: int = 0
 
     @property
     def by_tolerance(self) -> bool:
@@ -196,4 +199,5 @@ def mobility(robot: ClosedRobot, q: ArrayLike, *, precision: float | None = None
         noise=survey.noise,
         weakest=float(values[rank - 1]) if rank else 1.0,
         idle=survey.idle,
+        elsewhere=survey.rank,
     )

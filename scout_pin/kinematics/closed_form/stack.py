@@ -11,6 +11,7 @@ thesis's numeric solver.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -37,6 +38,8 @@ from thesis_pin.tolerances import TOLERANCES
 
 Free = tuple[Number, tuple[Number, Number, Number]]
 """γ1 and the direction of e that a singular pose leaves free."""
+
+Bent = Callable[[np.ndarray], np.ndarray]
 
 CHUNK = 3600
 """Poses at a time: what is in between stays in a core's cache."""
@@ -151,8 +154,12 @@ class ClosedForm:
         allowed = (TOLERANCES.rotation_orthogonality / 10) ** 2
         return square <= allowed and math.isfinite(self.v.sum())
 
-    def triangles(self, two: np.ndarray) -> tuple[np.ndarray, ...]:
+    def triangles(self, two: np.ndarray, bent: Bent | None = None) -> tuple[np.ndarray, ...]:
         """The triangle of thigh and shank for signs S_2, ``(k,)``.
+
+        Args:
+            two: The signs.
+            bent: As for :meth:`branch`.
 
         Returns:
             The knee's angle, the angle at the hip, the direction from hip to ankle [rad], and by
@@ -164,6 +171,8 @@ class ClosedForm:
         gap = np.einsum("ikn,ikn->kn", u, u)
         c_4 = gap - (x_3 * x_3 + x_4 * x_4)
         c_4 *= 1.0 / (2.0 * x_3 * x_4)
+        if bent is not None:
+            c_4 = bent(c_4)
         np.clip(c_4, -1.0, 1.0, out=c_4)
         knee, s_4 = np.arccos(c_4), np.sqrt(1.0 - c_4 * c_4)
         thigh = np.arctan2(s_4 * x_4, c_4 * x_4 + x_3)
@@ -191,15 +200,20 @@ class ClosedForm:
         rows[ONE], rows[GONE] = 1.0, np.where(gap > TOLERANCES.reach, FAR, 0.0)
         return rows, gap
 
-    def branch(self, number: int) -> tuple[np.ndarray, np.ndarray]:
+    def branch(self, number: int, bent: Bent | None = None) -> tuple[np.ndarray, np.ndarray]:
         """One branch, whether it exists or not: then its knee counts as straight or folded.
+
+        Args:
+            number: Of the branch.
+            bent: Cosines of knees that are taken for those of a pose, ``(k, n)``, which are
+                beyond ±1 where it is out of reach; None for the pose's own.
 
         Returns:
             Its angles θ in (−π, π] [rad], ``(6, n)``, and by how much hip to ankle misses [m],
             ``(n,)``.
         """
         axis, two, bend = BRANCHES[number]
-        knee, thigh, ankle, gap = (one[0] for one in self.triangles(np.array([float(two)])))
+        knee, thigh, ankle, gap = (one[0] for one in self.triangles(np.array([float(two)]), bent))
         theta = np.empty((6, len(gap)))
         np.add(self.yaw, 0.0 if axis == two else math.pi, out=theta[0])
         np.multiply(self.tilt if axis > 0 else math.pi - self.tilt, two, out=theta[1])

@@ -1,1 +1,1 @@
-"""Gaits planned: curves that a biped can walk, from a request for a step."""
+"""Planning a walk: limits of sampled motions with their derivatives, cycles that keep them."""

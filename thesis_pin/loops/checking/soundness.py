@@ -120,6 +120,7 @@ class Soundness:
                 "base": found.base,
                 "equations": found.equations,
                 "independent": found.independent,
+                "independent_elsewhere": found.elsewhere,
                 "held_by_motors": found.held,
                 "moves": found.moves,
                 "noise": found.noise,
@@ -173,6 +174,11 @@ class Soundness:
 
 def _judged(found: Mobility, velocities: int) -> Iterator[str]:
     """What kind of motion it is, in words."""
+    if found.elsewhere > found.independent:
+        yield (
+            f"Beside this pose {found.elsewhere} equations are independent: branches cross at it, "
+            "and torques don't exist there."
+        )
     if not found.moves and found.independent < velocities:
         yield "It moves only infinitesimally: a step along its freedom doesn't survive closing."
     if found.by_tolerance:

@@ -22,15 +22,19 @@ class Choice:
         precision: The precision [rad]; 0 takes every equation as real.
         freedom: Degrees of freedom by rank; None if there is no answer.
         reason: Why there is none; empty if there is.
+        beside: The freedom at poses beside the one that was judged; less where the doubtful
+            equation is stronger there.
     """
 
     precision: float
     freedom: int | None
     reason: str = ""
+    beside: int | None = None
 
     def __str__(self) -> str:
         answer = f"no answer ({self.reason})" if self.freedom is None else str(self.freedom)
-        return f"{answer} with {self.precision:.3g}"
+        beside = f" ({self.beside} beside this pose)" if self.beside != self.freedom else ""
+        return f"{answer} with {self.precision:.3g}{beside}"
 
 
 @dataclass(frozen=True)
@@ -63,7 +67,12 @@ class Undecided:
             "loops": list(self.loops),
             "digits": list(self.digits),
             "choices": [
-                {"precision": one.precision, "freedom": one.freedom, "reason": one.reason}
+                {
+                    "precision": one.precision,
+                    "freedom": one.freedom,
+                    "beside": one.beside,
+                    "reason": one.reason,
+                }
                 for one in self.choices
             ],
         }
@@ -78,7 +87,7 @@ class Undecided:
         )
         real, larger = self.choices
         yield f"--precision decides; degrees of freedom: {real}, {larger}."
-        if real.freedom is not None and real.freedom == larger.freedom:
+        if real.beside is not None and real.beside == larger.beside:
             yield "The equation is weak where this was judged, and stronger at poses beside it."
         if self.digits:
             yield f"Nearly round in the file: {', '.join(self.digits)}."
@@ -98,6 +107,8 @@ def undecided(robot: ClosedRobot, q: NDArray[np.float64], error: Undecidable) ->
 
 def _choice(robot: ClosedRobot, q: NDArray[np.float64], precision: float) -> Choice:
     try:
-        return Choice(precision, mobility(robot, q, precision=precision).freedom)
+        found = mobility(robot, q, precision=precision)
+        more = found.elsewhere - found.independent if found.moves else 0
+        return Choice(precision, found.freedom, beside=found.freedom - more)
     except BadInput as error:
         return Choice(precision, None, error.what)

@@ -3,10 +3,12 @@
 import pickle
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from thesis_pin.errors import Undecidable
+from thesis_pin.errors import SingularPose, Undecidable
 from thesis_pin.loops.checking import soundness
+from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.loops.kinematics import close, residual
 from thesis_pin.loops.loading import load
 
@@ -42,6 +44,26 @@ def test_bars_that_cannot_meet_are_not_sound(tmp_path):
     document = found.document()
     assert (document["closes"], document["freedom"]) == (False, None)
     assert "No closed configuration" in document["explanation"]
+
+
+def test_a_pose_where_branches_cross_is_named_as_what_the_dynamics_refuse(tmp_path):
+    # Crank and coupler as long as rocker and ground: flat at zero, where it goes on either way.
+    text = (DATA / "four_bar.urdf").read_text()
+    flat, pose = tmp_path / "flat.urdf", tmp_path / "flat.toml"
+    text = text.replace('<origin xyz="0.3 0 0"/>', '<origin xyz="0.15 0 0"/>')
+    flat.write_text(text.replace('upper="3.0"', 'upper="4.0"'))
+    pose.write_text(f"format = 1\n[joints]\npin_b = {np.pi}\n")
+    one = load(flat, DATA / "four_bar.yaml")
+    found = soundness.check(one, pose=str(pose))
+    assert (found.mobility.independent, found.mobility.elsewhere) == (2, 3)
+    assert found.document()["freedom"]["independent_elsewhere"] == 3
+    assert "3 equations are independent: branches cross" in " ".join(found.sentences())
+    still = np.zeros(one.model.nv)
+    with pytest.raises(SingularPose, match=r"3 equations .* branches cross"):
+        inverse_dynamics(one, found.closed, still, still)
+    bent = soundness.check(robot("four_bar"))
+    assert bent.mobility.independent == bent.mobility.elsewhere
+    assert "branches cross" not in " ".join(bent.sentences())
 
 
 def test_what_another_reader_reads_differently_is_not_called_sound(monkeypatch):

@@ -1,0 +1,157 @@
+"""What limits are put on, at planned samples, with its derivatives by the torso's jet.
+
+The evaluation that cycles, starts and stops are planned with: given the torso's motion, the
+feet's and who stands, how far inside its support the zero-moment point is, what the floor, the
+servos, the knees and the joints' ranges are asked for.
+
+Example:
+    >>> sampler = Sampler(robot, branches)  # doctest: +SKIP
+    >>> found = sampler(jets, Footing.of(robot, feet, support))  # doctest: +SKIP
+    >>> found.margin.min(), found.line(robot).value.max()  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from scout_pin.dynamics.inverse import walking
+from scout_pin.model import Scout
+from scout_pin.study.plan.footing import Footing
+from scout_pin.study.plan.sampling.floor import contacts, pressed
+from scout_pin.study.plan.sampling.reach import STRAIGHT
+from scout_pin.study.plan.sampling.sloped import Sloped
+from scout_pin.study.plan.sampling.slopes import StateSlopes, state_slopes
+from scout_pin.study.plan.sampling.state import State, state
+from thesis_pin.errors import WrongShape
+from thesis_pin.numeric.arrays import finite_array
+from thesis_pin.numeric.checks import instance
+from thesis_pin.tolerances import GRAVITY
+
+_STEPS = np.repeat([3e-7, 1e-5, 1e-4], 6)
+"""Steps of finite differences by values, rates and accelerations [m], [rad], per s, per s²."""
+
+
+@dataclass(frozen=True)
+class Quantities:
+    """What limits are put on at n samples.
+
+    Attributes:
+        edge: Signed distance of the zero-moment point inside each edge of the support polygon
+            [m], ``(n, h)``; ∞ where a polygon has fewer edges. Its least is the margin.
+        force: Vertical force of the floor, relative to the weight, ``(n, 1)``.
+        contact: By what the wrenches pass the facets of the soles' cones that they are nearest
+            to, friction and yaw moment included, relative to the weight times the sole's
+            length, ``(n, 8)``; in double support the wrench that is missing, or −1.
+        torque: Of the joints [N·m], ``(n, 12)``.
+        rate: Of the joints [rad/s], ``(n, 12)``.
+        angle: Of the joints [rad], ``(n, 12)``.
+        knee: Cosine that each knee is asked for, beyond ±1 out of reach, ``(n, 2)``.
+    """
+
+    edge: Sloped
+    force: Sloped
+    contact: Sloped
+    torque: Sloped
+    rate: Sloped
+    angle: Sloped
+    knee: Sloped
+
+    @property
+    def margin(self) -> np.ndarray:
+        """How far the zero-moment point is inside the support polygon [m], ``(n,)``.
+
+        Outside it is minus the distance from an edge's line, which next to a corner is less than
+        that from the polygon.
+        """
+        return np.asarray(self.edge.value.min(axis=1))
+
+    def line(self, robot: Scout) -> Sloped:
+        """|τ|/τ_stall + |θ̇|/ω_no-load of each joint, ``(n, 12)``; 1 is a servo's limit."""
+        shares = self.torque.size.times(1.0 / robot.stall_torque)
+        return shares.plus(self.rate.size.times(1.0 / robot.no_load_speed))
+
+    def part(self, samples: np.ndarray | slice) -> Quantities:
+        """Some samples."""
+        return Quantities(*(getattr(self, one.name).part(samples) for one in fields(self)))
+
+
+class Sampler:
+    """Evaluates what limits are put on.
+
+    Args:
+        robot: The biped, with a free-flyer root.
+        branches: Number of each leg's branch of inverse kinematics, left then right; see
+            :data:`scout_pin.BRANCHES`.
+    """
+
+    def __init__(self, robot: Scout, branches: tuple[int, int]) -> None:
+        self.robot, self.branches = walking(robot), branches
+        self.weight = robot.mass * GRAVITY
+
+    def __call__(self, jets: np.ndarray, footing: Footing, *, slopes: bool = True) -> Quantities:
+        """Evaluate samples.
+
+        Args:
+            jets: Of the torso: x, y, z [m], pitch, roll, yaw [rad], their rates, their
+                accelerations, shape ``(n, 18)``.
+            footing: The feet.
+            slopes: Whether to work out derivatives; else each slope is None.
+
+        Raises:
+            SingularPose: A leg's Jacobian loses rank otherwise than by a straight knee.
+        """
+        instance("footing", footing, Footing, "Footing.of()")
+        jets = finite_array("jets", jets, None, 18)
+        if len(jets) != footing.count:
+            raise WrongShape("jets", jets.shape, f"({footing.count}, 18), as the footing")
+        here = self.state(jets, footing)
+        of = self._slopes(jets, footing, here) if slopes else None
+
+        def known(value: np.ndarray, name: str) -> Sloped:
+            return Sloped(value, None if of is None else getattr(of, name))
+
+        wrench = known(here.dynamics.sole_wrench, "wrench")
+        edge, force = pressed(footing, wrench, self.weight)
+        return Quantities(
+            edge,
+            force,
+            contacts(self.robot.contacts, footing, here.dynamics, wrench, self.weight),
+            known(here.dynamics.torque, "torque"),
+            known(here.joints.v, "rate"),
+            known(here.joints.q, "angle"),
+            known(here.knee, "knee"),
+        )
+
+    def state(self, jets: np.ndarray, footing: Footing) -> State:
+        """Joints, torques and wrenches of samples."""
+        return state(self.robot, self.branches, jets, footing)
+
+    def _slopes(self, jets: np.ndarray, footing: Footing, here: State) -> StateSlopes:
+        """Exact where angles are; where they are softened by finite differences."""
+        found = state_slopes(self.robot, jets, footing, here)
+        soft = np.flatnonzero((np.abs(here.knee) > STRAIGHT).any(axis=1))
+        if soft.size:
+            differences = self._differences(jets[soft], footing.part(soft))
+            for one in fields(found):
+                getattr(found, one.name)[soft] = getattr(differences, one.name)
+        return found
+
+    def _differences(self, jets: np.ndarray, footing: Footing) -> StateSlopes:
+        """Central differences at m samples, all of them in one stack."""
+        count = len(jets)
+        moved = np.tile(jets, (36, 1, 1))
+        for k, step in enumerate(_STEPS.tolist()):
+            moved[k, :, k] += step
+            moved[18 + k, :, k] -= step
+        there = self.state(moved.reshape(-1, 18), footing.part(np.tile(np.arange(count), 36)))
+
+        def slope(values: np.ndarray) -> np.ndarray:
+            both = values.reshape(2, 18, count, *values.shape[1:])
+            change = np.moveaxis(both[0] - both[1], 0, -1)
+            return np.asarray(change / (2.0 * _STEPS))
+
+        dynamics, joints = there.dynamics, there.joints
+        values = (joints.q, joints.v, dynamics.torque, there.knee, dynamics.sole_wrench)
+        return StateSlopes(*(slope(one) for one in values))

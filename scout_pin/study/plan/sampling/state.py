@@ -1,0 +1,84 @@
+"""A robot at planned samples: joints, torques and soles' wrenches of a torso's jets.
+
+Torques and wrenches are those of :func:`scout_pin.dynamics.inverse.inverse_dynamics`, so that
+what is planned is what is judged.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from scout_pin.coordinates import fill_root
+from scout_pin.dynamics.inverse import inverse_dynamics, walking
+from scout_pin.kinematics.rates import solve
+from scout_pin.kinematics.screws import LegScrews
+from scout_pin.model import Scout
+from scout_pin.motion.gait import GaitMotion
+from scout_pin.specification import SIDES
+from scout_pin.study.plan.footing import Footing
+from scout_pin.study.plan.sampling.jets import torso_motion
+from scout_pin.study.plan.sampling.reach import soft_angles
+from thesis_pin.contacts.dynamics import ContactDynamics
+from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
+from thesis_pin.numeric.turns import fitted
+
+
+@dataclass(frozen=True)
+class State:
+    """What a robot does at n samples.
+
+    Attributes:
+        torso: Its motion in the world.
+        joints: The joints' trajectory, softened where a knee is too straight or folded.
+        knee: Cosine that each knee is asked for, ``(n, 2)``.
+        dynamics: Torques and floor wrenches.
+    """
+
+    torso: BodyMotion
+    joints: JointTrajectory
+    knee: np.ndarray
+    dynamics: ContactDynamics
+
+    def pinocchio(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Pinocchio's q ``(n, 19)``, v ``(n, 18)``, a ``(n, 18)``."""
+        count, joints = len(self.knee), self.joints
+        q, v, a = np.empty((count, 19)), np.empty((count, 18)), np.empty((count, 18))
+        fill_root(self.torso, (q.T, v.T, a.T))
+        q[:, 7:], v[:, 6:], a[:, 6:] = joints.q, joints.v, joints.a
+        return q, v, a
+
+
+def state(robot: Scout, branches: tuple[int, int], jets: np.ndarray, footing: Footing) -> State:
+    """The robot at some samples.
+
+    Args:
+        robot: The biped, with a free-flyer root.
+        branches: Number of each leg's branch, left then right.
+        jets: The torso's, shape ``(n, 18)``.
+        footing: Its feet.
+
+    Raises:
+        SingularPose: A leg's Jacobian loses rank otherwise than by a straight knee.
+    """
+    walking(robot)
+    torso, count = torso_motion(jets), len(jets)
+    q, v, a = (np.empty((12, count)) for _ in range(3))
+    knee = np.empty((count, 2))
+    for k, side in enumerate(SIDES):
+        leg, foot = robot.legs[side], footing.feet[k]
+        mine = slice(6 * k, 6 * k + 6)
+        theta, knee[:, k] = soft_angles(leg, foot.entries_in(torso), branches[k])
+        if leg.turned:
+            theta = fitted(theta, leg.lower, leg.upper)
+        screws = LegScrews(leg, theta)
+        screws.refuse_singular()
+        q[mine] = theta.T
+        for out, found in zip((v, a), solve(screws, foot, torso), strict=True):
+            for row, joint in zip(out[mine], found, strict=True):
+                row[:] = joint
+    time = np.zeros(count)
+    joints = JointTrajectory(time, q.T, v.T, a.T)
+    motion = GaitMotion(time, time, footing.support, torso, *footing.feet)
+    return State(torso, joints, knee, inverse_dynamics(robot, motion, joints))
