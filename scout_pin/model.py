@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from scout_pin import coordinates
 from scout_pin.implausible import implausible
-from scout_pin.kinematics import choosing, following, forward
+from scout_pin.kinematics import choosing, following, forward, one_sample
 from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.branches import Numbers, allowed_branches
 from scout_pin.kinematics.geometry import LegGeometry
@@ -316,7 +316,7 @@ class Scout(LoadedRobot):
 
         def entries(number: int) -> Callable[[slice], np.ndarray]:
             if torso.count == 1:  # asked for twice, and dearer than the rest
-                found = feet[number].entries_in(torso)
+                found = one_sample.entries_in(feet[number], torso)
                 return lambda part: found
             return lambda part: feet[number].part(part).entries_in(torso.part(part))
 

@@ -139,16 +139,10 @@ def mirrored(legs: Legs, number: int) -> int:
     Where e, the axis of joint 3, is mirrored with the leg, (v × a) isn't and S_E changes,
     and S_K too, for the angles about e change their signs.
     """
-    (x, y, z), (u, v, w) = (_axis(leg) for leg in legs)
+    (x, y, z), (u, v, w) = (leg.neutral_axis for leg in legs)
     turned = -x * u + y * v + z * w > 0.0
     axis, two, bend = BRANCHES[number]
     return BRANCHES.index((-axis, two, -bend) if turned else (axis, two, bend))
-
-
-def _axis(leg: LegGeometry) -> tuple[float, float, float]:
-    """Axis of joint 3 in the neutral pose."""
-    (c1, c2), (s1, s2) = np.cos(leg.beta[:2]).tolist(), np.sin(leg.beta[:2]).tolist()
-    return c1 * s2, s1 * s2, c2
 
 
 def taken_branches(leg: LegGeometry, theta: np.ndarray) -> np.ndarray:

@@ -131,10 +131,14 @@ def _choose(
 def _shapes(legs: Legs, costs: Sequence[Floats], allowed: tuple[Numbers, Numbers]) -> Iterator[int]:
     """Shapes both legs may have, the nearest first; of equally near ones, knees forward."""
     distance: dict[int, float] = {}
+    left, right = (near.tolist() for near in costs)
     for form in range(4):
-        some = [members(legs[leg], form, allowed[leg]) for leg in (0, 1)]
-        if all(some):
-            distance[form] = max(min(costs[leg][k] for k in some[leg]) for leg in (0, 1))
+        some = members(legs[0], form, allowed[0])
+        others = members(legs[1], form, allowed[1])
+        if some and others:
+            distance[form] = max(
+                min(map(left.__getitem__, some)), min(map(right.__getitem__, others))
+            )
     while distance:
         nearest = min(distance.values())
         # They are in the order of preference.

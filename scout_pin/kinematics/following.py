@@ -5,6 +5,7 @@ For both legs together see :mod:`scout_pin.kinematics.choosing`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
@@ -15,12 +16,12 @@ from scout_pin.kinematics.closed_form import one_pose
 from scout_pin.kinematics.closed_form.stack import ClosedForm, Free
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.inverse import every_branch, free_values, single_pose
-from scout_pin.kinematics.signs import GONE, SUMMANDS, sum_angles
+from scout_pin.kinematics.signs import GONE, SUMMANDS
 from scout_pin.kinematics.solutions import LegSolutions
 from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import check_rigid, finite_array, pose_array, wrap
 from thesis_pin.numeric.elementwise import blocks
-from thesis_pin.numeric.turns import fitted
+from thesis_pin.numeric.turns import TURN, fitted
 from thesis_pin.tolerances import TOLERANCES
 
 Floats = NDArray[np.float64]
@@ -33,11 +34,11 @@ def nearest_first(
     leg: LegGeometry, costs: Floats, numbers: Sequence[int], like: int | None = None
 ) -> Iterator[int]:
     """Branches by distance; of equally near ones ``like``, then those with the knee forward."""
-    shapes = SHAPES[leg.heelwards]
+    shapes, far = SHAPES[leg.heelwards], costs.tolist()
     left = sorted(numbers, key=lambda k: (k != like, shapes[k], k))
     while left:
-        nearest = min(costs[k] for k in left)
-        taken = next(k for k in left if costs[k] <= nearest + TOLERANCES.branch_tie)
+        nearest = min(map(far.__getitem__, left)) + TOLERANCES.branch_tie
+        taken = next(k for k in left if far[k] <= nearest)
         left.remove(taken)
         yield taken
 
@@ -159,14 +160,17 @@ def distances(leg: LegGeometry, matrices: Entries, reference: np.ndarray | None)
 
     Where a branch doesn't reach the knee counts as straight or folded.
     """
-    start, entries = np.zeros(6) if reference is None else reference, matrices(slice(0, 1))
+    entries = matrices(slice(0, 1))
     if (found := one_pose.summands(leg, _pose(entries), True)) is not None:
         summands = np.array(found[:SUMMANDS])
     else:
         summands = ClosedForm(leg, entries, _free(leg, reference)).summands()[0][:, 0]
     summands[GONE] = 0.0
-    theta = sum_angles(leg.sums, summands[None]).reshape(8, 6)
-    return np.asarray(np.abs(wrap(theta - start)).max(axis=1))
+    gaps = summands.dot(leg.sums).reshape(8, 6) + math.pi  # θ; whole turns don't count
+    if reference is not None:
+        gaps -= reference
+    gaps -= TURN * np.rint(gaps / TURN)
+    return np.asarray(np.abs(gaps).max(axis=1))
 
 
 def along_branch(
@@ -190,15 +194,15 @@ def along_branch(
     Raises:
         BadInput: A placement isn't rigid.
     """
+    if count == 1:  # by floats: a third of the time of a gait's single sample
+        pose = _pose(matrices(slice(0, 1)))
+        if (plain := one_pose.one_branch(leg, pose, number, unchecked is None)) is not None:
+            return np.array([plain])
     free = _free(leg, reference)
     lower, upper = leg.lower - TOLERANCES.joint_limit, leg.upper + TOLERANCES.joint_limit
     theta = np.empty((6, count))  # joints first, as rates and dynamics want them
     for part in blocks(count):
         entries = matrices(part)
-        if count == 1:  # by floats: a third of the time of a gait's single sample
-            plain = one_pose.one_branch(leg, _pose(entries), number, unchecked is None)
-            if plain is not None:
-                return np.array([plain])
         form = ClosedForm(leg, entries, free)
         if unchecked is not None and not form.surely_rigid():
             check_rigid(unchecked, entries, entries.shape[1:], part.start)
@@ -216,10 +220,8 @@ def along_branch(
 
 
 def _pose(entries: np.ndarray) -> np.ndarray:
-    """The first of some placements, entries first, as a matrix ``(4, 4)``."""
-    pose = np.eye(4)
-    pose[:3] = entries[:12, 0].reshape(3, 4)
-    return pose
+    """Three rows of the first of some placements, entries first: ``(12 or 16, n)`` → ``(3, 4)``."""
+    return entries[:12, 0].reshape(3, 4)
 
 
 def _free(leg: LegGeometry, reference: np.ndarray | None) -> Free:

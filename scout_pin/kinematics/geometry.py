@@ -79,6 +79,18 @@ class LegGeometry:
         return self.forward_part < 0.0
 
     @cached_property
+    def neutral_axis(self) -> tuple[float, float, float]:
+        """Axis e of joint 3 in the neutral pose, in the torso's axes."""
+        (c1, c2), (s1, s2) = np.cos(self.beta[:2]).tolist(), np.sin(self.beta[:2]).tolist()
+        return c1 * s2, s1 * s2, c2
+
+    @cached_property
+    def ankle_arm(self) -> tuple[float, float, float]:
+        """From p5 to the sole in the sole's axes [m]."""
+        x, y, z = (self.foot[1] * self.y_6 + self.foot[0] * self.x_5).tolist()
+        return x, y, z
+
+    @cached_property
     def foot_map(self) -> np.ndarray:
         """What the closed form needs of a placement P torso to sole, as P @ foot_map, ``(4, 4)``.
 

@@ -1,4 +1,4 @@
-"""Rates and accelerations of a leg at a single sample, by Python's floats.
+"""A leg at a single sample of a motion, by Python's floats.
 
 The same as :mod:`scout_pin.kinematics.rates`, whose arrays need half a microsecond to begin each of
 some hundred steps.
@@ -10,12 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from scout_pin.kinematics.geometry import LegGeometry
+import numpy as np
+
 from scout_pin.kinematics.rates import from_ankle
 from scout_pin.kinematics.screws import Joints, LegScrews
 from thesis_pin.numeric.trajectory import BodyMotion
 
 Vector = Sequence[float]
+Triple = tuple[float, float, float]
 Numbers = tuple[Sequence[Vector], Vector, Vector, Vector, Vector, Vector]
 """Rotation, position, velocity, acceleration, ω and α of a body."""
 
@@ -37,40 +39,48 @@ def rests(body: Numbers) -> bool:
     return not any(any(vector) for vector in body[2:])
 
 
+def entries_in(foot: BodyMotion, torso: BodyMotion) -> np.ndarray:
+    """:meth:`BodyMotion.entries_in` at the only sample, ``(12, 1)``."""
+    turn, place = foot.rotation[0].tolist(), foot.position[0].tolist()
+    turn_0, place_0 = torso.rotation[0].tolist(), torso.position[0].tolist()
+    columns = [*zip(*turn, strict=True), minus(place, place_0)]
+    return np.array([into(turn_0, column) for column in columns]).T.reshape(12, 1)
+
+
 def solve(screws: LegScrews, foot: Numbers, torso: Numbers) -> tuple[Joints, Joints]:
     """Rates and accelerations, as :func:`scout_pin.kinematics.rates.solve`."""
-    leg, (turn, place, velocity, acceleration, omega, alpha) = screws.leg, foot
+    turn, place, velocity, acceleration, omega, alpha = foot
     turn_0, place_0, velocity_0, acceleration_0, omega_0, alpha_0 = torso
-    x, y, z = _arm(leg)
+    x, y, z = screws.leg.ankle_arm
     arm = [row[0] * x + row[1] * y + row[2] * z for row in turn]
-    spin, swing = _cross(omega, arm), _cross(alpha, arm)
-    whirl = _cross(omega, spin)
-    offset = [place[k] - place_0[k] - arm[k] for k in range(3)]
-    carried = _cross(omega_0, offset)
-    seen = [velocity[k] - spin[k] - velocity_0[k] - carried[k] for k in range(3)]
-    euler = _cross(alpha_0, offset)
-    coriolis = _cross(omega_0, [carried[k] + 2.0 * seen[k] for k in range(3)])
-    bend = [
-        acceleration[k] - swing[k] - whirl[k] - acceleration_0[k] - euler[k] - coriolis[k]
-        for k in range(3)
-    ]
-    relative = [omega[k] - omega_0[k] for k in range(3)]
-    drift = _cross(omega_0, relative)
-    change = [alpha[k] - alpha_0[k] - drift[k] for k in range(3)]
-    return from_ankle(screws, *(_into(turn_0, one) for one in (seen, relative, bend, change)))
+    spin, offset = cross(omega, arm), minus(minus(place, place_0), arm)
+    carried = cross(omega_0, offset)
+    seen = minus(minus(minus(velocity, velocity_0), spin), carried)
+    bend = minus(minus(acceleration, acceleration_0), cross(alpha, arm))
+    bend = minus(minus(bend, cross(omega, spin)), cross(alpha_0, offset))
+    # Coriolis's and the centrifugal acceleration: ω0 × (2 seen + carried).
+    u, v, w = seen
+    bend = minus(bend, cross(omega_0, (u + u + carried[0], v + v + carried[1], w + w + carried[2])))
+    relative = minus(omega, omega_0)
+    change = minus(minus(alpha, alpha_0), cross(omega_0, relative))
+    return from_ankle(
+        screws, into(turn_0, seen), into(turn_0, relative), into(turn_0, bend), into(turn_0, change)
+    )
 
 
-def _arm(leg: LegGeometry) -> Vector:
-    arm: Vector = (leg.foot[1] * leg.y_6 + leg.foot[0] * leg.x_5).tolist()
-    return arm
+def minus(a: Vector, b: Vector) -> Triple:
+    """a − b."""
+    (x, y, z), (u, v, w) = a, b
+    return x - u, y - v, z - w
 
 
-def _cross(a: Vector, b: Vector) -> Vector:
+def cross(a: Vector, b: Vector) -> Triple:
+    """a × b."""
     (x, y, z), (u, v, w) = a, b
     return y * w - z * v, z * u - x * w, x * v - y * u
 
 
-def _into(turn: Sequence[Vector], vector: Vector) -> tuple[float, float, float]:
+def into(turn: Sequence[Vector], vector: Vector) -> Triple:
     """Components in the axes that are a rotation's columns."""
     x, y, z = vector
     first, second, third = turn

@@ -160,7 +160,9 @@ class LegScrews:
         s2, s4, v_b = self.factors
         leg = self.leg
         # No factor vanishes where their product doesn't: |v| is at most the links' sum.
-        if np.abs(s2 * s4 * v_b).min() >= TOLERANCES.near_singular * (leg.x_2 + leg.x_3 + leg.x_4):
+        size = abs(s2 * s4 * v_b)
+        least = size if isinstance(size, float) else size.min()
+        if least >= TOLERANCES.near_singular * (leg.x_2 + leg.x_3 + leg.x_4):
             return
         reasons = (
             (np.abs(s2), "hip roll is ±90° from neutral, hip yaw is free (sin γ2 = 0)"),

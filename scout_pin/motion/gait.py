@@ -11,6 +11,7 @@ Source: Scout thesis, chapter 5, appendices C and D.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
@@ -22,7 +23,7 @@ from scout_pin.motion.contact import Phase, check_stance
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import ascending, finite_array
 from thesis_pin.numeric.checks import choice, real, whole
-from thesis_pin.numeric.elementwise import LONG, Samples
+from thesis_pin.numeric.elementwise import LONG, Samples, blocks
 from thesis_pin.numeric.interpolation import jumps
 from thesis_pin.numeric.long import LongBody
 from thesis_pin.numeric.piecewise import Piecewise, jet
@@ -74,6 +75,12 @@ class GaitMotion:
             self.right_foot.part(samples),
             self.branch,
         )
+
+    def blocks(self) -> Iterator[tuple[slice, GaitMotion]]:
+        """Samples in blocks that stay in a core's cache; a single block is the motion itself."""
+        parts = blocks(len(self.t))
+        for part in parts:
+            yield part, self if len(parts) == 1 else self.part(part)
 
     def at_rest(self, samples: Samples) -> GaitMotion:
         """The poses of some samples, without any motion."""

@@ -102,13 +102,14 @@ def _without_jumps(
 
 
 def _rates(
-    robot: Scout, motion: GaitMotion, q: np.ndarray, samples: Samples = slice(None)
+    robot: Scout, motion: GaitMotion, q: np.ndarray, samples: Samples | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Joint rates and accelerations at some samples, each ``(m, 12)``."""
-    motion, q = motion.part(samples), q[samples]
+    """Joint rates and accelerations at some samples or all, each ``(m, 12)``."""
+    if samples is not None:
+        motion, q = motion.part(samples), q[samples]
     v, a = np.empty((2, 12, len(q)))
-    for part in blocks(len(q)):
-        fill_rates(robot, motion.part(part), q[part], (v[:, part], a[:, part]), part.start)
+    for part, here in motion.blocks():
+        fill_rates(robot, here, q[part], (v[:, part], a[:, part]), part.start)
     return v.T, a.T
 
 
@@ -172,8 +173,8 @@ def _fill_one(
         leg = LegScrews.single(robot.legs[side], q[mine])
         leg.refuse_singular(first)
         screws.append(leg)
-        for rows, found in zip(out, one_sample.solve(leg, foot, torso), strict=True):
-            rows[mine, 0] = found
+        rate, second = one_sample.solve(leg, foot, torso)
+        out[0][mine, 0], out[1][mine, 0] = rate, second
     return screws[0], screws[1]
 
 

@@ -60,7 +60,7 @@ def _curve(plot: Plot, curve: Curve) -> dict[str, object]:
     }
     if curve.marks:
         return trace | {"mode": "markers", "marker": _MARKS[curve.marks] | {"color": curve.colour}}
-    line = {"color": curve.colour, "dash": curve.dash, "width": 1.8}
+    line = {"color": curve.colour, "dash": curve.dash, "width": 1.8 * curve.weight}
     return trace | {"mode": "lines", "line": line}
 
 

@@ -32,6 +32,7 @@ class Curve:
         dash: How the line is broken.
         marks: Points instead of a line: what stands at each.
         x: Where, shape ``(n,)``; None for the plot's time.
+        weight: How thick the line is, others of the kind being 1.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Curve:
     dash: Dash = "solid"
     marks: Marks = None
     x: NDArray[np.float64] | None = None
+    weight: float = 1.0
 
 
 @dataclass(frozen=True)

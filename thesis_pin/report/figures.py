@@ -1,6 +1,7 @@
 """Plots as files: drawn by Matplotlib, the same on every machine.
 
-A user's matplotlibrc, styles, TeX and backend have no say: everything is drawn
+Plots are laid out by :mod:`thesis_pin.report.plotting`, other pictures by Matplotlib's
+figures. A user's matplotlibrc, styles, TeX and backend have no say: everything is drawn
 under Matplotlib's own defaults, without a display and without pyplot.
 """
 
@@ -13,23 +14,21 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput
-from thesis_pin.report.curves import BLACK, Plot, condensed
+from thesis_pin.report.curves import Plot, condensed
+from thesis_pin.report.plotting.grid import arranged
+from thesis_pin.report.plotting.sheet import DOTS, Sheet, png, svg
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 STRETCHES = 1333
 """Of a plot's x axis: as many as the widest has columns of pixels."""
-
-_LINES = {"solid": "-", "dash": "--", "dot": ":"}
-_MARKS = {"dot": ".", "cross": "x"}
 
 
 @contextmanager
@@ -68,7 +67,7 @@ def _matplotlib() -> ModuleType:
 
 
 @default_style()
-def panels(rows: Sequence[Sequence[Plot]], width: float, height: float, title: str = "") -> Figure:
+def panels(rows: Sequence[Sequence[Plot]], width: float, height: float, title: str = "") -> Sheet:
     """Plots side by side and one below the other.
 
     Args:
@@ -77,45 +76,9 @@ def panels(rows: Sequence[Sequence[Plot]], width: float, height: float, title: s
         height: Height [inch].
         title: Headline above all; empty for none.
     """
-    figure, axes = new_figure(width, height, len(rows), len(rows[0]))
-    for line, plots in zip(axes, rows, strict=True):
-        for axis, plot in zip(line, plots, strict=True):
-            _draw(axis, condensed(plot, STRETCHES))
-    if title:
-        figure.suptitle(title)
-    return figure
-
-
-def _draw(axis: Axes, plot: Plot) -> None:
-    plane = plot.time is None
-    for area in plot.areas:
-        tint = {"facecolor": (area.colour, 0.3)} if area.filled else {"facecolor": "none"}
-        edge = {"edgecolor": area.colour if area.edged else "none", "linestyle": ":"}
-        axis.fill(*area.corners.T, label=area.name, **tint, **edge)
-    for band in plot.bands:
-        axis.axvspan(
-            band.start, band.end, color=band.colour, alpha=0.16, linewidth=0, label=band.name
-        )
-    for curve in plot.curves:
-        line: dict[str, Any] = {"linestyle": _LINES[curve.dash], "linewidth": 1 if plane else 1.5}
-        if curve.marks:
-            line = {"linestyle": "", "marker": _MARKS[curve.marks], "markersize": 4}
-        axis.plot(plot.places(curve), curve.y, color=curve.colour, label=curve.name, **line)
-    for limit in plot.limits:
-        axis.axhline(limit.value, color=BLACK, linestyle="--", linewidth=1, label=limit.name)
-    axis.set(title=plot.title, xlabel=plot.across, ylabel=plot.label)
-    axis.grid(alpha=0.3)
-    if plane:
-        axis.set_aspect("equal")
-    handles, labels = axis.get_legend_handles_labels()
-    named = dict(zip(reversed(labels), reversed(handles), strict=True))  # the first of each name
-    order = list(dict.fromkeys(labels))
-    if len(order) > 1:
-        beside = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
-        below = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15), "ncols": 2}
-        axis.legend(
-            [named[name] for name in order], order, fontsize=8, **(below if plane else beside)
-        )
+    return arranged(
+        [[condensed(plot, STRETCHES) for plot in row] for row in rows], width, height, title
+    )
 
 
 def new_figure(
@@ -139,20 +102,27 @@ def new_figure(
 
 
 @default_style()
-def figure_files(name: str, figure: Figure) -> dict[str, bytes]:
+def figure_files(name: str, figure: Sheet | Figure) -> dict[str, bytes]:
     """A figure as ``name.png`` and ``name.svg``, the same bytes for the same figure."""
     import matplotlib as mpl
+
+    with mpl.rc_context({"svg.hashsalt": name}):
+        if isinstance(figure, Sheet):
+            return {f"{name}.png": png(figure), f"{name}.svg": svg(figure)}
+        return _general(name, figure)
+
+
+def _general(name: str, figure: Figure) -> dict[str, bytes]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     # Laid out once, and each format drawn once: savefig does both again and again.
-    figure.set_dpi(150)
+    figure.set_dpi(DOTS)
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)
         figure.set_layout_engine("none")
-    png, svg = io.BytesIO(), io.BytesIO()
-    with mpl.rc_context({"svg.hashsalt": name}):
-        FigureCanvasAgg(figure).print_png(png, metadata={"Software": None})
-        FigureCanvasSVG(figure).print_svg(svg, metadata={"Date": None})
-    return {f"{name}.png": png.getvalue(), f"{name}.svg": svg.getvalue()}
+    raster, vector = io.BytesIO(), io.BytesIO()
+    FigureCanvasAgg(figure).print_png(raster, metadata={"Software": None})
+    FigureCanvasSVG(figure).print_svg(vector, metadata={"Date": None})
+    return {f"{name}.png": raster.getvalue(), f"{name}.svg": vector.getvalue()}

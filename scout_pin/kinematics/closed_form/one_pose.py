@@ -29,7 +29,7 @@ def summands(leg: LegGeometry, pose: np.ndarray, rigid: bool) -> list[float] | N
 
     Args:
         leg: Geometry of the leg.
-        pose: Placement torso to sole, shape ``(4, 4)``.
+        pose: Placement torso to sole, shape ``(4, 4)``, or its first three rows.
         rigid: Whether it is known to be one.
 
     Returns:
@@ -53,7 +53,7 @@ def one_branch(leg: LegGeometry, pose: np.ndarray, number: int, rigid: bool) -> 
 
     Args:
         leg: Geometry of the leg.
-        pose: Placement torso to sole, shape ``(4, 4)``.
+        pose: Placement torso to sole, shape ``(4, 4)``, or its first three rows.
         number: Of the branch.
         rigid: Whether the pose is known to be rigid.
 
@@ -95,7 +95,7 @@ def _shared(leg: LegGeometry, pose: np.ndarray, rigid: bool) -> _Shared | None:
     """Yaw, tilt, foot, turn_6, and v along i3 and j3; None if the pose isn't plain."""
     if not rigid and not isfinite(sum(pose.ravel().tolist())):  # NumPy would warn of 0 · ∞
         return None
-    (jx, kx, vx, ax), (jy, ky, vy, ay), (jz, kz, vz, az), last = pose.dot(leg.foot_map).tolist()
+    (jx, kx, vx, ax), (jy, ky, vy, ay), (jz, kz, vz, az), *last = pose.dot(leg.foot_map).tolist()
     if not rigid and not (
         abs(ax * ax + ay * ay + az * az - 1.0)
         + abs(jx * jx + jy * jy + jz * jz - 1.0)
@@ -104,7 +104,7 @@ def _shared(leg: LegGeometry, pose: np.ndarray, rigid: bool) -> _Shared | None:
         + abs(jz * ax - jx * az - ky)
         + abs(jx * ay - jy * ax - kz)
         <= _RIGID
-        and last == [0.0, 0.0, 1.0, 0.0]
+        and last in ([], [[0.0, 0.0, 1.0, 0.0]])
     ):
         return None
     vx -= leg.x_0

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,12 +15,13 @@ from thesis_pin.model.loading import joint_id
 from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.pages.drawing import joint_placements
 from thesis_pin.pages.scene import thinned
-from thesis_pin.report.curves import evenly
+from thesis_pin.report.curves import BLACK, Curve, Plot, evenly
 from thesis_pin.report.exchange.movement import exchange_files
-from thesis_pin.report.figures import default_style, figure_files, new_figure, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from thesis_pin.report.figures import default_style, figure_files, panels
+from thesis_pin.report.plotting.grid import PAD, placed
+from thesis_pin.report.plotting.legend import Entry, Legend
+from thesis_pin.report.plotting.panel import Panel
+from thesis_pin.report.plotting.sheet import INCH, Look, Sheet, colour
 
 EXCHANGED = 4001
 """Samples of the joints for other programs, at most."""
@@ -46,36 +45,52 @@ def figures(report: GaitReport) -> dict[str, bytes]:
 
 
 @default_style()
-def stick_figures(report: GaitReport, frames: int = 8) -> Figure:
+def stick_figures(report: GaitReport, frames: int = 8) -> Sheet:
     """The robot as a stick figure at moments of the gait, from the side and from the front: 5.3."""
     some = thinned(report.joints.time, frames)
     lines = skeleton(report, some)
-    figure, axes = new_figure(1.35 * len(some), 4.2, rows=2, columns=len(some))
     top = max(points[..., 2].max() for points in lines.values()) * 1e3 + 15
-    colours = SIDE_COLOURS | {"torso": "0.35"}
+    rows = []
     for row, (across, view) in enumerate(((1, "from the right"), (0, "from behind"))):
         everything = np.concatenate([points[..., across].ravel() for points in lines.values()])
-        limits = np.array([everything.min(), everything.max()]) * 1e3 + (-15, 15)
-        for k, axis in enumerate(axes[row]):
-            for name, points in lines.items():
-                axis.plot(
-                    *points[k][:, [across, 2]].T * 1e3,
-                    color=colours[name.split("_")[0]],
-                    linewidth=1.2 if "sole" in name else 2,
-                    marker="" if "sole" in name else "o",
-                    markersize=3,
+        low, high = float(everything.min()) * 1e3 - 15, float(everything.max()) * 1e3 + 15
+        floor = Curve("floor", np.zeros(2), BLACK, x=np.array([low, high]), weight=0.8)
+        rows.append(
+            [
+                Panel(
+                    Plot(
+                        f"{report.joints.time[some[k]]:.2f} s" if row == 0 else "",
+                        "The robot as a stick figure.",
+                        f"{view}, z [mm]",
+                        [floor, *_sticks(lines, k, across)],
+                    ),
+                    (low, high),
+                    (-12.0, top),
+                    marked=(False, k == 0),
                 )
-            axis.axhline(0, color="black", linewidth=0.8)
-            axis.set(aspect="equal", xlim=limits, ylim=(-12, top), xticks=[])
-            if row == 0:
-                axis.set_title(f"{report.joints.time[some[k]]:.2f} s", fontsize=9)
-            if k:
-                axis.set_yticks([])
-        axes[row, 0].set_ylabel(f"{view}, z [mm]", fontsize=9)
-    for side in SIDES:
-        axes[1, 0].plot([], [], color=colours[side], label=f"{side} leg")
-    figure.legend(fontsize=8, loc="outside lower center", ncols=2)
-    return figure
+                for k in range(len(some))
+            ]
+        )
+    legend = Legend(
+        [Entry(f"{side} leg", Look(colour(SIDE_COLOURS[side]), 2.0)) for side in SIDES], 2
+    )
+    width, height = 1.35 * len(some), 4.2
+    room = legend.height + PAD
+    marks = placed(rows, width, height, floor=room)
+    return Sheet(width, height, [*marks, *legend.marks((width * INCH - legend.width) / 2, room)])
+
+
+def _sticks(lines: dict[str, NDArray[np.float64]], moment: int, across: int) -> list[Curve]:
+    """Lines of one moment, and dots at the joints; ``across`` is the axis to the right."""
+    colours = SIDE_COLOURS | {"torso": "#595959"}
+    curves = []
+    for name, points in lines.items():
+        x, y = points[moment][:, [across, 2]].T * 1e3
+        tint, sole = colours[name.split("_")[0]], "sole" in name
+        curves.append(Curve(name, y, tint, x=x, weight=1.2 if sole else 2.0))
+        if not sole:
+            curves.append(Curve(name, y, tint, marks="dot", x=x, weight=2.0))
+    return curves
 
 
 def skeleton(report: GaitReport, some: Samples) -> dict[str, NDArray[np.float64]]:

@@ -4,11 +4,13 @@ import hashlib
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
+from pictured import panels_of, shapes_of, texts_of
 
 from thesis_pin.errors import BadInput
 from thesis_pin.report import curves
@@ -42,48 +44,57 @@ PLANE = curves.Plot(
 
 
 def test_curves_are_drawn_as_they_are_given():
-    axis = panels([[OVER_TIME]], 4, 3).axes[0]
-    for line, curve, dash in zip(axis.lines, OVER_TIME.curves, ("-", "--"), strict=False):
-        np.testing.assert_array_equal(line.get_xdata(), TIME)
-        np.testing.assert_array_equal(line.get_ydata(), curve.y)
-        assert (to_hex(line.get_color()), line.get_linestyle()) == (curve.colour, dash)
-    assert [line.get_ydata()[0] for line in axis.lines[2:]] == [3.0, -3.0]
-    assert (axis.get_xlabel(), axis.get_ylabel()) == ("time [s]", "torque [N·m]")
-    assert axis.get_title() == "Torques"
-    low, high = axis.get_ylim()
-    assert low < -3
-    assert high > 4
+    (panel,) = panels_of(panels([[OVER_TIME]], 4, 3))
+    lines = [thing for thing in panel.things if thing[0] == "curve"]
+    for (_, values, look), curve in zip(lines, OVER_TIME.curves, strict=True):
+        np.testing.assert_allclose(values, np.stack([TIME, curve.y], axis=1), atol=1e-9)
+        assert (to_hex(look.stroke), look.dash) == (curve.colour, curve.dash)
+    limits = [values for kind, values, _ in panel.things if kind == "limit"]
+    np.testing.assert_allclose([ends[:, 1] for ends in limits], [[3, 3], [-3, -3]], atol=1e-9)
+    assert limits[0][0, 0] < TIME[0]
+    assert limits[0][1, 0] > TIME[-1]
+    bands = [values[:, 0] for kind, values, _ in panel.things if kind == "band"]
+    np.testing.assert_allclose([band[:2] for band in bands], [[0, 0.5], [1, 2]], atol=1e-9)
+    assert (panel.x.name, panel.y.name) == ("time [s]", "torque [N·m]")
 
 
-def test_a_legend_names_each_thing_once():
-    axis = panels([[OVER_TIME]], 4, 3).axes[0]
-    named = [text.get_text() for text in axis.get_legend().get_texts()]
-    assert named == ["stands", "first", "second", "stall"]
-    alone = curves.Plot("One", "", "y", [curves.Curve("only", TIME, "#000000")], TIME)
-    assert panels([[alone]], 4, 3).axes[0].get_legend() is None
+def test_every_sample_of_a_long_curve_that_peaks_is_drawn():
+    time = np.linspace(0.0, 1.0, 100_001)
+    y = np.sin(40 * time)
+    y[77_777] = 9.0
+    plot = curves.Plot("Long", "", "y", [curves.Curve("only", y, "#000000")], time)
+    (panel,) = panels_of(panels([[plot]], 8, 3))
+    values = panel.things[0][1]
+    assert len(values) < 10_000
+    assert np.abs(values - [time[77_777], 9.0]).sum(axis=1).min() < 1e-9
 
 
 def test_a_plane_has_one_scale_and_its_areas():
-    axis = panels([[PLANE]], 4, 3).axes[0]
-    assert axis.get_aspect() == 1.0
-    sole, hull = axis.patches
-    np.testing.assert_array_equal(sole.get_xy()[:4], SQUARE)
-    assert to_hex(sole.get_facecolor()) == "#e69f00"
-    assert hull.get_facecolor()[3] == 0
-    (point,) = axis.lines
-    np.testing.assert_array_equal(point.get_xdata(), 2 * TIME)
-    assert (point.get_linestyle(), point.get_marker()) == ("None", "x")
+    sheet = panels([[PLANE]], 4, 3)
+    (panel,) = panels_of(sheet)
+    sole, hull = (thing for thing in panel.things if thing[0] == "area")
+    np.testing.assert_allclose(sole[1], SQUARE, atol=1e-9)
+    np.testing.assert_allclose(hull[1], SQUARE + 1, atol=1e-9)
+    assert to_hex(sole[2].fill) == "#e69f00"
+    assert hull[2].fill is None
+    width, height = np.ptp(shapes_of(sheet, "area")[0].points, axis=0)
+    assert width == pytest.approx(3 * height)
+    (point,) = (thing for thing in panel.things if thing[0] == "curve")
+    np.testing.assert_allclose(point[1], np.stack([2 * TIME, TIME], axis=1), atol=1e-9)
+    assert point[2].marks == "cross"
 
 
 def test_panels_stand_where_their_rows_say():
-    figure = panels([[OVER_TIME, PLANE], [PLANE, OVER_TIME]], 9, 6, "All")
-    assert [axis.get_title() for axis in figure.axes] == [
-        "Torques",
-        "From above",
-        "From above",
-        "Torques",
-    ]
-    assert figure.get_suptitle() == "All"
+    sheet = panels([[OVER_TIME, PLANE], [PLANE, OVER_TIME]], 9, 6, "All")
+    middles = [frame.points.mean(axis=0) for frame in shapes_of(sheet, "frame")]
+    left, right = 0.25 * 9 * 72, 0.75 * 9 * 72
+    for (x, y), (across, up) in zip(
+        middles, [(left, 1), (right, 1), (left, 0), (right, 0)], strict=True
+    ):
+        assert x == pytest.approx(across, abs=60)
+        assert (y > 3 * 72) == up
+    titles = [text for text in texts_of(sheet) if text in ("All", "Torques", "From above")]
+    assert titles == ["All", "Torques", "From above", "From above", "Torques"]
 
 
 SETTINGS = {
@@ -116,6 +127,7 @@ def test_settings_of_the_program_around_change_no_byte_and_stay():
 def elsewhere(folder, **environment):
     """What a fresh interpreter draws, working in a folder."""
     code = "import importlib.util, hashlib, os, sys\n"
+    code += f"sys.path.append({str(Path(__file__).parents[2])!r})\n"
     code += f"spec = importlib.util.spec_from_file_location('here', {__file__!r})\n"
     code += "here = importlib.util.module_from_spec(spec)\n"
     code += "from thesis_pin.report.figures import default_style\n"

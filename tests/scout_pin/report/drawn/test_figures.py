@@ -5,10 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pictured import shapes_of, texts_of
 
 import scout_pin
 from scout_pin.report.drawn.figures import skeleton, stick_figures
 from scout_pin.report.drawn.page import gait_page
+from thesis_pin.report.plotting.sheet import Text
 
 
 @pytest.fixture(scope="module")
@@ -29,9 +31,21 @@ def test_stick_figures_show_the_motion_of_the_report(report):
 
 
 def test_stick_figures_have_two_views_of_every_frame(report):
-    figure = stick_figures(report, frames=5)
-    assert len(figure.axes) == 10
-    assert figure.axes[4].get_title() == f"{report.joints.time[-1]:.2f} s"
+    sheet = stick_figures(report, frames=5)
+    frames = shapes_of(sheet, "frame")
+    assert len(frames) == 10
+    last = f"{report.joints.time[-1]:.2f} s"
+    (title,) = (mark for mark in sheet.marks if isinstance(mark, Text) and mark.text == last)
+    assert title.x == pytest.approx(frames[4].points[:, 0].mean())
+    # From the right: the left knee's height above the sole, in millimetres by the two labels.
+    some = np.linspace(0, 40, 5).round().astype(int)
+    knee = skeleton(report, some)["left"][0, 3]
+    ticks = shapes_of(sheet, "y_ticks")[0].points[::3, 1]
+    labels = [float(text) for text in texts_of(sheet) if text in ("0", "100", "200")][:3]
+    assert len(ticks) == 3
+    unit = (ticks[2] - ticks[0]) / (labels[2] - labels[0])
+    line = next(one for one in shapes_of(sheet, "curve") if len(one.points) > 5)
+    np.testing.assert_allclose(line.points[3, 1], ticks[0] + unit * knee[2] * 1e3, atol=1e-6)
 
 
 def test_a_page_is_the_same_bytes_for_the_same_report(report):

@@ -1,0 +1,1 @@
+"""Plots as drawings: where panels, axes and legends stand, and what draws them."""

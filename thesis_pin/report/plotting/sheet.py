@@ -1,0 +1,247 @@
+"""Drawings in points, written as PNG and as SVG by Matplotlib's renderers.
+
+Below Matplotlib's figures, whose general axes, ticks and layout took four fifths of a
+report's time: what a sheet holds is placed already.
+"""
+
+from __future__ import annotations
+
+import io
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thesis_pin.report.curves import Dash
+
+if TYPE_CHECKING:
+    from matplotlib.backend_bases import GraphicsContextBase, RendererBase
+    from matplotlib.font_manager import FontProperties
+
+Points = NDArray[np.float64]
+Colour = tuple[float, float, float, float]
+"""Red, green, blue and opacity, each 0 to 1."""
+
+INCH = 72.0
+"""Points."""
+
+DOTS = 150
+"""Pixels of an inch."""
+
+_DASHES = {"solid": (), "dash": (3.7, 1.6), "dot": (1.0, 1.65)}
+"""Lengths of strokes and gaps, in widths of the line."""
+
+
+def colour(code: str, opacity: float = 1.0) -> Colour:
+    """``#rrggbb`` as a colour."""
+    red, green, blue = (int(code[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    return red, green, blue, opacity
+
+
+@dataclass(frozen=True)
+class Box:
+    """A rectangle [pt], from the sheet's lower left corner."""
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+    @property
+    def width(self) -> float:
+        """From left to right."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """From bottom to top."""
+        return self.top - self.bottom
+
+    def corners(self) -> Points:
+        """Counterclockwise, shape ``(4, 2)``."""
+        left, bottom, right, top = self.left, self.bottom, self.right, self.top
+        return np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
+
+
+@dataclass(frozen=True)
+class Look:
+    """How lines, areas and marks look; also in a legend.
+
+    Attributes:
+        stroke: Colour of the line or the edge; None for none.
+        width: Of the line [pt].
+        dash: How it is broken.
+        fill: Colour of the inside; None leaves it open.
+        marks: What stands at each point instead of a line between them.
+        size: Of a mark [pt].
+    """
+
+    stroke: Colour | None = None
+    width: float = 1.0
+    dash: Dash = "solid"
+    fill: Colour | None = None
+    marks: Literal["dot", "cross"] | None = None
+    size: float = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """A line through points, or an area if it is closed.
+
+    Attributes:
+        points: [pt], shape ``(n, 2)``; NaN leaves a gap.
+        look: How they look.
+        closed: Whether the last point is joined to the first.
+        clip: What lies outside isn't drawn; None for the whole sheet.
+        snap: Whether edges are moved onto whole pixels: for what is upright.
+        kind: What it is, for whoever reads the SVG.
+    """
+
+    points: Points
+    look: Look
+    closed: bool = False
+    clip: Box | None = None
+    snap: bool = False
+    kind: str = ""
+
+
+@dataclass(frozen=True)
+class Text:
+    """A line of text.
+
+    Attributes:
+        x, y: Where [pt]: on its base line.
+        text: What it says.
+        size: Of the font [pt].
+        align: Which part of it stands at ``x``: 0 its start, 0.5 its middle, 1 its end.
+        upright: Whether it is read from below to above; ``align`` then is about ``y``.
+    """
+
+    x: float
+    y: float
+    text: str
+    size: float
+    align: float = 0.0
+    upright: bool = False
+
+
+Mark = Shape | Text
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """Marks on white.
+
+    Attributes:
+        width, height: [inch].
+        marks: Later ones cover earlier ones.
+    """
+
+    width: float
+    height: float
+    marks: Sequence[Mark]
+
+
+@lru_cache(maxsize=4096)
+def text_width(text: str, size: float) -> float:
+    """How long a line of text is [pt]."""
+    from matplotlib.textpath import text_to_path
+
+    return float(text_to_path.get_text_width_height_descent(text, _font(size), ismath=False)[0])
+
+
+def png(sheet: Sheet) -> bytes:
+    """A sheet as PNG, without its time."""
+    from matplotlib.backends.backend_agg import RendererAgg
+    from PIL import Image
+
+    size = round(sheet.width * DOTS), round(sheet.height * DOTS)
+    renderer = RendererAgg(*size, DOTS)
+    _draw(sheet, renderer, DOTS / INCH)
+    image = Image.frombuffer("RGBA", size, renderer.buffer_rgba(), "raw", "RGBA", 0, 1)
+    content = io.BytesIO()
+    # Without the opacity, which is 1, and compressing runs only, writing takes half as long.
+    image.convert("RGB").save(content, "PNG", dpi=(DOTS, DOTS), compress_type=zlib.Z_RLE)
+    return content.getvalue()
+
+
+def svg(sheet: Sheet) -> bytes:
+    """A sheet as SVG, its texts as outlines, without its time."""
+    from matplotlib.backends.backend_svg import RendererSVG
+
+    content = io.StringIO()
+    size = sheet.width * INCH, sheet.height * INCH
+    renderer = RendererSVG(*size, content, image_dpi=int(INCH), metadata={"Date": None})
+    _draw(sheet, renderer, 1.0)
+    renderer.finalize()
+    return content.getvalue().encode()
+
+
+@lru_cache(maxsize=32)
+def _font(size: float) -> FontProperties:
+    from matplotlib.font_manager import FontProperties
+
+    return FontProperties(size=size)
+
+
+def _draw(sheet: Sheet, renderer: RendererBase, scale: float) -> None:
+    page = Box(0.0, 0.0, sheet.width * INCH, sheet.height * INCH)
+    _shape(Shape(page.corners(), Look(fill=colour("#ffffff")), closed=True), renderer, scale)
+    for mark in sheet.marks:
+        if isinstance(mark, Text):
+            _text(mark, renderer, scale, page.height)
+        else:
+            _shape(mark, renderer, scale)
+
+
+def _shape(shape: Shape, renderer: RendererBase, scale: float) -> None:
+    from matplotlib.path import Path
+    from matplotlib.transforms import Affine2D, Bbox
+
+    look, points = shape.look, scale * shape.points
+    gc = renderer.new_gc()
+    _stroke(gc, look)
+    gc.set_snap(shape.snap)
+    if shape.clip is not None:
+        gc.set_clip_rectangle(Bbox(scale * shape.clip.corners()[::2]))
+    if shape.kind:
+        renderer.open_group(shape.kind)
+    if look.marks == "dot":
+        round_ = Path.unit_circle(), Affine2D().scale(scale * look.size / 4)
+        renderer.draw_markers(gc, *round_, Path(points), Affine2D(), look.stroke)
+    elif look.marks == "cross":
+        cross = Path([[-0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [0.5, -0.5]], [1, 2, 1, 2])
+        size = Affine2D().scale(scale * look.size)
+        renderer.draw_markers(gc, cross, size, Path(points), Affine2D())
+    else:
+        path = Path(np.concatenate([points, points[:1]]) if shape.closed else points)
+        renderer.draw_path(gc, path, Affine2D(), look.fill)
+    if shape.kind:
+        renderer.close_group(shape.kind)
+    gc.restore()
+
+
+def _stroke(gc: GraphicsContextBase, look: Look) -> None:
+    gc.set_linewidth(look.width if look.stroke else 0.0)
+    gc.set_foreground(look.stroke or (0.0, 0.0, 0.0, 1.0), isRGBA=True)
+    gc.set_joinstyle("round")
+    gc.set_capstyle("butt" if look.dash != "solid" or look.marks else "projecting")
+    dashes = [look.width * part for part in _DASHES[look.dash]]
+    gc.set_dashes(0.0, dashes or None)
+
+
+def _text(text: Text, renderer: RendererBase, scale: float, height: float) -> None:
+    if not text.text:
+        return
+    gc = renderer.new_gc()
+    gc.set_foreground((0.0, 0.0, 0.0, 1.0), isRGBA=True)
+    back = text.align * text_width(text.text, text.size) if text.align else 0.0
+    x, y = (text.x, text.y - back) if text.upright else (text.x - back, text.y)
+    angle = 90.0 if text.upright else 0.0
+    place = scale * x, scale * (height - y)
+    renderer.draw_text(gc, *place, text.text, _font(text.size), angle, ismath=False)
+    gc.restore()
