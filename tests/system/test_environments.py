@@ -12,6 +12,7 @@ ROOT = Path(__file__).parents[2]
 VERBS = {
     "scout": (
         ["gait"],
+        ["plan"],
         ["size", "examples/servos.csv"],
         ["new", "my_biped.toml"],
         ["from-urdf", "urdf/scout/scout.urdf"],
