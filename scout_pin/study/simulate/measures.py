@@ -141,7 +141,7 @@ def turns(plan: Planned, walked: Walked) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _slips(robot: Scout, plan: Planned, walked: Walked) -> list[Slip]:
-    """Every stance of every foot, from halfway through the swing before to halfway after."""
+    """Every stance of every foot, and what of the swings beside it is near the floor."""
     weight = robot.mass * GRAVITY
     found = []
     for number, side in enumerate(SIDES):
@@ -151,6 +151,7 @@ def _slips(robot: Scout, plan: Planned, walked: Walked) -> list[Slip]:
             low = -1e-9 if k == 0 else (spans[k - 1][1] + start) / 2
             high = np.inf if k == len(spans) - 1 else (spans[k + 1][0] + end) / 2
             inside = (plan.time >= low) & (plan.time <= high)
+            inside &= plan.low[number] <= TOLERANCES.raised  # higher up, it stumbles
             loaded = np.flatnonzero(inside & (walked.load[number] > TOLERANCES.bearing * weight))
             if not loaded.size:
                 continue

@@ -106,8 +106,8 @@ class Simulation:
         if self.plan.before:
             return f"It begins at rest: it stands for {SETTLING:g} s in its first pose, then walks."
         return (
-            "It begins in motion: the engine starts it in the planned pose at the planned rates, "
-            "which no robot that stands can do."
+            f"It doesn't begin at rest ({self.report.ends.start.words}): the engine puts it into "
+            "its first planned pose and rates, as no robot that stands could get there."
         )
 
     def summary(self) -> dict[str, object]:
