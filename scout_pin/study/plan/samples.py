@@ -84,11 +84,13 @@ class Sampler:
         robot: The biped, with a free-flyer root.
         branches: Number of each leg's branch of inverse kinematics, left then right; see
             :data:`scout_pin.BRANCHES`.
+        straight: Cosine of a knee's angle, straight or folded, up to which angles are exact;
+            beyond it they are softened, and nothing is to be planned there.
     """
 
-    def __init__(self, robot: Scout, branches: tuple[int, int]) -> None:
+    def __init__(self, robot: Scout, branches: tuple[int, int], straight: float = STRAIGHT) -> None:
         self.robot, self.branches = walking(robot), branches
-        self.weight = robot.mass * GRAVITY
+        self.weight, self.straight = robot.mass * GRAVITY, straight
 
     def __call__(self, jets: np.ndarray, footing: Footing, *, slopes: bool = True) -> Quantities:
         """Evaluate samples.
@@ -126,12 +128,12 @@ class Sampler:
 
     def state(self, jets: np.ndarray, footing: Footing) -> State:
         """Joints, torques and wrenches of samples."""
-        return state(self.robot, self.branches, jets, footing)
+        return state(self.robot, self.branches, jets, footing, self.straight)
 
     def _slopes(self, jets: np.ndarray, footing: Footing, here: State) -> StateSlopes:
         """Exact where angles are; where they are softened by finite differences."""
         found = state_slopes(self.robot, jets, footing, here)
-        soft = np.flatnonzero((np.abs(here.knee) > STRAIGHT).any(axis=1))
+        soft = np.flatnonzero((np.abs(here.knee) > self.straight).any(axis=1))
         if soft.size:
             differences = self._differences(jets[soft], footing.part(soft))
             for one in fields(found):

@@ -75,7 +75,7 @@ def contacts(
         unit = np.repeat([contact.length, 1.0], 3) / (weight * contact.length)
         for some in _few(np.flatnonzero(footing.support[:, k] & ~double), contact):
             beyond = (wrench.value[some, k] * unit) @ contact.facets.T
-            near = np.argpartition(beyond, -NEAREST, axis=1)[:, -NEAREST:]
+            near = np.sort(np.argpartition(beyond, -NEAREST, axis=1)[:, -NEAREST:], axis=1)
             value[some] = np.take_along_axis(beyond, near, axis=1)
             if slope is not None and wrench.slope is not None:
                 slope[some] = (contact.facets[near] * unit) @ wrench.slope[some, k]

@@ -13,14 +13,14 @@ from scout_pin.kinematics.closed_form.stack import ClosedForm
 from scout_pin.kinematics.geometry import LegGeometry
 
 STRAIGHT = 0.985
-"""Cosine of the knee's angle, 10° from straight or folded, up to which angles are exact: nearer
+"""Cosine of a knee 10° from straight or folded, up to which angles are exact as a rule: nearer
 by, joint rates grow with 1 / sin γ4."""
 
-_MOST = 0.99  # that softened cosines never reach: 8° from straight
+_ROOM = 1 / 3  # of what is left to one, that softened cosines don't go beyond
 
 
 def soft_angles(
-    leg: LegGeometry, entries: np.ndarray, branch: int
+    leg: LegGeometry, entries: np.ndarray, branch: int, straight: float = STRAIGHT
 ) -> tuple[np.ndarray, np.ndarray]:
     """Angles on one branch, softened where the knee is too straight or folded.
 
@@ -28,6 +28,7 @@ def soft_angles(
         leg: Geometry of the leg.
         entries: Placements torso to sole, entries first, shape ``(12, n)``.
         branch: Number of the branch.
+        straight: Cosine of the knee's angle up to which angles are exact.
 
     Returns:
         Angles [rad], ``(n, 6)``, and the knee's cosine that each pose asks for, beyond ±1 where
@@ -39,14 +40,14 @@ def soft_angles(
 
     def soften(cosine: np.ndarray) -> np.ndarray:
         asked[:] = cosine[0]
-        return softened(cosine)
+        return softened(cosine, straight)
 
     theta, _ = ClosedForm(leg, entries).branch(branch, soften)
     return theta.T, asked
 
 
-def softened(cosine: np.ndarray) -> np.ndarray:
-    """Cosines that stay below one: themselves up to :data:`STRAIGHT`, with two derivatives."""
-    size, room = np.abs(cosine), _MOST - STRAIGHT
-    beyond = STRAIGHT + room * np.tanh((size - STRAIGHT) / room)
-    return np.asarray(np.where(size > STRAIGHT, np.copysign(beyond, cosine), cosine))
+def softened(cosine: np.ndarray, straight: float = STRAIGHT) -> np.ndarray:
+    """Cosines that stay below one: themselves up to some size, with two derivatives there."""
+    size, room = np.abs(cosine), _ROOM * (1.0 - straight)
+    beyond = straight + room * np.tanh((size - straight) / room)
+    return np.asarray(np.where(size > straight, np.copysign(beyond, cosine), cosine))

@@ -41,3 +41,7 @@ class Sloped:
         if self.slope is None or other.slope is None:
             return Sloped(self.value + other.value, None)
         return Sloped(self.value + other.value, self.slope + other.slope)
+
+    def less(self, constant: np.ndarray | float) -> Sloped:
+        """Less constants that fit the values."""
+        return Sloped(self.value - constant, self.slope)

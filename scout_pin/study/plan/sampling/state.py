@@ -19,7 +19,7 @@ from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.footing import Footing
 from scout_pin.study.plan.sampling.jets import torso_motion
-from scout_pin.study.plan.sampling.reach import soft_angles
+from scout_pin.study.plan.sampling.reach import STRAIGHT, soft_angles
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
 from thesis_pin.numeric.turns import fitted
@@ -50,7 +50,13 @@ class State:
         return q, v, a
 
 
-def state(robot: Scout, branches: tuple[int, int], jets: np.ndarray, footing: Footing) -> State:
+def state(
+    robot: Scout,
+    branches: tuple[int, int],
+    jets: np.ndarray,
+    footing: Footing,
+    straight: float = STRAIGHT,
+) -> State:
     """The robot at some samples.
 
     Args:
@@ -58,6 +64,7 @@ def state(robot: Scout, branches: tuple[int, int], jets: np.ndarray, footing: Fo
         branches: Number of each leg's branch, left then right.
         jets: The torso's, shape ``(n, 18)``.
         footing: Its feet.
+        straight: Cosine of a knee's angle up to which angles are exact.
 
     Raises:
         SingularPose: A leg's Jacobian loses rank otherwise than by a straight knee.
@@ -69,7 +76,7 @@ def state(robot: Scout, branches: tuple[int, int], jets: np.ndarray, footing: Fo
     for k, side in enumerate(SIDES):
         leg, foot = robot.legs[side], footing.feet[k]
         mine = slice(6 * k, 6 * k + 6)
-        theta, knee[:, k] = soft_angles(leg, foot.entries_in(torso), branches[k])
+        theta, knee[:, k] = soft_angles(leg, foot.entries_in(torso), branches[k], straight)
         if leg.turned:
             theta = fitted(theta, leg.lower, leg.upper)
         screws = LegScrews(leg, theta)

@@ -1,0 +1,237 @@
+"""A cycle as a problem of Gauss–Newton: unknowns, what is beyond the limits, slopes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from scout_pin.model import Scout
+from scout_pin.study.plan.cycles.feet import Moments, Pace, Steps
+from scout_pin.study.plan.cycles.splines import Cyclic
+from scout_pin.study.plan.footing import Footing
+from scout_pin.study.plan.limits import Limits
+from scout_pin.study.plan.request import PlanRequest
+from scout_pin.study.plan.samples import Sampler
+from scout_pin.study.plan.sampling.sloped import Sloped
+
+_UNITS = np.array([0.01, 0.01, 0.01, 0.1, 0.1, 0.1])[:, None]  # of coefficients [m], [rad]
+_SHARE_UNIT, _LENGTH_UNIT = 0.1, 0.01
+_SHARES = (0.05, 0.6)
+_SHORTEST = 0.003  # step [m], where it is free
+_NUDGE = 1e-6  # of the unknowns of the pace, whose slopes are differences
+_WEIGHT = 3.0
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """What a cycle is made of.
+
+    Attributes:
+        coefficients: Of the torso's curves [m], [rad], ``(6, size)``.
+        share: Share of a step in which both feet stand.
+        step_length: Way from one footfall to the next [m].
+    """
+
+    coefficients: np.ndarray
+    share: float
+    step_length: float
+
+
+@dataclass(frozen=True)
+class CycleProblem:
+    """What a cycle's samples pass of their limits.
+
+    Attributes:
+        sampler: Evaluates samples on the robot.
+        steps: Where its feet go.
+        cyclic: What its curves may be.
+        moments: Where limits are held.
+        limits: The limits.
+        bounds: Least and greatest coefficients of the curves [m], [rad], ``(2, 6)``.
+        speed: Of the walk [m/s]; None where the time of a step is fixed.
+        step_time: Of a step [s]; None where the speed is fixed.
+        free_length: Whether the length of a step is an unknown.
+        back_off: By how much excesses are to be below zero, so that they are between samples.
+    """
+
+    sampler: Sampler
+    steps: Steps
+    cyclic: Cyclic
+    moments: Moments
+    limits: Limits
+    bounds: np.ndarray
+    speed: float | None
+    step_time: float | None
+    free_length: bool
+    back_off: float
+
+    @property
+    def robot(self) -> Scout:
+        """The biped."""
+        return self.sampler.robot
+
+    def packed(self, known: Unknowns) -> np.ndarray:
+        """Unknowns as a vector, in units in which they are alike."""
+        pace = [known.share / _SHARE_UNIT]
+        if self.free_length:
+            pace.append(known.step_length / _LENGTH_UNIT)
+        return np.concatenate([(known.coefficients / _UNITS).ravel(), pace])
+
+    def unpacked(self, x: np.ndarray, like: float) -> Unknowns:
+        """The other way round; ``like`` is the length of a step where it isn't free [m]."""
+        size = 6 * self.cyclic.size
+        length = x[size + 1] * _LENGTH_UNIT if self.free_length else like
+        coefficients = x[:size].reshape(6, -1) * _UNITS
+        return Unknowns(coefficients, float(x[size]) * _SHARE_UNIT, float(length))
+
+    def pace(self, known: Unknowns) -> Pace:
+        """When and how far the feet go."""
+        time = self.step_time
+        if time is None:
+            time = known.step_length / float(self.speed or 1.0)
+        return Pace(known.step_length, time, known.share)
+
+    def jets(self, known: Unknowns, basis: np.ndarray, u: np.ndarray) -> np.ndarray:
+        """Jets of the torso, ``(n, 18)``."""
+        pace = self.pace(known)
+        jets = np.einsum("ndck,ck->ndc", basis, known.coefficients)
+        jets[:, 0, 1] += pace.step_length * u
+        jets[:, 1, 1] += pace.step_length
+        jets[:, 1] /= pace.step_time
+        jets[:, 2] /= pace.step_time**2
+        return np.asarray(jets.reshape(len(u), 18))
+
+    def excess(
+        self, known: Unknowns, *, slopes: bool = False, moments: Moments | None = None
+    ) -> dict[str, Sloped]:
+        """By how much quantities pass their limits, with slopes by the torso's jets if asked.
+
+        Args:
+            known: The cycle.
+            slopes: Whether to work out slopes.
+            moments: Where; None for the problem's own.
+        """
+        moments, pace = moments or self.moments, self.pace(known)
+        u = moments.times(pace.share)
+        footing = Footing.of(self.robot, self.steps.feet(moments, pace), moments.support)
+        jets = self.jets(known, self.cyclic.basis(u), u)
+        return self.limits.excess(self.robot, self.sampler(jets, footing, slopes=slopes))
+
+    def posture(self, known: Unknowns) -> tuple[np.ndarray, np.ndarray]:
+        """By how much coefficients pass their bounds: values ``(2, 6, size)``, signs alike."""
+        low, high = self.bounds[0][:, None], self.bounds[1][:, None]
+        over = np.stack([low - known.coefficients, known.coefficients - high]) / _UNITS
+        return over, np.broadcast_to(np.array([-1.0, 1.0])[:, None, None], over.shape)
+
+
+@dataclass(frozen=True)
+class Descending:
+    """A cycle's problem for :func:`~scout_pin.study.plan.newton.descend`.
+
+    Attributes:
+        problem: The problem.
+        step_length: Length of a step where it isn't free [m].
+    """
+
+    problem: CycleProblem
+    step_length: float
+
+    def residuals(self, x: np.ndarray, *, slopes: bool) -> tuple[np.ndarray, np.ndarray | None]:
+        """What is beyond the limits, and its slopes."""
+        problem = self.problem
+        known = problem.unpacked(x, self.step_length)
+        rest, of = self._bounds(x, known)
+        # A pace that can't be has no samples: they are taken at the nearest that can.
+        inside = _inside(known)
+        excess = problem.excess(inside, slopes=slopes)
+        values = [rest]
+        active = {kind: np.nonzero(one.value > -problem.back_off) for kind, one in excess.items()}
+        values += [excess[k].value[rows] + problem.back_off for k, rows in active.items()]
+        residual = _WEIGHT * np.concatenate(values)
+        if not slopes:
+            return residual, None
+        jets = np.concatenate([_rows(excess[kind], rows) for kind, rows in active.items()])
+        samples = np.concatenate([rows[0] for rows in active.values()])
+        matrix = np.concatenate([of, self._by_unknowns(inside, jets, samples)])
+        matrix[len(of) :, 6 * problem.cyclic.size :] = self._by_pace(inside, excess, active)
+        return residual, _WEIGHT * matrix
+
+    def _by_unknowns(self, known: Unknowns, jets: np.ndarray, samples: np.ndarray) -> np.ndarray:
+        """Slopes by jets ``(m, 18)`` at some samples → slopes by all unknowns."""
+        problem = self.problem
+        pace, count = problem.pace(known), problem.cyclic.size
+        scale = pace.step_time ** -np.arange(3.0)[:, None]
+        basis = problem.cyclic.basis(problem.moments.times(pace.share))
+        found = np.zeros((len(samples), 6 * count + 1 + problem.free_length))
+        slopes = jets.reshape(-1, 3, 6) * scale
+        product = np.einsum("mdc,mdck->mck", slopes, basis[samples]) * _UNITS
+        found[:, : 6 * count] = product.reshape(-1, 6 * count)
+        return found
+
+    def _by_pace(
+        self,
+        known: Unknowns,
+        excess: dict[str, Sloped],
+        active: dict[str, tuple[np.ndarray, ...]],
+    ) -> np.ndarray:
+        """Slopes by the share of double support, and the length of a step if it is free."""
+        moved = [(replace(known, share=known.share + _NUDGE * _SHARE_UNIT))]
+        if self.problem.free_length:
+            more = known.step_length + _NUDGE * _LENGTH_UNIT
+            moved.append(replace(known, step_length=more))
+        columns = []
+        for one in moved:
+            there = self.problem.excess(one)
+            changes = [
+                (there[kind].value[rows] - excess[kind].value[rows]) / _NUDGE
+                for kind, rows in active.items()
+            ]
+            columns.append(np.concatenate(changes))
+        return np.stack(columns, axis=1)
+
+    def _bounds(self, x: np.ndarray, known: Unknowns) -> tuple[np.ndarray, np.ndarray]:
+        """What passes the bounds of posture and pace, and its slopes."""
+        over, signs = self.problem.posture(known)
+        where = np.argwhere(over > 0.0)
+        size = self.problem.cyclic.size
+        values = over[tuple(where.T)].tolist()
+        columns = (where[:, 1] * size + where[:, 2]).tolist()
+        slopes = signs[tuple(where.T)].tolist()
+        last = 6 * size
+        low, high = (one / _SHARE_UNIT for one in _SHARES)
+        limits = [(last, low, -1.0), (last, high, 1.0)]
+        if self.problem.free_length:
+            limits.append((last + 1, _SHORTEST / _LENGTH_UNIT, -1.0))
+        for column, limit, sign in limits:
+            if (beyond := sign * (x[column] - limit)) > 0.0:
+                values.append(float(beyond))
+                columns.append(column)
+                slopes.append(sign)
+        matrix = np.zeros((len(values), len(x)))
+        matrix[np.arange(len(values)), columns] = slopes
+        return np.array(values), matrix
+
+
+def _inside(known: Unknowns) -> Unknowns:
+    return replace(
+        known,
+        share=float(np.clip(known.share, 0.02, 0.8)),
+        step_length=max(known.step_length, _SHORTEST / 2),
+    )
+
+
+def _rows(excess: Sloped, rows: tuple[np.ndarray, ...]) -> np.ndarray:
+    """Slopes of some entries, ``(m, 18)``."""
+    if excess.slope is None:
+        return np.zeros((len(rows[0]), 18))
+    return np.asarray(excess.slope[rows])
+
+
+def bounds(request: PlanRequest, neutral_height: float) -> np.ndarray:
+    """Least and greatest coefficients of the torso's curves, ``(2, 6)``."""
+    low, high = request.height or (0.8 * neutral_height, neutral_height)
+    turns = [request.pitch, request.roll, request.yaw]
+    return np.array(
+        [[-np.inf, -np.inf, low, *(-one for one in turns)], [np.inf, np.inf, high, *turns]]
+    )

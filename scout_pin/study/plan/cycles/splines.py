@@ -1,0 +1,122 @@
+"""The torso's curves of a cycle: uniform quintic B-splines that repeat themselves.
+
+Time counts in steps. Where a robot is the mirror image of itself one step says all: the next
+one is its mirror image, so x, roll and yaw change their signs and y, z and pitch don't.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from thesis_pin.numeric.piecewise import Piecewise
+
+DEGREE = 5
+KNOTS = 8
+"""Knots of a step."""
+
+CYCLE = 2
+"""Steps of a cycle."""
+
+_CHANGES = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])  # of x, y, z, pitch, roll, yaw
+_Y = 1
+
+
+@dataclass(frozen=True)
+class Cyclic:
+    """Six curves over a cycle, and how they depend on their coefficients.
+
+    Attributes:
+        steps: Steps after which they repeat themselves: 1 for their mirror images, else 2.
+    """
+
+    steps: int
+
+    @property
+    def size(self) -> int:
+        """Coefficients of each coordinate."""
+        return KNOTS * self.steps
+
+    def basis(self, u: np.ndarray) -> np.ndarray:
+        """Values and two derivatives by u of every B-spline, for each coordinate.
+
+        Args:
+            u: Times in steps, shape ``(n,)``.
+
+        Returns:
+            Shape ``(n, 3, 6, size)``.
+        """
+        span = np.floor(u * KNOTS)
+        powers = (u * KNOTS - span)[:, None] ** np.arange(DEGREE, -1, -1)
+        pieces, result = _pieces(), np.zeros((len(u), 3, 6, self.size))
+        rows = np.arange(len(u))
+        for order in range(3):
+            values = powers[:, order:] @ _derived(pieces, order).T * float(KNOTS) ** order
+            for back in range(DEGREE + 1):
+                number = span.astype(int) - back
+                turns, index = np.divmod(number, self.size)
+                signs = np.where(turns[:, None] % 2 == 1, self._signs, 1.0)
+                result[rows, order, :, index] += values[:, back, None] * signs
+        return result
+
+    @property
+    def _signs(self) -> np.ndarray:
+        return _CHANGES if self.steps == 1 else np.ones(6)
+
+    def fitted(self, wanted: np.ndarray) -> np.ndarray:
+        """Coefficients ``(6, size)`` of curves through values ``(size, 6)`` at u = 0, 1/8, 2/8 …"""
+        basis = self.basis(np.arange(self.size) / KNOTS)[:, 0]
+        return np.stack([np.linalg.solve(basis[:, k], wanted[:, k]) for k in range(6)])
+
+    def spread(self, coefficients: np.ndarray) -> np.ndarray:
+        """The same curves by coefficients that repeat themselves after two steps, ``(6, 16)``."""
+        if self.steps == CYCLE:
+            return coefficients
+        return np.concatenate([coefficients, self._signs[:, None] * coefficients], axis=1)
+
+    def curves(
+        self, coefficients: np.ndarray, step_time: float, step_length: float
+    ) -> tuple[Piecewise, ...]:
+        """The curves over a whole cycle by time in seconds, exact piecewise polynomials.
+
+        Args:
+            coefficients: Shape ``(6, size)``.
+            step_time: Of a step [s].
+            step_length: Way along y that each step adds [m].
+        """
+        whole, pieces = self.spread(coefficients), _pieces()
+        count = KNOTS * CYCLE
+        knots = step_time * np.arange(count + 1) / KNOTS
+        scale = (KNOTS / step_time) ** np.arange(DEGREE, -1, -1.0)
+        made = []
+        for k in range(6):
+            c = np.stack(
+                [whole[k, (j - np.arange(DEGREE + 1)) % count] @ pieces for j in range(count)]
+            )
+            if k == _Y:
+                c[:, -1] += step_length * np.arange(count) / KNOTS
+                c[:, -2] += step_length / KNOTS
+            made.append(Piecewise((c * scale).T, knots))
+        return tuple(made)
+
+
+@cache
+def _pieces() -> np.ndarray:
+    """Pieces of the uniform quintic B-spline, the last one first, highest power first, ``(6, 6)``.
+
+    Row p is the piece that counts p knots after the spline began.
+    """
+    from scipy.interpolate import BSpline, PPoly
+
+    whole = PPoly.from_spline(BSpline.basis_element(np.arange(DEGREE + 2), extrapolate=False))
+    inner = (whole.x[1:] > whole.x[:-1]) & (whole.x[:-1] >= 0.0) & (whole.x[:-1] <= DEGREE)
+    return np.ascontiguousarray(whole.c[:, inner].T)
+
+
+def _derived(pieces: np.ndarray, order: int) -> np.ndarray:
+    """Coefficients of a derivative, ``(6, 6 - order)``."""
+    for _ in range(order):
+        pieces = pieces[:, :-1] * np.arange(pieces.shape[1] - 1, 0, -1)
+    return pieces

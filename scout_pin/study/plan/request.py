@@ -1,0 +1,165 @@
+"""What a walk is asked to be: every choice of a plan, with its default."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+from typing import Literal, get_args
+
+import numpy as np
+
+from scout_pin.kinematics.branches import branch_words
+from thesis_pin.errors import BadInput
+from thesis_pin.numeric.checks import choice, real, shown
+
+Objective = Literal["limits", "least_torque", "fastest", "largest_margin"]
+OBJECTIVES: tuple[str, ...] = get_args(Objective)
+
+STEP_LENGTH = 0.030
+"""Length of a step where nobody says [m]."""
+
+STEP_TIME = 0.8
+"""Time of a step where nobody says [s]."""
+
+GAP = 0.012
+"""Room between the soles where nobody says how far apart the feet are [m]: servos whose zeros
+are off by a degree bring them nearer by some millimetres."""
+
+_RIGHT_ANGLE = math.pi / 2
+
+
+@dataclass(frozen=True)
+class PlanRequest:
+    """What a walk is asked to be.
+
+    Attributes:
+        step_length: Way from one footfall to the next [m]; None for 30 mm, or for what suits
+            best where a speed is given or ``objective`` is ``"fastest"``.
+        step_time: Time from one footfall to the next [s]; None for 0.8 s, or for what the speed
+            says.
+        speed: Of the walk [m/s], instead of ``step_time``.
+        foot_spacing: Distance of the soles' origins across [m]; None leaves 12 mm between the
+            soles.
+        lift: How high the swinging foot goes [m].
+        margin: Least distance of the zero-moment point inside the support polygon [m].
+        torque_reserve: Share of the servos' stall torque that isn't used.
+        speed_reserve: Share of the servos' no-load speed that isn't used.
+        servo_line: Whether the servos' torque-speed line |τ|/τ_stall + |θ̇|/ω_no-load ≤ 1 is kept
+            too.
+        pitch, roll, yaw: How far the torso may turn either way [rad].
+        height: Least and greatest height of the torso's origin [m]; None for 80 to 100 % of that
+            in the neutral pose.
+        friction: Friction coefficient; None for the specification's.
+        knee: Least angle of a knee from straight or folded [rad].
+        branch: How the legs stand, as :meth:`scout_pin.Scout.inverse_kinematics` takes it; None
+            for what the specification says, else the shape nearest the neutral pose.
+        objective: ``"limits"`` for any walk that keeps them; or the one of these with the
+            ``"least_torque"``, the ``"fastest"``, or the ``"largest_margin"``.
+    """
+
+    step_length: float | None = None
+    step_time: float | None = None
+    speed: float | None = None
+    foot_spacing: float | None = None
+    lift: float = 0.015
+    margin: float = 0.010
+    torque_reserve: float = 0.1
+    speed_reserve: float = 0.1
+    servo_line: bool = True
+    pitch: float = math.radians(15.0)
+    roll: float = math.radians(15.0)
+    yaw: float = math.radians(12.0)
+    height: tuple[float, float] | None = None
+    friction: float | None = None
+    knee: float = math.radians(10.0)
+    branch: str | None = None
+    objective: Objective = "limits"
+
+    def __post_init__(self) -> None:
+        """Refuse what can't be meant.
+
+        Raises:
+            BadInput: Says which field, what is allowed and how to mend it.
+        """
+        lengths = ("step_length", "foot_spacing", "lift")
+        for name in lengths:
+            if (value := getattr(self, name)) is not None:
+                real(name, value, low=1e-4, high=10.0, unit="m")
+        real("margin", self.margin, low=0.0, high=10.0, unit="m")
+        if self.step_time is not None:
+            real("step_time", self.step_time, low=0.01, high=100.0, unit="s")
+        if self.speed is not None:
+            real("speed", self.speed, low=1e-4, high=10.0, unit="m/s")
+        for name in ("torque_reserve", "speed_reserve"):
+            real(name, getattr(self, name), low=0.0, high=0.95)
+        for name in ("pitch", "roll", "yaw"):
+            real(name, getattr(self, name), low=1e-4, high=1.5, unit="rad")
+        real("knee", self.knee, low=math.radians(1.0), high=math.radians(80.0), unit="rad")
+        if self.friction is not None:
+            real("friction", self.friction, low=0.01, high=10.0)
+        if not isinstance(self.servo_line, bool | np.bool_):
+            raise BadInput(f"servo_line is {shown(self.servo_line)}", allowed="True or False")
+        choice("objective", self.objective, OBJECTIVES)
+        branch_words(self.branch)
+        self._check_height()
+        self._check_speed()
+
+    def _check_height(self) -> None:
+        if self.height is None:
+            return
+        if not isinstance(self.height, tuple | list) or len(self.height) != 2:
+            raise BadInput(f"height is {shown(self.height)}", allowed="least and greatest [m]")
+        low, high = (real("height", one, low=1e-3, high=10.0, unit="m") for one in self.height)
+        if not low < high:
+            raise BadInput(
+                f"height is from {low:g} to {high:g} m", allowed="the least below the greatest"
+            )
+        object.__setattr__(self, "height", (low, high))
+
+    def _check_speed(self) -> None:
+        said = [name for name in ("step_length", "step_time", "speed") if getattr(self, name)]
+        if len(said) == 3:
+            raise BadInput(
+                "step_length, step_time and speed are all given",
+                allowed="two of them",
+                remedy="Leave one out: it follows from the others",
+            )
+        if self.objective == "fastest" and (self.step_time or self.speed):
+            raise BadInput(
+                f"{said[-1]} is given, and the fastest walk is asked for",
+                allowed="either",
+                remedy=f"Leave {said[-1]} or the objective out",
+            )
+
+    @property
+    def free_length(self) -> bool:
+        """Whether the step's length is the planner's to choose."""
+        chosen = self.speed is not None and self.step_time is None
+        return self.step_length is None and (chosen or self.objective == "fastest")
+
+    @property
+    def first_length(self) -> float:
+        """Length of a step [m]; where it is free, what the search begins with."""
+        if self.step_length is not None:
+            return float(self.step_length)
+        if self.speed is not None and self.step_time is not None:
+            return self.speed * self.step_time
+        return STEP_LENGTH
+
+    @property
+    def walking_speed(self) -> float:
+        """Speed of the walk [m/s]; of the fastest what the search begins with."""
+        if self.speed is not None:
+            return float(self.speed)
+        return self.first_length / float(self.step_time or STEP_TIME)
+
+    def changed(self, **values: object) -> PlanRequest:
+        """The same request with other values."""
+        return replace(self, **values)  # type: ignore[arg-type]
+
+    def document(self) -> dict[str, object]:
+        """JSON-ready: every field in SI units."""
+        found = {one.name: getattr(self, one.name) for one in fields(self)}
+        if self.height is not None:
+            found["height"] = list(self.height)
+        return found
