@@ -14,6 +14,7 @@ VERBS = {
         ["gait"],
         ["plan"],
         ["size", "examples/servos.csv"],
+        ["simulate"],
         ["new", "my_biped.toml"],
         ["from-urdf", "urdf/scout/scout.urdf"],
         ["view", "--html", "-"],

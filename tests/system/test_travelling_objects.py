@@ -30,6 +30,15 @@ def gait_report():
     return scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait(), samples=21)
 
 
+def simulation():
+    """A second of Scout's knee bend."""
+    from scout_pin.study.simulate.conditions import Conditions
+
+    gait = scout_pin.load_gait(ROOT / "examples" / "squat.toml")
+    report = scout_pin.gait_report(scout_pin.load(), gait, samples=21, time_unit=0.5)
+    return scout_pin.simulate_gait(report, Conditions(time_step=2e-3))
+
+
 def trajectory_report():
     return pollard_pin.trajectory_report(pollard_pin.load(), pollard_pin.appendix_b(), samples=21)
 
@@ -80,6 +89,7 @@ MAKERS = {
     "GaitReport": gait_report,
     "Plan": lambda: scout_pin.plan_gait(scout_pin.load(), steps=1),
     "PlanRequest": lambda: scout_pin.PlanRequest(speed=0.05, margin=0.004),
+    "Simulation": simulation,
     "ToolPath": pollard_pin.appendix_b,
     "ToolPath of segments": lambda: pollard_pin.load_path(ROOT / "examples" / "spray_arch.toml"),
     "ToolMotion": lambda: pollard_pin.appendix_b().sample(9),
