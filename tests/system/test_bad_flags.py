@@ -118,8 +118,6 @@ NUMBERS = {
     "--height": set(),
     "--steps": set(),
     "--servo-rate": {"2.5"},
-    "--servo-stiffness": {"2.5"},
-    "--servo-damping": {"0", "2.5"},
 }
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
