@@ -31,6 +31,7 @@ _UNITS = {
     "margin": _MILLI,
     "torque_reserve": _PART,
     "speed_reserve": _PART,
+    "line_reserve": _PART,
     "pitch": _DEGREE,
     "roll": _DEGREE,
     "yaw": _DEGREE,
@@ -127,6 +128,7 @@ _LEAST = {
     "walking_speed": (1.0, "mm/s", "100"),
     "torque_reserve": (1.0, "percent", "10"),
     "speed_reserve": (1.0, "percent", "10"),
+    "line_reserve": (1.0, "percent", "10"),
 }
 """Values above zero that are taken for metres or shares written by mistake, and how a usual one
 is written."""

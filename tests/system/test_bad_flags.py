@@ -111,6 +111,7 @@ NUMBERS = {
     "--margin": {"0", "2.5"},
     "--torque-reserve": {"0", "2.5"},
     "--speed-reserve": {"0", "2.5"},
+    "--line-reserve": {"0", "2.5"},
     "--pitch": {"2.5"},
     "--roll": {"2.5"},
     "--yaw": {"2.5"},

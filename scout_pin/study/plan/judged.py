@@ -80,12 +80,12 @@ class Judged:
         for what, share, joint, most in (
             ("stall torque", self.torque, self.torque_joint, 1.0 - request.torque_reserve),
             ("no-load speed", self.speed, self.speed_joint, 1.0 - request.speed_reserve),
-            ("torque-speed line", self.line, self.line_joint, 1.0),
+            ("torque-speed line", self.line, self.line_joint, 1.0 - (request.line_reserve or 0.0)),
         ):
             counts = request.servo_line or what != "torque-speed line"
-            # A servo that passes its line doesn't carry the gait, by however little.
-            loose = 0.0 if what == "torque-speed line" else LOOSE
-            if counts and share > most + loose:
+            # A servo that passes its whole line doesn't carry the gait, by however little.
+            beyond = share > min(most + LOOSE, 1.0)
+            if counts and beyond:
                 yield f"the report finds {joint} at {share:.1%} of its {what} (limit {most:.1%})"
 
     def document(self) -> dict[str, object]:
