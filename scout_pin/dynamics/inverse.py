@@ -11,23 +11,22 @@ A_τ = [0; I] instead of the printed (4.15)–(4.23); see docs/audit/scout.md.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pinocchio as pin
 
-from scout_pin.coordinates import fill_root
+from scout_pin.dynamics import one_sample
 from scout_pin.dynamics.load_sharing import share_load
+from scout_pin.dynamics.state import Block, Room
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.screws import Joints, LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
-from scout_pin.motion.trajectory import fill_rates, followed
+from scout_pin.motion.trajectory import followed
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics, MotionContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import BLOCK, LONG, blocks
+from thesis_pin.numeric.elementwise import BLOCK, LONG
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
@@ -86,7 +85,7 @@ def inverse_dynamics(
         if np.shape(joints.q) != (len(motion.time), 12):
             raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
     q = followed(robot, motion) if joints is None else joints.q
-    if not motion.support.any(axis=1).all():
+    if not (motion.support[:, 0] | motion.support[:, 1]).all():
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     count = len(q)
@@ -95,9 +94,9 @@ def inverse_dynamics(
     forces = np.empty((BLOCK if long else count, 18))
     torque = np.empty((count, 12)) if long else forces[:, 6:]
     wrench, violation = np.zeros((count, 2, 6)), np.full(count, np.nan)
-    room = _Room(robot, min(count, BLOCK))
-    for part in blocks(count):
-        here, given = motion.part(part), None if joints is None else joints.part(part)
+    room = Room(robot, min(count, BLOCK))
+    for part, here in motion.blocks():
+        given = joints if joints is None or count == 1 else joints.part(part)
         found = forces[: len(here.t)] if long else forces[part]
         kept = found, wrench[part], violation[part]
         _fill(kept, robot, here, room.block(robot, here, q[part], given, part.start))
@@ -114,62 +113,33 @@ def inverse_dynamics(
     )
 
 
-@dataclass(frozen=True)
-class _Block:
-    """What Pinocchio reads of a block of samples, joints first, and what is known of the legs.
-
-    Attributes:
-        q, v, a: Shapes ``(19, n)``, ``(18, n)``, ``(18, n)``.
-        screws: Of each leg; None where they have to be worked out.
-        resting: As of :class:`JointTrajectory`.
-    """
-
-    q: np.ndarray
-    v: np.ndarray
-    a: np.ndarray
-    screws: tuple[LegScrews | None, LegScrews | None]
-    resting: np.ndarray | None
-
-
-class _Room:
-    """Memory that all blocks share."""
-
-    def __init__(self, robot: Scout, count: int) -> None:
-        self.q, self.v, self.a = (np.empty((size, count)) for size in (19, 18, 18))
-
-    def block(
-        self,
-        robot: Scout,
-        motion: GaitMotion,
-        q: np.ndarray,
-        joints: JointTrajectory | None,
-        first: int,
-    ) -> _Block:
-        """Take in a block, whose rates are worked out unless its trajectory is given.
-
-        It is good until the next one is taken in.
-        """
-        own = self.q[:, : len(q)], self.v[:, : len(q)], self.a[:, : len(q)]
-        screws: tuple[LegScrews | None, LegScrews | None] = (None, None)
-        own[0][7:] = q.T
-        if joints is None:
-            screws = fill_rates(robot, motion, q, (own[1][6:], own[2][6:]), first)
-        else:
-            own[1][6:], own[2][6:] = joints.v.T, joints.a.T
-        fill_root(motion.torso, own)
-        return _Block(*own, screws, None if joints is None else joints.resting)
-
-
 def _fill(
     kept: tuple[np.ndarray, np.ndarray, np.ndarray],
     robot: Scout,
     motion: GaitMotion,
-    block: _Block,
+    block: Block,
 ) -> None:
     """Work out one block of samples; its last twelve forces are to be the joints' torques."""
-    forces, wrench, violation = kept
+    forces, wrench, _ = kept
     # Joints first: Pinocchio copies what it reads anyway, and all else works on rows.
     pin.rneaInParallel(1, robot.pool, block.q, block.v, block.a, forces.T)
+    if len(forces) == 1 and not motion.support.all():
+        one_sample.carry(forces, wrench, robot, motion, block.q, block.screws)
+    else:
+        _carry(kept, robot, motion, block)
+    friction = robot.specification.assumptions.joint_friction
+    if friction.viscous or friction.coulomb:
+        forces[:, 6:] += joint_friction(robot, block.v[6:].T, block.resting)
+
+
+def _carry(
+    kept: tuple[np.ndarray, np.ndarray, np.ndarray],
+    robot: Scout,
+    motion: GaitMotion,
+    block: Block,
+) -> None:
+    """Share the floor's wrench out to the feet that stand, and take it off their legs' joints."""
+    forces, wrench, violation = kept
     total = np.ascontiguousarray(forces[:, :6].T)
     shares = [total, total]
     supports, q = np.ascontiguousarray(motion.support.T), block.q[7:].T
@@ -196,9 +166,6 @@ def _fill(
         arm = rows(foot.position[standing] - motion.torso.position[standing])
         moment -= cross(arm, force)
         wrench[standing, k, :3], wrench[standing, k, 3:] = force.T, moment.T
-    friction = robot.specification.assumptions.joint_friction
-    if friction.viscous or friction.coulomb:
-        forces[:, 6:] += joint_friction(robot, block.v[6:].T, block.resting)
 
 
 def _leg_torques(
@@ -210,9 +177,6 @@ def _leg_torques(
     moment: np.ndarray,
 ) -> Joints:
     """Torques of the floor's wrench on a leg at the samples where it stands."""
-    if len(q) == 1:  # by floats, a third of the time of a single sample
-        screws = known or LegScrews.single(leg, q[0].tolist())
-        return screws.torques(force[:, 0].tolist(), moment[:, 0].tolist())
     screws = known.part(standing) if known else LegScrews(leg, q[standing])
     return screws.torques(force, moment)
 
