@@ -16,6 +16,8 @@ ROOT = Path(__file__).parents[1]
 PACKAGES = ("thesis_pin", "scout_pin", "pollard_pin")
 EXTRAS = ("mujoco",)
 """For one format of models; without it, reading that says what to install."""
+ALSO = {"simulate": "mujoco"}
+"""Extras that bring the same under the name of what needs it."""
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 
@@ -49,7 +51,9 @@ def test_what_a_verb_may_import_is_a_plain_dependency(name):
 
 
 def test_no_extra_but_the_developers_exists_that_nothing_uses():
-    assert set(PROJECT["optional-dependencies"]) == {"dev", *EXTRAS}
+    assert set(PROJECT["optional-dependencies"]) == {"dev", *EXTRAS, *ALSO}
+    for one, brings in ALSO.items():
+        assert declared(PROJECT["optional-dependencies"][one]) == {brings}
     assert set(EXTRAS) <= imported()
 
 
