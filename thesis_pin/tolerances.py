@@ -169,6 +169,14 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             off, and play of good ball joints.
         replay_energy: How far work and change of energy may differ, relative to the work
             exchanged [-]: engines of order four do a hundred times better.
+        walked_share, walked_place: How far a simulated walk's distance may be off the planned one,
+            relative to it [-], and that of what is to stay in place [m].
+        walked_heading: The same of its heading at the end [rad].
+        walked_slip: The same of a foot while it bears load, in every step [m].
+        walked_tilt: Tilt of the torso from the plan that is no longer the planned motion [rad].
+        bearing: Share of its weight from which a robot's sole bears load; less is a foot that
+            brushes the floor [-].
+        raised: Planned height of a sole's lowest corner from which it is to be off the floor [m].
     """
 
     rotation_orthogonality: float = 1e-9
@@ -260,6 +268,13 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     replay_lost: float = 0.05
     replay_opening: float = 1e-6
     replay_energy: float = 1e-6
+    walked_share: float = 0.05
+    walked_place: float = 2e-3
+    walked_heading: float = 0.0873  # 5°
+    walked_slip: float = 1e-3
+    walked_tilt: float = 0.175  # 10°
+    bearing: float = 0.05
+    raised: float = 2e-3
 
 
 TOLERANCES = Tolerances()
