@@ -26,7 +26,7 @@ from scout_pin.specification import SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics, MotionContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import BLOCK, LONG
+from thesis_pin.numeric.elementwise import BLOCK
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
@@ -89,22 +89,17 @@ def inverse_dynamics(
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     count = len(q)
-    long = count >= LONG
-    # Torques are left where Pinocchio writes them, unless memory counts.
-    forces = np.empty((BLOCK if long else count, 18))
-    torque = np.empty((count, 12)) if long else forces[:, 6:]
-    wrench, violation = np.zeros((count, 2, 6)), np.full(count, np.nan)
+    # Components first: writing them sample by sample takes twice as long.
+    torque, wrench = np.empty((12, count)), np.zeros((2, 6, count))
+    violation = np.full(count, np.nan)
     room = Room(robot, min(count, BLOCK))
     for part, here in motion.blocks():
         given = joints if joints is None or count == 1 else joints.part(part)
-        found = forces[: len(here.t)] if long else forces[part]
-        kept = found, wrench[part], violation[part]
+        kept = torque[:, part], wrench[:, :, part], violation[part]
         _fill(kept, robot, here, room.block(robot, here, q[part], given, part.start))
-        if long:
-            torque[part] = found[:, 6:]
     return MotionContactDynamics(
-        torque=torque,
-        wrench=wrench,
+        torque=torque.T,
+        wrench=wrench.transpose(2, 0, 1),
         contacts=robot.contacts,
         support=motion.support,
         double_violation=violation,
@@ -119,17 +114,18 @@ def _fill(
     motion: GaitMotion,
     block: Block,
 ) -> None:
-    """Work out one block of samples; its last twelve forces are to be the joints' torques."""
-    forces, wrench, _ = kept
+    """Work out torques ``(12, n)``, wrenches ``(2, 6, n)`` and violations of a block of samples."""
+    torque, wrench, _ = kept
     # Joints first: Pinocchio copies what it reads anyway, and all else works on rows.
-    pin.rneaInParallel(1, robot.pool, block.q, block.v, block.a, forces.T)
-    if len(forces) == 1 and not motion.support.all():
-        one_sample.carry(forces, wrench, robot, motion, block.q, block.screws)
+    pin.rneaInParallel(1, robot.pool, block.q, block.v, block.a, block.forces.T)
+    torque[:] = block.forces[:, 6:].T
+    if len(block.forces) == 1 and not motion.support.all():
+        one_sample.carry(torque, wrench, robot, motion, block)
     else:
         _carry(kept, robot, motion, block)
     friction = robot.specification.assumptions.joint_friction
     if friction.viscous or friction.coulomb:
-        forces[:, 6:] += joint_friction(robot, block.v[6:].T, block.resting)
+        torque += joint_friction(robot, block.v[6:].T, block.resting).T
 
 
 def _carry(
@@ -139,7 +135,7 @@ def _carry(
     block: Block,
 ) -> None:
     """Share the floor's wrench out to the feet that stand, and take it off their legs' joints."""
-    forces, wrench, violation = kept
+    (torque, wrench, violation), forces = kept, block.forces
     total = np.ascontiguousarray(forces[:, :6].T)
     shares = [total, total]
     supports, q = np.ascontiguousarray(motion.support.T), block.q[7:].T
@@ -159,13 +155,13 @@ def _carry(
         torques = _leg_torques(
             robot.legs[side], block.screws[k], q[:, mine], standing, force, moment
         )
-        for joint, taken in enumerate(torques, 6 + mine.start):
-            forces[standing, joint] -= taken
+        for row, taken in zip(torque[mine], torques, strict=True):
+            row[standing] -= taken
         # From the torso's axes to the world's, and from its origin to the sole's.
         force, moment = into(back[:, :, standing], force), into(back[:, :, standing], moment)
         arm = rows(foot.position[standing] - motion.torso.position[standing])
         moment -= cross(arm, force)
-        wrench[standing, k, :3], wrench[standing, k, 3:] = force.T, moment.T
+        wrench[k][:3, standing], wrench[k][3:, standing] = force, moment
 
 
 def _leg_torques(
@@ -177,8 +173,9 @@ def _leg_torques(
     moment: np.ndarray,
 ) -> Joints:
     """Torques of the floor's wrench on a leg at the samples where it stands."""
-    screws = known.part(standing) if known else LegScrews(leg, q[standing])
-    return screws.torques(force, moment)
+    if known is None:
+        return LegScrews(leg, q[standing]).torques(force, moment)
+    return (known if len(q) == len(moment[0]) else known.part(standing)).torques(force, moment)
 
 
 def _consecutive(yes: np.ndarray) -> slice | np.ndarray | None:
@@ -204,5 +201,8 @@ def joint_friction(robot: Scout, v: np.ndarray, resting: np.ndarray | None = Non
             those below ``static``.
     """
     friction = robot.specification.assumptions.joint_friction
-    still = np.abs(v) <= TOLERANCES.static if resting is None else resting
-    return friction.viscous * v + friction.coulomb * np.where(still, 0.0, np.sign(v))
+    found = np.asarray(np.sign(v))
+    found *= np.abs(v) > TOLERANCES.static if resting is None else ~resting
+    found *= friction.coulomb
+    found += friction.viscous * v
+    return found

@@ -13,6 +13,7 @@ VERBS = {
     "scout": (
         ["gait"],
         ["size", "examples/servos.csv"],
+        ["simulate"],
         ["new", "my_biped.toml"],
         ["from-urdf", "urdf/scout/scout.urdf"],
         ["view", "--html", "-"],
