@@ -168,37 +168,15 @@ def quaternion_rows(r: np.ndarray) -> np.ndarray:
     """:func:`quaternions` with components first: ``(3, 3, ...)`` → ``(4, ...)``."""
     trace = r[0, 0] + r[1, 1] + r[2, 2]
     if not (trace > 0).all():
-        return _by_the_largest(r, trace)
+        from scipy.spatial.transform import Rotation
+
+        matrix = np.moveaxis(r, (0, 1), (-2, -1))
+        flat = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_quat()
+        return np.asarray(flat.T.reshape(4, *r.shape[2:]))
     # No turn beyond 120°, the usual case: w is at least 1/2, and the rest follow from it.
     w = np.sqrt(1.0 + trace) / 2
     found, share = np.empty((4, *trace.shape)), 0.25 / w
     found[0], found[1], found[2] = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
     found[:3] *= share
     found[3] = w
-    return found
-
-
-def _by_the_largest(r: np.ndarray, trace: np.ndarray) -> np.ndarray:
-    """:func:`quaternion_rows` of any turns: the largest component is positive.
-
-    Source: S. W. Shepperd, "Quaternion from rotation matrix", J. Guid. Control 1 (1978).
-    """
-    x, y, z = r[0, 0], r[1, 1], r[2, 2]
-    xy, xz, yz = r[1, 0] + r[0, 1], r[2, 0] + r[0, 2], r[2, 1] + r[1, 2]
-    wx, wy, wz = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
-    largest = np.argmax(np.stack([x, y, z, trace]), axis=0)
-    found = np.empty((4, *trace.shape))
-    for k, products in enumerate(  # of this component with each, times four
-        (
-            (1.0 + 2 * x - trace, xy, xz, wx),
-            (xy, 1.0 + 2 * y - trace, yz, wy),
-            (xz, yz, 1.0 + 2 * z - trace, wz),
-            (wx, wy, wz, 1.0 + trace),
-        )
-    ):
-        here = largest == k
-        if here.any():
-            size = 0.5 / np.sqrt(products[k][here])
-            for row, product in enumerate(products):
-                found[row, here] = product[here] * size
     return found

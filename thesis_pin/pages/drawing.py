@@ -83,22 +83,15 @@ def axis_placements(model: pin.Model, joint: str, moves: np.ndarray) -> np.ndarr
         UnknownName: The model has no such joint.
         BadInput: The joint doesn't turn about one axis.
     """
+    from scipy.spatial.transform import Rotation
+
     from thesis_pin.model.loading import joint_id
 
     number = joint_id(model, joint)
-    x, y, z = _axis(model.joints[number], joint)
-    # The shortest turn from z to the axis; of half a turn about any axis across, that about x.
-    turn = np.array([-y, x, 0.0, 1.0 + z]) if z > -1.0 else np.array([1.0, 0.0, 0.0, 0.0])
-    turned = _turned(moves[:, number, 3:], turn / np.linalg.norm(turn))
+    axis = _axis(model.joints[number], joint)
+    turn, _ = Rotation.align_vectors([axis], [[0.0, 0.0, 1.0]])
+    turned = (Rotation.from_quat(moves[:, number, 3:]) * turn).as_quat()
     return np.column_stack([moves[:, number, :3], turned])
-
-
-def _turned(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Products of quaternions x, y, z, w: ``(n, 4)`` and ``(4,)`` → ``(n, 4)``."""
-    v, w = first[:, :3], first[:, 3:]
-    axis, real = second[:3], second[3]
-    vector = w * axis + real * v + np.cross(v, axis)
-    return np.concatenate([vector, w * real - v @ axis[:, None]], axis=1)
 
 
 def closure_items(

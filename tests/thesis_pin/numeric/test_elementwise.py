@@ -53,16 +53,6 @@ def test_quaternions_turn_vectors_as_their_rotations_do(rng, count, largest):
         np.testing.assert_allclose(pin.Quaternion(found).matrix(), matrix, atol=1e-14)
 
 
-def test_quaternions_of_any_turn_are_scipys(rng):
-    from scipy.spatial.transform import Rotation
-
-    turns = Rotation.random(5000, rng=rng).as_matrix()
-    halves = np.array([np.diag(d) for d in ([1.0, -1, -1], [-1, 1, -1], [-1, -1, 1])])
-    for some in (turns, halves, halves[1], turns.reshape(50, 100, 3, 3)):
-        expected = Rotation.from_matrix(some.reshape(-1, 3, 3)).as_quat()
-        np.testing.assert_allclose(quaternions(some).reshape(-1, 4), expected, atol=1e-15)
-
-
 @pytest.mark.parametrize("count", [FEW - 1, FEW, 2 * BLOCK + 5])
 def test_the_bad_pose_of_a_stack_is_named(count):
     good = np.tile(transform(rotation("y", 0.3), np.array([0.1, 0.2, 0.3])), (count, 1, 1))

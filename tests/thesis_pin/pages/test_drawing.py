@@ -92,17 +92,6 @@ def test_axes_for_arcs_are_the_axes_pinocchio_turns_about():
         drawing.axis_placements(slider, "rail", drawing.joint_placements(slider, q[:, :1]))
 
 
-def test_an_axis_against_z_is_turned_about_too():
-    model = pin.Model()
-    down = pin.JointModelRevoluteUnaligned(np.array([0.0, 0.0, -1.0]))
-    model.addJoint(0, down, pin.SE3.Identity(), "screw")
-    moves = drawing.joint_placements(model, np.array([[0.4], [2.0]]))
-    for x, y, z, w in drawing.axis_placements(model, "screw", moves)[:, 3:]:
-        np.testing.assert_allclose(
-            pin.Quaternion(w, x, y, z).matrix()[:, 2], [0, 0, -1], atol=1e-15
-        )
-
-
 def test_closures_show_how_far_a_loop_is_open():
     model, q = arm(), np.array([[0.0, 0.0], [0.3, -0.2]])
     first, second, bar = drawing.closure_items(model, [("a", "b")], q, "loops", 0.1)
