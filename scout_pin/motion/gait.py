@@ -152,7 +152,7 @@ class Gait:
             inside = (t >= phase.start) & (t <= phase.end)
             for k, side in enumerate(("left", "right")):
                 if phase.support in (side, "double"):
-                    result[inside, k] = True
+                    result[:, k] |= inside
         return result
 
     def touchdowns(self) -> list[tuple[float, str]]:
