@@ -88,7 +88,7 @@ class States:
         for one in self.spans:
             found[..., one.qvel] = v[..., one.v]
             if one.kind == "free":
-                turned = _turned(_rotation(q[..., one.q]), v[..., one.v][..., :3])
+                turned = _turned(rotations(q[..., one.q]), v[..., one.v][..., :3])
                 found[..., one.qvel.start : one.qvel.start + 3] = turned
         return found
 
@@ -98,7 +98,7 @@ class States:
         for one in self.spans:
             found[..., one.v] = qvel[..., one.qvel]
             if one.kind == "free":
-                back = np.swapaxes(_rotation(q[..., one.q]), -1, -2)
+                back = np.swapaxes(rotations(q[..., one.q]), -1, -2)
                 turned = _turned(back, qvel[..., one.qvel][..., :3])
                 found[..., one.v.start : one.v.start + 3] = turned
         return found
@@ -112,7 +112,7 @@ class States:
                 linear, omega = v[..., one.v][..., :3], v[..., one.v][..., 3:]
                 push = a[..., one.v][..., :3] + np.cross(omega, linear)
                 found[..., one.qvel.start : one.qvel.start + 3] = _turned(
-                    _rotation(q[..., one.q]), push
+                    rotations(q[..., one.q]), push
                 )
         return found
 
@@ -121,7 +121,7 @@ class States:
         return self.v(q, qfrc)  # both turn with the body's axes
 
 
-def _rotation(q: np.ndarray) -> np.ndarray:
+def rotations(q: np.ndarray) -> np.ndarray:
     """Rotations of what ends in quaternions (x, y, z, w): ``(..., 7)`` → ``(..., 3, 3)``."""
     x, y, z, w = np.moveaxis(q[..., -4:] / np.linalg.norm(q[..., -4:], axis=-1)[..., None], -1, 0)
     rows = [
