@@ -130,7 +130,7 @@ def euler_parts(
         The nine entries of the rotation, row by row, and the three of ω and of α.
     """
     columns: list[sparing.Triple] = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
-    omega: sparing.Triple = (0.0, 0.0, 0.0)
+    omega: sparing.Triple = [0.0, 0.0, 0.0]
     alpha: sparing.Triple = omega
     for letter, angle, rate, second in zip(axes, angles, rates, accelerations, strict=True):
         axis = columns["xyz".index(letter)]
