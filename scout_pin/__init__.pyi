@@ -32,6 +32,7 @@ from .report.document import gait_report as gait_report
 
 # Study
 from .study.size import size as size
+from .study.simulate.draws import simulate_gait as simulate_gait
 
 # Only Scout
 from .kinematics.rates import leg_rates as leg_rates

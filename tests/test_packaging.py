@@ -14,8 +14,8 @@ import thesis_pin
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("thesis_pin", "scout_pin", "pollard_pin")
-EXTRAS = ("mujoco",)
-"""For one format of models; without it, reading that says what to install."""
+EXTRAS = {"mujoco": "mujoco", "simulate": "mujoco"}
+"""Extra → what it brings: one format of models, a second engine. Without it, both say so."""
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 
@@ -40,7 +40,7 @@ def imported():
     return names - set(PACKAGES) - set(sys.stdlib_module_names)
 
 
-@pytest.mark.parametrize("name", sorted(imported() - set(EXTRAS)))
+@pytest.mark.parametrize("name", sorted(imported() - set(EXTRAS.values())))
 def test_what_a_verb_may_import_is_a_plain_dependency(name):
     # Pinocchio's wheel, pin, keeps its modules in a folder of its own and names none.
     brought_by = {"pin"} if name == "pinocchio" else set()
@@ -50,12 +50,12 @@ def test_what_a_verb_may_import_is_a_plain_dependency(name):
 
 def test_no_extra_but_the_developers_exists_that_nothing_uses():
     assert set(PROJECT["optional-dependencies"]) == {"dev", *EXTRAS}
-    assert set(EXTRAS) <= imported()
+    assert set(EXTRAS.values()) <= imported()
 
 
-@pytest.mark.parametrize("name", EXTRAS)
-def test_what_an_extra_brings_is_imported_late_and_called_after_it(name):
-    assert declared(PROJECT["optional-dependencies"][name]) == {name}
+@pytest.mark.parametrize(("extra", "name"), EXTRAS.items())
+def test_what_an_extra_brings_is_imported_late(extra, name):
+    assert declared(PROJECT["optional-dependencies"][extra]) == {name}
     code = f"import sys, thesis_pin.loops.loading; assert {name!r} not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
 

@@ -19,9 +19,14 @@ import thesis_pin
 BIN = Path(sys.executable).parent
 
 
+def ended(*words: str) -> "subprocess.CompletedProcess[str]":
+    """An installed command, when it has ended."""
+    return subprocess.run([BIN / words[0], *words[1:]], capture_output=True, text=True, check=False)
+
+
 def output(*words: str) -> str:
     """Standard output of an installed command, which has to end with exit code 0."""
-    done = subprocess.run([BIN / words[0], *words[1:]], capture_output=True, text=True, check=False)
+    done = ended(*words)
     assert done.returncode == 0, f"{shlex.join(words)}: exit {done.returncode}\n{done.stderr}"
     return done.stdout
 
@@ -40,10 +45,16 @@ for name in ("mujoco", "pytest", "mypy"):
     assert find_spec(name) is None, f"{name} is here, so this isn't what a user has"
 assert (scout_pin.load().model.nv, pollard_pin.load().model.nv) == (18, 12)
 
-# Every verb of every command does its example.
+# Every verb of every command does its example, or says what to install for it.
 for script in distribution("thesis-pin").entry_points.select(group="console_scripts"):
     for verb in import_module(script.module).COMMAND.verbs:
-        output(script.name, *shlex.split(verb.example))
+        words = (script.name, *shlex.split(verb.example))
+        if verb.name == "simulate":
+            done = ended(*words)
+            assert done.returncode == 2, done.stderr
+            assert "pip install 'thesis-pin[simulate]'" in done.stderr, done.stderr
+        else:
+            output(*words)
         print(f"{script.name} {verb.example}", flush=True)
 
 walk = Path("examples/walk.toml").read_text(encoding="utf-8")

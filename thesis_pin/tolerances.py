@@ -160,6 +160,23 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             and up to 0.15 N·m/cm³.
         specific_power, specific_torque: The same for its mass [W/kg], [N·m/kg]; the best
             have 400 W/kg and 80 N·m/kg.
+        replay_deviation: How far a replayed motion's tool may be from its path [m]: spray and
+            servos know no better.
+        replay_turn: The same of its orientation [rad]: half a servo's usual accuracy of 1°.
+        replay_lost: How far off its path a tool is that isn't replaying it any more, where a replay
+            ends [m]: what follows is a fall.
+        replay_opening: How far an engine's loops may open [m], a thousandth of what the tool may be
+            off, and play of good ball joints.
+        replay_energy: How far work and change of energy may differ, relative to the work
+            exchanged [-]: engines of order four do a hundred times better.
+        walked_share, walked_place: How far a simulated walk's distance may be off the planned one,
+            relative to it [-], and that of what is to stay in place [m].
+        walked_heading: The same of its heading at the end [rad].
+        walked_slip: The same of a foot while it bears load, in every step [m].
+        walked_tilt: Tilt of the torso from the plan that is no longer the planned motion [rad].
+        bearing: Share of its weight from which a robot's sole bears load; less is a foot that
+            brushes the floor [-].
+        raised: Planned height of a sole's lowest corner from which it is to be off the floor [m].
     """
 
     rotation_orthogonality: float = 1e-9
@@ -246,6 +263,18 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     torque_density: float = 3e5
     specific_power: float = 600.0
     specific_torque: float = 120.0
+    replay_deviation: float = 1e-3
+    replay_turn: float = 1e-2
+    replay_lost: float = 0.05
+    replay_opening: float = 1e-6
+    replay_energy: float = 1e-6
+    walked_share: float = 0.05
+    walked_place: float = 2e-3
+    walked_heading: float = 0.0873  # 5°
+    walked_slip: float = 1e-3
+    walked_tilt: float = 0.175  # 10°
+    bearing: float = 0.05
+    raised: float = 2e-3
 
 
 TOLERANCES = Tolerances()

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from thesis_pin.numeric import quaternions
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.smoothing.resolution import Sampled
-
-if TYPE_CHECKING:  # exact paths need no smoothing
-    from scipy.interpolate import PPoly
 
 PLACE = 3
 """Coordinates of the spray tip; four of a quaternion follow."""
@@ -29,7 +26,7 @@ class Variants(Sampled):
         parts: For each column of the samples, which curves it makes.
     """
 
-    curves: tuple[PPoly, ...]
+    curves: tuple[Piecewise, ...]
     parts: tuple[tuple[int, ...], ...]
 
     @property

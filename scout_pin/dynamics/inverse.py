@@ -11,23 +11,22 @@ A_τ = [0; I] instead of the printed (4.15)–(4.23); see docs/audit/scout.md.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pinocchio as pin
 
-from scout_pin.coordinates import fill_root
+from scout_pin.dynamics import one_sample
 from scout_pin.dynamics.load_sharing import share_load
+from scout_pin.dynamics.state import Block, Room
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.screws import Joints, LegScrews
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
-from scout_pin.motion.trajectory import fill_rates, followed
+from scout_pin.motion.trajectory import followed
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.dynamics import ContactDynamics, MotionContactDynamics
 from thesis_pin.errors import BadInput, TrajectoryError, WrongShape
 from thesis_pin.numeric.checks import instance
-from thesis_pin.numeric.elementwise import BLOCK, LONG, blocks
+from thesis_pin.numeric.elementwise import BLOCK
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.numeric.vectors import cross, into, rows
 from thesis_pin.tolerances import TOLERANCES
@@ -86,26 +85,21 @@ def inverse_dynamics(
         if np.shape(joints.q) != (len(motion.time), 12):
             raise WrongShape("joints.q", np.shape(joints.q), f"({len(motion.time)}, 12), as motion")
     q = followed(robot, motion) if joints is None else joints.q
-    if not motion.support.any(axis=1).all():
+    if not (motion.support[:, 0] | motion.support[:, 1]).all():
         k = int(np.argmin(motion.support.any(axis=1)))
         raise TrajectoryError("no foot is in support", where=f"t = {motion.t[k]:g}")
     count = len(q)
-    long = count >= LONG
-    # Torques are left where Pinocchio writes them, unless memory counts.
-    forces = np.empty((BLOCK if long else count, 18))
-    torque = np.empty((count, 12)) if long else forces[:, 6:]
-    wrench, violation = np.zeros((count, 2, 6)), np.full(count, np.nan)
-    room = _Room(robot, min(count, BLOCK))
-    for part in blocks(count):
-        here, given = motion.part(part), None if joints is None else joints.part(part)
-        found = forces[: len(here.t)] if long else forces[part]
-        kept = found, wrench[part], violation[part]
+    # Components first: writing them sample by sample takes twice as long.
+    torque, wrench = np.empty((12, count)), np.zeros((2, 6, count))
+    violation = np.full(count, np.nan)
+    room = Room(robot, min(count, BLOCK))
+    for part, here in motion.blocks():
+        given = joints if joints is None or count == 1 else joints.part(part)
+        kept = torque[:, part], wrench[:, :, part], violation[part]
         _fill(kept, robot, here, room.block(robot, here, q[part], given, part.start))
-        if long:
-            torque[part] = found[:, 6:]
     return MotionContactDynamics(
-        torque=torque,
-        wrench=wrench,
+        torque=torque.T,
+        wrench=wrench.transpose(2, 0, 1),
         contacts=robot.contacts,
         support=motion.support,
         double_violation=violation,
@@ -114,62 +108,34 @@ def inverse_dynamics(
     )
 
 
-@dataclass(frozen=True)
-class _Block:
-    """What Pinocchio reads of a block of samples, joints first, and what is known of the legs.
-
-    Attributes:
-        q, v, a: Shapes ``(19, n)``, ``(18, n)``, ``(18, n)``.
-        screws: Of each leg; None where they have to be worked out.
-        resting: As of :class:`JointTrajectory`.
-    """
-
-    q: np.ndarray
-    v: np.ndarray
-    a: np.ndarray
-    screws: tuple[LegScrews | None, LegScrews | None]
-    resting: np.ndarray | None
-
-
-class _Room:
-    """Memory that all blocks share."""
-
-    def __init__(self, robot: Scout, count: int) -> None:
-        self.q, self.v, self.a = (np.empty((size, count)) for size in (19, 18, 18))
-
-    def block(
-        self,
-        robot: Scout,
-        motion: GaitMotion,
-        q: np.ndarray,
-        joints: JointTrajectory | None,
-        first: int,
-    ) -> _Block:
-        """Take in a block, whose rates are worked out unless its trajectory is given.
-
-        It is good until the next one is taken in.
-        """
-        own = self.q[:, : len(q)], self.v[:, : len(q)], self.a[:, : len(q)]
-        screws: tuple[LegScrews | None, LegScrews | None] = (None, None)
-        own[0][7:] = q.T
-        if joints is None:
-            screws = fill_rates(robot, motion, q, (own[1][6:], own[2][6:]), first)
-        else:
-            own[1][6:], own[2][6:] = joints.v.T, joints.a.T
-        fill_root(motion.torso, own)
-        return _Block(*own, screws, None if joints is None else joints.resting)
-
-
 def _fill(
     kept: tuple[np.ndarray, np.ndarray, np.ndarray],
     robot: Scout,
     motion: GaitMotion,
-    block: _Block,
+    block: Block,
 ) -> None:
-    """Work out one block of samples; its last twelve forces are to be the joints' torques."""
-    forces, wrench, violation = kept
+    """Work out torques ``(12, n)``, wrenches ``(2, 6, n)`` and violations of a block of samples."""
+    torque, wrench, _ = kept
     # Joints first: Pinocchio copies what it reads anyway, and all else works on rows.
-    pin.rneaInParallel(1, robot.pool, block.q, block.v, block.a, forces.T)
+    pin.rneaInParallel(1, robot.pool, block.q, block.v, block.a, block.forces.T)
+    torque[:] = block.forces[:, 6:].T
+    if len(block.forces) == 1 and not motion.support.all():
+        one_sample.carry(torque, wrench, robot, motion, block)
+    else:
+        _carry(kept, robot, motion, block)
+    friction = robot.specification.assumptions.joint_friction
+    if friction.viscous or friction.coulomb:
+        torque += joint_friction(robot, block.v[6:].T, block.resting).T
+
+
+def _carry(
+    kept: tuple[np.ndarray, np.ndarray, np.ndarray],
+    robot: Scout,
+    motion: GaitMotion,
+    block: Block,
+) -> None:
+    """Share the floor's wrench out to the feet that stand, and take it off their legs' joints."""
+    (torque, wrench, violation), forces = kept, block.forces
     total = np.ascontiguousarray(forces[:, :6].T)
     shares = [total, total]
     supports, q = np.ascontiguousarray(motion.support.T), block.q[7:].T
@@ -189,16 +155,13 @@ def _fill(
         torques = _leg_torques(
             robot.legs[side], block.screws[k], q[:, mine], standing, force, moment
         )
-        for joint, taken in enumerate(torques, 6 + mine.start):
-            forces[standing, joint] -= taken
+        for row, taken in zip(torque[mine], torques, strict=True):
+            row[standing] -= taken
         # From the torso's axes to the world's, and from its origin to the sole's.
         force, moment = into(back[:, :, standing], force), into(back[:, :, standing], moment)
         arm = rows(foot.position[standing] - motion.torso.position[standing])
         moment -= cross(arm, force)
-        wrench[standing, k, :3], wrench[standing, k, 3:] = force.T, moment.T
-    friction = robot.specification.assumptions.joint_friction
-    if friction.viscous or friction.coulomb:
-        forces[:, 6:] += joint_friction(robot, block.v[6:].T, block.resting)
+        wrench[k][:3, standing], wrench[k][3:, standing] = force, moment
 
 
 def _leg_torques(
@@ -210,11 +173,9 @@ def _leg_torques(
     moment: np.ndarray,
 ) -> Joints:
     """Torques of the floor's wrench on a leg at the samples where it stands."""
-    if len(q) == 1:  # by floats, a third of the time of a single sample
-        screws = known or LegScrews.single(leg, q[0].tolist())
-        return screws.torques(force[:, 0].tolist(), moment[:, 0].tolist())
-    screws = known.part(standing) if known else LegScrews(leg, q[standing])
-    return screws.torques(force, moment)
+    if known is None:
+        return LegScrews(leg, q[standing]).torques(force, moment)
+    return (known if len(q) == len(moment[0]) else known.part(standing)).torques(force, moment)
 
 
 def _consecutive(yes: np.ndarray) -> slice | np.ndarray | None:
@@ -240,5 +201,8 @@ def joint_friction(robot: Scout, v: np.ndarray, resting: np.ndarray | None = Non
             those below ``static``.
     """
     friction = robot.specification.assumptions.joint_friction
-    still = np.abs(v) <= TOLERANCES.static if resting is None else resting
-    return friction.viscous * v + friction.coulomb * np.where(still, 0.0, np.sign(v))
+    found = np.asarray(np.sign(v))
+    found *= np.abs(v) > TOLERANCES.static if resting is None else ~resting
+    found *= friction.coulomb
+    found += friction.viscous * v
+    return found

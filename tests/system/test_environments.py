@@ -13,6 +13,7 @@ VERBS = {
     "scout": (
         ["gait"],
         ["size", "examples/servos.csv"],
+        ["simulate"],
         ["new", "my_biped.toml"],
         ["from-urdf", "urdf/scout/scout.urdf"],
         ["view", "--html", "-"],
@@ -25,6 +26,7 @@ VERBS = {
     "pollard": (
         ["trajectory"],
         ["size", "examples/servos.csv"],
+        ["simulate"],
         ["view", "--html", "-"],
         ["convert", "--as", "joints"],
         ["ik", "0.45", "0", "0.1", "0", "0", "0"],

@@ -25,6 +25,7 @@ SEEN = {
     "audit": {"--html"},
     "convert": set(),
     "size": {"--out"},
+    "simulate": {"--out", "--html"},
     "ik": set(),
     "fk": set(),
     "info": {"--html"},

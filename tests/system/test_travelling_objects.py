@@ -30,6 +30,15 @@ def gait_report():
     return scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait(), samples=21)
 
 
+def simulation():
+    """A second of Scout's knee bend."""
+    from scout_pin.study.simulate.conditions import Conditions
+
+    gait = scout_pin.load_gait(ROOT / "examples" / "squat.toml")
+    report = scout_pin.gait_report(scout_pin.load(), gait, samples=21, time_unit=0.5)
+    return scout_pin.simulate_gait(report, Conditions(time_step=2e-3))
+
+
 def trajectory_report():
     return pollard_pin.trajectory_report(pollard_pin.load(), pollard_pin.appendix_b(), samples=21)
 
@@ -78,6 +87,7 @@ MAKERS = {
     "LegSolutions": lambda: scout_pin.load().leg_inverse_kinematics("left", STANDING),
     "Contact": lambda: scout_pin.load().contacts[0],
     "GaitReport": gait_report,
+    "Simulation": simulation,
     "ToolPath": pollard_pin.appendix_b,
     "ToolPath of segments": lambda: pollard_pin.load_path(ROOT / "examples" / "spray_arch.toml"),
     "ToolMotion": lambda: pollard_pin.appendix_b().sample(9),

@@ -62,8 +62,8 @@ def _report(arguments: argparse.Namespace) -> BalanceReport:
         motion = support = None
         if file is not None:
             names = [foot.name for foot in feet]
+            support = told_contacts(file, names)  # before: two tables don't fit into memory
             motion = read_motion(robot, file, smooth=arguments.smooth, beside=headings_of(names))
-            support = told_contacts(file, names)
         return balance_report(
             robot,
             motion,

@@ -29,15 +29,12 @@ from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import real
-from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.planar import convex_hull
+from thesis_pin.numeric.products import furthest
 
 FRICTION_EDGES = 8
 """Edges of the pyramid inside each corner's friction cone; it gives away at most
 1 − cos(π/8) = 7.6 % of the friction, on the safe side."""
-
-_ALONE = 250_000
-"""Multiplications of a matrix product that OpenBLAS leaves to one thread."""
 
 
 @dataclass(frozen=True)
@@ -107,12 +104,7 @@ class Contact:
             Margins, shape ``(...)``.
         """
         flat = self.scale(wrench).reshape(-1, 6)
-        margin = np.empty(len(flat))
-        # So few that BLAS doesn't share the product among threads: where another program has a
-        # core, they wait for each other and take ten times as long.
-        for part in blocks(len(flat), max(1, _ALONE // self.facets.size)):
-            margin[part] = -(flat[part] @ self.facets.T).max(axis=-1)
-        return margin.reshape(wrench.shape[:-1])
+        return -furthest(flat, self.facets).reshape(wrench.shape[:-1])
 
     def violation(self, wrench: np.ndarray) -> tuple[float, np.ndarray]:
         """Least wrench that something other than the floor would have to add.

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thesis_pin.contacts.stability import signed_margin, support_polygon
+from thesis_pin.numeric.alike import alike
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.trajectory import BodyMotion
 
@@ -42,29 +43,15 @@ def support_polygons(
     Returns:
         Samples ``(m,)`` and corners, counter-clockwise [m], ``(h, 2)``, of each stance.
     """
-    # Alike within a block first, then over all blocks: a key a sample would weigh too much.
-    number = np.empty(len(support), dtype=np.intp)
-    keys: list[np.ndarray] = []
-    firsts: list[np.ndarray] = []
-    for part in blocks(len(support)):
-        some = _stances(support[part], [foot.part(part).placement for foot in feet])
-        # Neighbours are alike as a rule: that leaves a row a stance to sort, of some thousand.
-        begins = np.concatenate([[True], (some[1:] != some[:-1]).any(axis=1)])
-        runs = np.flatnonzero(begins)
-        key, first, inverse = np.unique(some[runs], axis=0, return_index=True, return_inverse=True)
-        number[part] = inverse.ravel()[np.cumsum(begins) - 1] + sum(len(key) for key in keys)
-        keys.append(key)
-        firsts.append(runs[first] + part.start)
-    _, first, inverse = np.unique(
-        np.concatenate(keys), axis=0, return_index=True, return_inverse=True
-    )
-    number = inverse.ravel()[number]
     result = []
-    for k, sample in enumerate(np.concatenate(firsts)[first]):
+    for sample, rows in alike(
+        len(support),
+        lambda part: _stances(support[part], [foot.part(part).placement for foot in feet]),
+    ):
         here = [foot.part(slice(sample, sample + 1)).placement[0] for foot in feet]
         standing = np.flatnonzero(support[sample])
         soles = [sole_corners(outlines[int(s)], here[int(s)]) for s in standing]
-        result.append((np.flatnonzero(number == k), support_polygon(*soles)))
+        result.append((rows, support_polygon(*soles)))
     return result
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.numeric.sparing import Part, plus, times
 
 if TYPE_CHECKING:
@@ -50,14 +51,14 @@ class Piecewise:
         given = np.asarray(t, dtype=float)
         where, (order, pieces, *shape) = given.ravel(), self.c.shape
         if pieces == 1:
-            offset, coefficients = where - self.x[0], self.c
+            piece: Samples = slice(None)
         else:
             piece = np.clip(np.searchsorted(self.x, where, side="right") - 1, 0, pieces - 1)
-            offset, coefficients = where - self.x[piece], self.c[:, piece]
+        offset = where - self.x[:-1][piece]
         offset = offset.reshape(-1, *[1] * len(shape))
         result, power = np.zeros((len(where), *shape)), np.ones(offset.shape)
         for k in range(nu, order):  # from the constant upwards, as SciPy adds up
-            result += coefficients[order - 1 - k] * power * float(perm(k, nu))
+            result += self.c[order - 1 - k][piece] * power * float(perm(k, nu))
             power *= offset
         result[np.isnan(where)] = np.nan
         return result.reshape((*given.shape, *shape))

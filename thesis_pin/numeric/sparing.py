@@ -13,6 +13,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from thesis_pin.numeric import elementwise
+
 Part: TypeAlias = Any
 """A float, or an array of samples."""
 
@@ -49,7 +51,7 @@ def cosine_sine(angle: Part) -> tuple[Part, Part]:
     """Cosine and sine of an angle [rad]."""
     if isinstance(angle, float):
         return math.cos(angle), math.sin(angle)
-    return np.cos(angle), np.sin(angle)
+    return elementwise.cosine_sine(angle)
 
 
 def cross(a: Triple, b: Triple) -> Triple:

@@ -68,7 +68,7 @@ def csv_bytes(columns: Mapping[str, np.ndarray | Sequence[str]]) -> bytes:
     groups: list[list[bytes]] = []
     for numeric, group in itertools.groupby(columns.values(), key=_is_float):
         values = list(group)
-        groups += [_number_rows(np.column_stack(values))] if numeric else map(_text_rows, values)
+        groups += [number_rows(np.column_stack(values))] if numeric else map(_text_rows, values)
     lines = [",".join(columns).encode(), *map(b",".join, zip(*groups, strict=True))]
     return b"\n".join(lines) + b"\n"
 
@@ -81,8 +81,8 @@ def _text_rows(values: Iterable[object]) -> list[bytes]:
     return [str(value).encode() for value in values]
 
 
-def _number_rows(table: np.ndarray) -> list[bytes]:
-    """The rows of a table ``(n, k)`` as text; NaN becomes empty."""
+def number_rows(table: np.ndarray) -> list[bytes]:
+    """The rows of a table ``(n, k)`` as text that reads back exactly; NaN becomes empty."""
     import orjson
 
     table = table + 0.0

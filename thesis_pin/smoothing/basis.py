@@ -12,7 +12,6 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline
 
 Array = NDArray[np.float64]
 
@@ -57,10 +56,8 @@ class Basis:
     def rows(self, time: Array) -> Rows:
         """The B-splines' values at times in ascending order."""
         place = np.clip((time - self.start) / self.step, 0.0, self.spans)
-        knots = _clamped(self.spans)
-        matrix = BSpline.design_matrix(place, knots, DEGREE)
-        first = matrix.indices[::LOCAL].astype(np.intp)
-        return Rows(self, matrix.data.reshape(-1, LOCAL), first)
+        first = np.minimum(place.astype(np.intp), self.spans - 1)
+        return Rows(self, _splines(self.spans, first, place), first)
 
     def polynomials(self, coefficients: Array) -> Array:
         """Powers in each span, highest first: ``(count, …)`` → ``(6, spans, …)``."""
@@ -187,8 +184,32 @@ def penalty(spans: int, order: int) -> Penalty:
     return Penalty(factor, _local(spans, order, np.array([0.5]))[k, 0])
 
 
-def _clamped(spans: int) -> Array:
-    return np.concatenate([np.zeros(DEGREE), np.arange(spans + 1.0), np.full(DEGREE, spans)])
+def _splines(spans: int, first: NDArray[np.intp], place: Array, order: int = 0) -> Array:
+    """Derivatives of the B-splines that aren't zero in the spans ``first``, ``(n, 6)``.
+
+    Args:
+        spans: Number of spans, each of length 1.
+        first: Which span each place lies in, shape ``(n,)``.
+        place: Distance from the first span's start, shape ``(n,)``.
+        order: Order of the derivative.
+
+    Source: C. de Boor, "A practical guide to splines" (1978), chapter X: equations 8 and 15.
+    """
+    knots = [np.clip(first + k, 0, spans).astype(float) for k in range(1 - DEGREE, LOCAL)]
+    found = [np.ones(len(place))]
+    for degree in range(1, LOCAL):
+        lower, found = found, [np.zeros(len(place))]
+        for k, value in enumerate(lower):
+            end, start = knots[DEGREE + k], knots[DEGREE + k - degree]
+            if degree <= DEGREE - order:
+                share = value / (end - start)
+                found[-1] = found[-1] + share * (end - place)
+                found.append(share * (place - start))
+            else:
+                share = degree * value / (end - start)
+                found[-1] = found[-1] - share
+                found.append(share)
+    return np.stack(found, axis=1)
 
 
 def _local(spans: int, order: int, places: Array) -> Array:
@@ -200,10 +221,9 @@ def _local(spans: int, order: int, places: Array) -> Array:
             [short[:middle], np.repeat(short[middle : middle + 1], spans - _TEMPLATE + 1, axis=0),
              short[middle + 1 :]]
         )  # fmt: skip
-    every = BSpline(_clamped(spans), np.eye(spans + DEGREE), DEGREE)
+    first = np.repeat(np.arange(spans), len(places))
     at = (np.arange(spans)[:, None] + places).ravel()
-    found = np.asarray(every(at, order)).reshape(spans, len(places), -1)
-    return np.stack([found[k, :, k : k + LOCAL] for k in range(spans)])
+    return _splines(spans, first, at, order).reshape(spans, len(places), LOCAL)
 
 
 @lru_cache(maxsize=64)

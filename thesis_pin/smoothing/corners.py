@@ -9,10 +9,9 @@ from __future__ import annotations
 from math import factorial
 
 import numpy as np
-from scipy.interpolate import CubicSpline, PPoly
-from scipy.ndimage import maximum_filter1d
 
 from thesis_pin.numeric.interpolation import free, free_quintic
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.smoothing.basis import DEGREE, Array
 from thesis_pin.smoothing.curve import (
     DRAWS,
@@ -22,6 +21,7 @@ from thesis_pin.smoothing.curve import (
     fitted,
     smooth_curve,
 )
+from thesis_pin.smoothing.windows import greatest
 from thesis_pin.tolerances import TOLERANCES
 
 _AROUND = 8  # samples on either side that say what acceleration is usual
@@ -51,16 +51,18 @@ def corners(time: Array, values: Array, quantum: float) -> list[int]:
     rate = np.diff(values) / step
     bend = 2.0 * np.diff(rate) / (step[1:] + step[:-1])  # at samples 1 … n − 2
     k = np.arange(_AROUND + 1, count - _AROUND - 2)
+    if not k.size:
+        return []
     before = rate[k - 1] + bend[k - 2] * step[k - 1] / 2.0
     after = rate[k + 1] - bend[k + 1] * step[k + 1] / 2.0
     changes = np.abs([rate[k] - before, rate[k] - after, after - before]).max(axis=0)
     # Of eight bends: those up to sample k − 1, those from sample k + 2 on.
     size, half = np.abs(bend), _AROUND // 2
-    most = maximum_filter1d(size, _AROUND)
+    most = greatest(size, _AROUND)
     usual = np.maximum(most[k - 1 - half], most[k + 1 + half])
     bound = _TIMES * (usual * step[k] + _QUANTA * quantum / step[k])
     excess = np.where(changes > np.maximum(bound, TOLERANCES.rate_jump), changes, 0.0)
-    highest = (excess > 0) & (excess >= maximum_filter1d(excess, 2 * _AROUND + 1))
+    highest = (excess > 0) & (excess >= greatest(excess, 2 * _AROUND + 1))
     found: list[int] = []
     for row in k[highest].tolist():
         if not found or row - found[-1] > _AROUND:
@@ -156,6 +158,8 @@ def through(
         return constant_curve(
             float(time[0]), float(time[-1]), End(float(values[0]), np.zeros(DRAWS))
         )
+    from scipy.interpolate import CubicSpline
+
     known = tuple("not-a-knot" if end is None else "clamped" for end in ends)
     curve = CubicSpline(time, values, bc_type=known)
     rival = free_quintic(time, values) if ends == (None, None) else free(time, values)
@@ -165,7 +169,7 @@ def through(
         for one in (curve, rival)
     )
     c = np.stack([own, other, *[own] * DRAWS], axis=-1)
-    return SmoothCurve(PPoly(c, time), 0.0)
+    return SmoothCurve(Piecewise(c, time), 0.0)
 
 
 def straight(span: Array, low: Array, high: Array) -> SmoothCurve:
@@ -177,4 +181,4 @@ def straight(span: Array, low: Array, high: Array) -> SmoothCurve:
         high: The same at the second.
     """
     c = np.stack([(high - low) / (span[1] - span[0]), low])[:, None]
-    return SmoothCurve(PPoly(c, span), 0.0)
+    return SmoothCurve(Piecewise(c, span), 0.0)

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PPoly
 
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.smoothing.basis import DEGREE, Array, Basis
 from thesis_pin.smoothing.fit import Fit, Strength, strongest
 from thesis_pin.smoothing.local import localised
@@ -40,26 +40,26 @@ class SmoothCurve:
         sigma: Noise of a sample, standard deviation.
     """
 
-    variants: PPoly
+    variants: Piecewise
     sigma: float
 
     @property
-    def value(self) -> PPoly:
+    def value(self) -> Piecewise:
         """The curve."""
         return self._one(0)
 
     @property
-    def rival(self) -> PPoly:
+    def rival(self) -> Piecewise:
         """Order 3's curve: where the two differ, the samples leave a bias open."""
         return self._one(1)
 
     @property
-    def draws(self) -> PPoly:
+    def draws(self) -> Piecewise:
         """Curves as probable as the samples leave them, values ``(draws,)``."""
-        return PPoly(self.variants.c[..., 2:], self.variants.x)
+        return Piecewise(self.variants.c[..., 2:], self.variants.x)
 
-    def _one(self, k: int) -> PPoly:
-        return PPoly(np.ascontiguousarray(self.variants.c[..., k]), self.variants.x)
+    def _one(self, k: int) -> Piecewise:
+        return Piecewise(self.variants.c[..., k], self.variants.x)
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ def constant_curve(start: float, end: float, at: End) -> SmoothCurve:
     """A curve that rests."""
     values = np.concatenate([[at.value, at.value], at.value + at.offsets])
     sd = float(at.offsets.std()) if at.offsets.any() else 0.0
-    return SmoothCurve(PPoly(values[None, None], np.array([start, end])), sd)
+    return SmoothCurve(Piecewise(values[None, None], np.array([start, end])), sd)
 
 
 def fitted(
@@ -148,7 +148,7 @@ def smooth_curve(
     basis = samples.rows.basis
     c = basis.polynomials(every)
     c[-1] += samples.origin
-    return SmoothCurve(PPoly(c, basis.knots), main.sigma)
+    return SmoothCurve(Piecewise(c, basis.knots), main.sigma)
 
 
 def _with_enough_spans(
@@ -206,4 +206,4 @@ def joined(pieces: Sequence[SmoothCurve]) -> SmoothCurve:
         padded.append(np.concatenate([np.zeros((DEGREE + 1 - len(c), *c.shape[1:])), c]))
     knots = [pieces[0].variants.x, *(piece.variants.x[1:] for piece in pieces[1:])]
     sigma = max(piece.sigma for piece in pieces)
-    return SmoothCurve(PPoly(np.concatenate(padded, axis=1), np.concatenate(knots)), sigma)
+    return SmoothCurve(Piecewise(np.concatenate(padded, axis=1), np.concatenate(knots)), sigma)

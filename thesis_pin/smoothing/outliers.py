@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import median_filter
 
 from thesis_pin.smoothing.noise import Array
+from thesis_pin.smoothing.windows import medians
 
 _PATTERN = np.array([1.0, -4.0, 6.0, -4.0, 1.0])
 _TIMES = 9.0  # what the fourth difference must exceed the usual one by
@@ -41,10 +41,10 @@ def outliers(values: Array, quantum: float, least: float = 0.0) -> list[Outlier]
         return []
     high = np.diff(values, 4)
     size = np.abs(high)
-    usual = np.maximum(median_filter(size, _AROUND, mode="reflect"), 1.4826 * np.median(size))
-    usual = np.maximum(usual, np.sqrt(70.0 / 12.0) * quantum)
+    everywhere = max(1.4826 * float(np.median(size)), float(np.sqrt(70.0 / 12.0)) * quantum)
+    large = np.flatnonzero(size > _TIMES * everywhere)
     found: list[Outlier] = []
-    for k in np.flatnonzero(size > _TIMES * usual):
+    for k in large[size[large] > _TIMES * medians(size, _AROUND, large)]:
         error = high[k] / 6.0
         places = np.arange(k - 2, k + 3)
         inside = (places >= 0) & (places < len(high))

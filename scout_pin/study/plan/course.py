@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scout_pin.motion.contact import Phase
+from scout_pin.motion.contact import Phase, Support
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.clamped import Clamped
@@ -20,7 +20,7 @@ from thesis_pin.numeric.interpolation import constant, join
 from thesis_pin.numeric.piecewise import Piecewise
 
 _Y, _Z = 1, 2
-_OTHER = dict(zip(SIDES, reversed(SIDES), strict=True))
+_OTHER: dict[str, Support] = {"left": "right", "right": "left"}
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,10 @@ def start_course(cycle: Gait, foot: str, shift: float, lift: float) -> Course:
     torso = Clamped(duration, intervals(duration, step.end - step.start), jet, True)
     t = np.linspace(0.0, duration, 4 * torso.intervals)
     along = _along(cycle, step.end - duration + t)
-    wanted = rest + _smooth(t / shift)[:, None] * (along - rest)
-    wanted[:, _Y] = _gone(t, duration, rest[_Y], jet[_Y])
+    time = step.end - step.start
+    late = 1.0 - (shift - t) / min(shift, time)
+    wanted = rest + _smooth(late)[:, None] * (along - rest)
+    wanted[:, _Y] = _gone(t - duration + time, time, rest[_Y], jet[_Y])
     return Course(foot, phases, feet, torso, torso.fitted(t, wanted))
 
 
@@ -97,19 +99,20 @@ def stop_course(cycle: Gait, landed: str, settle: float, lift: float) -> Course:
     jet = _jet(step, step.start, -step.foot(foot, step.start))
     phases = (
         Phase(start=0.0, end=double, support="double"),
-        Phase(start=double, end=lands, support=landed),
+        Phase(start=double, end=lands, support=_OTHER[foot]),
         Phase(start=lands, end=duration, support="double"),
     )
-    phases = tuple(phase for phase in phases if phase.end > phase.start)
     feet = _feet(step, foot, (double, lands, duration), length, lift, at=length)
     rest = _rest(cycle, jet[_Y, 0] + length / 2)
     torso = Clamped(duration, intervals(duration, lands), jet, False)
     t = np.linspace(0.0, duration, 4 * torso.intervals)
     along = _along(cycle, step.start + t)
-    wanted = rest + _smooth((duration - t) / settle)[:, None] * (along - rest)
+    left = 1.0 - (t - lands) / min(settle, lands)
+    wanted = rest + _smooth(left)[:, None] * (along - rest)
     back = np.array([jet[_Y, 0], -jet[_Y, 1], jet[_Y, 2]])
-    wanted[:, _Y] = _gone(duration - t, duration, rest[_Y], back)
-    return Course(foot, phases, feet, torso, torso.fitted(t, wanted))
+    wanted[:, _Y] = _gone(lands - t, lands, rest[_Y], back)
+    lasting = tuple(phase for phase in phases if phase.end > phase.start)
+    return Course(foot, lasting, feet, torso, torso.fitted(t, wanted))
 
 
 def intervals(duration: float, step: float) -> int:
@@ -203,8 +206,11 @@ def _smooth(share: np.ndarray) -> np.ndarray:
 
 
 def _gone(t: np.ndarray, duration: float, start: float, jet: np.ndarray) -> np.ndarray:
-    """The quintic from rest to a value, rate and acceleration."""
-    s, rise = t / duration, jet[0] - start
+    """The quintic from rest to a value, rate and acceleration; before it there is rest.
+
+    Half a step in the time of one: a walk that goes on is half as fast on the mean of it.
+    """
+    s, rise = np.clip(t / duration, 0.0, None), jet[0] - start
     rate, second = jet[1] * duration, jet[2] * duration**2
     a, b, c = (
         10 * rise - 4 * rate + second / 2,

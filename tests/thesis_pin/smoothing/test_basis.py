@@ -35,6 +35,16 @@ def test_values_and_powers_are_those_of_scipys_spline(spans: int) -> None:
         np.testing.assert_allclose(made(t, order), expected(t, order), rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.parametrize("spans", [1, 2, 5, 12, 300])
+def test_b_splines_are_scipys_to_the_bit(spans: int) -> None:
+    basis = Basis(0.0, float(spans), spans)
+    t = np.sort(np.append(np.random.default_rng(spans).uniform(0, spans, 500), basis.knots))
+    knots = np.concatenate([[0.0] * 5, basis.knots, [float(spans)] * 5])
+    expected, rows = BSpline.design_matrix(t, knots, 5), basis.rows(t)
+    np.testing.assert_array_equal(rows.values.ravel(), expected.data)
+    np.testing.assert_array_equal(rows.first, expected.indices[::6])
+
+
 def test_polynomials_take_several_splines_at_once() -> None:
     basis = Basis(0.0, 1.0, 20)
     c = np.random.default_rng(1).standard_normal((basis.count, 3))

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.outlines import hull
 from thesis_pin.contacts.stability import signed_margin
+from thesis_pin.numeric.alike import alike
 
 Array = NDArray[np.float64]
 Polygons = list[tuple[NDArray[np.intp], Array]]
@@ -67,18 +68,21 @@ def flat_corners(floor: Floor, corners: Sequence[Array], support: NDArray[np.boo
         Samples ``(m,)`` and corners in the floor's axes [m], counter-clockwise, ``(h, 2)``; two
         where they lie in line, one, or none.
     """
-    flat = [floor.flat(points) for points in corners]
-    keys = [
-        np.where(support[:, k, None, None], points.round(_ALIKE), np.nan).reshape(len(support), -1)
-        for k, points in enumerate(flat)
-    ]
-    key = np.nan_to_num(np.concatenate([*keys, support], axis=1), nan=0.0)
-    _, first, which = np.unique(key, axis=0, return_index=True, return_inverse=True)
+
+    def keys(part: slice) -> Array:
+        stands = support[part]
+        flat = [floor.flat(points[part]).round(_ALIKE) + 0.0 for points in corners]
+        each = [
+            np.where(stands[:, k, None, None], points, 0.0).reshape(len(stands), -1)
+            for k, points in enumerate(flat)
+        ]
+        return np.concatenate([*each, stands], axis=1)
+
     found = []
-    for number, sample in enumerate(first.tolist()):
-        standing = [points[sample] for k, points in enumerate(flat) if support[sample, k]]
-        points = np.concatenate([np.zeros((0, 2)), *standing])
-        found.append((np.flatnonzero(which.ravel() == number), hull(points)))
+    for sample, rows in alike(len(support), keys):
+        on = np.flatnonzero(support[sample]).tolist()
+        points = [np.zeros((0, 2)), *(floor.flat(corners[k][sample]) for k in on)]
+        found.append((rows, hull(np.concatenate(points))))
     return found
 
 

@@ -11,7 +11,7 @@ from thesis_pin.contacts.balance.carrying import Carrying, total_mass, velocity_
 from thesis_pin.contacts.balance.grips import Grips
 from thesis_pin.contacts.balance.result import FootDynamics
 from thesis_pin.contacts.balance.sharing import SHARINGS, Problem, Shared, share
-from thesis_pin.contacts.balance.stance import Stance, stance
+from thesis_pin.contacts.balance.stance import CHUNK, Levers, Stance, placed, stance
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot, by_name, check_free
 from thesis_pin.errors import WrongShape
@@ -19,11 +19,11 @@ from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.numeric.arrays import finite_array, spread, together
 from thesis_pin.numeric.checks import choice, instance, real
+from thesis_pin.numeric.elementwise import blocks
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_CHUNK = 1024  # samples worked on at once, so that memory stays bounded
 _IDLE = 1e-9  # what a contact force does to a joint that nothing holds, from which it counts
 
 
@@ -94,17 +94,19 @@ def foot_dynamics(
     stands = _support(support, len(q), feet)
     if sliding is not None:
         sliding = spread("sliding", finite_array("sliding", sliding, model.nv), q.shape[:-1])
-    places = stance(robot, feet, floor, q, v)
     length = typical_length(robot, feet)
     wrench = np.zeros((len(q), len(feet), 6))
     violation, freedoms = np.zeros(len(q)), np.zeros(len(q), dtype=np.intp)
     required = np.zeros((len(q), 6))
-    for first in range(0, len(q), _CHUNK):
-        some = slice(first, first + _CHUNK)
+    stood = []
+    for some in blocks(len(q), CHUNK):
         slides = None if sliding is None else sliding[some]
-        part = _Chunk(robot, feet, places.part(some), length, (q[some], v[some], a[some]))
+        here, levers = placed(robot, feet, floor, q[some], v[some])
+        stood.append(here)
+        part = _Chunk(robot, feet, here, levers, length, (q[some], v[some], a[some]))
         found = part.share(stands[some], (sharing, slack), slides, precision)
         wrench[some], violation[some], freedoms[some], required[some] = found
+    places = Stance.joined(stood)
     pushed = at_frames(feet, places, wrench)
     dynamics = inverse_dynamics(
         robot, q, v, a, external=pushed, sliding=sliding, check=check, precision=precision
@@ -165,10 +167,12 @@ class _Chunk:
         robot: ClosedRobot,
         feet: Sequence[Foot],
         places: Stance,
+        levers: Levers,
         length: float,
         state: tuple[Array, Array, Array],
     ) -> None:
-        self.robot, self.feet, self.places, self.length = robot, feet, places, length
+        self.robot, self.feet, self.length = robot, feet, length
+        self.places, self.levers = places, levers
         self.q, self.v, self.a = state
 
     def share(
@@ -208,7 +212,7 @@ class _Chunk:
         total[:, 3:] += np.cross(here.root - about, root[:, :3])
         sums = grips.sums(here, about)
         own = carrying.shares(tau[:, :, None], rows)
-        taken = carrying.shares(grips.loads(here), rows)
+        taken = carrying.shares(grips.loads(here, self.levers.part(rows)), rows)
         felt = np.abs(taken.idle).max(axis=(0, 2), initial=0.0) > _IDLE
         total = np.concatenate([total, own.idle[:, felt, 0]], axis=1)
         sums = np.concatenate([sums, taken.idle[:, felt]], axis=1)

@@ -13,10 +13,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.contacts.balance.stance import Stance
+from thesis_pin.contacts.balance.stance import Levers, Stance
 from thesis_pin.contacts.cones import FRICTION_EDGES
 from thesis_pin.contacts.soles.foot import Foot
 from thesis_pin.numeric.arrays import skew
+from thesis_pin.numeric.products import furthest
 
 Array = NDArray[np.float64]
 
@@ -104,6 +105,13 @@ class Grips:
             return [(g.facets, place) for g, place in zip(self.each, self.places, strict=True)]
         return [(self.facets, slice(0, self.size))]
 
+    def beyond(self, unknowns: Array) -> Array:
+        """By what unknowns ``(n, m)`` pass a facet of their cones at most, ``(n,)``; 0 inside."""
+        most = np.zeros(len(unknowns))
+        for facets, place in self.cones:
+            np.maximum(most, furthest(unknowns[:, place], facets), out=most)
+        return most
+
     def point(self, stance: Stance, grip: Grip) -> Array:
         """Where a grip's force acts in the world [m], shape ``(n, 3)``."""
         if grip.corner is None:
@@ -125,15 +133,15 @@ class Grips:
                 result[:, 3:, start + 3 : place.stop] = turn
         return result
 
-    def loads(self, stance: Stance) -> Array:
+    def loads(self, stance: Stance, levers: Levers) -> Array:
         """From unknowns to generalized forces, shape ``(n, nv, unknowns)``."""
-        result = np.zeros((len(stance.root), stance.jacobian.shape[-1], self.size))
+        result = np.zeros((len(stance.root), levers.jacobian.shape[-1], self.size))
         for grip, place in zip(self.each, self.places, strict=True):
             turn, start = stance.turn[:, grip.foot], place.start
-            pushes = stance.pushes(grip.foot, self.point(stance, grip))
+            pushes = levers.pushes(grip.foot, self.point(stance, grip))
             result[:, :, start : start + 3] = pushes @ turn / self.length
             if grip.corner is None:
-                result[:, :, start + 3 : place.stop] = stance.turns(grip.foot) @ turn
+                result[:, :, start + 3 : place.stop] = levers.turns(grip.foot) @ turn
         return result
 
     def wrenches(self, stance: Stance, unknowns: Array, feet: int) -> Array:

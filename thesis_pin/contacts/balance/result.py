@@ -21,6 +21,7 @@ from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import LoopDynamics
+from thesis_pin.numeric.products import furthest
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -111,7 +112,7 @@ class FootDynamics:
                 found[rows, k] = foot.contact.margin(self.contact_wrench[rows, k])
             elif foot.kind == "point":
                 force = self.contact_wrench[rows, k, :3] * self.length
-                found[rows, k] = -(force @ pyramid(foot.friction).T).max(axis=1)
+                found[rows, k] = -furthest(force, pyramid(foot.friction))
         return found
 
     @cached_property

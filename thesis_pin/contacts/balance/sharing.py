@@ -99,7 +99,7 @@ def share(problem: Problem, sharing: str, slack: float = 0.0) -> Shared:
         free = right[rows, rank:].swapaxes(1, 2)
         freedoms[rows] = size - rank
         unknowns[rows] = _chosen(problem, sharing, rows, least, free)
-    beyond = (unknowns @ problem.grips.facets.T).max(axis=1, initial=0.0)
+    beyond = problem.grips.beyond(unknowns)
     short = problem.total - (problem.sums @ unknowns[..., None])[..., 0]
     border = tolerance(problem.scale)
     doubtful = (beyond > border) | (np.abs(short).max(axis=1) > border)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 import pinocchio as pin
@@ -13,8 +13,12 @@ from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot
 from thesis_pin.model.loading import LoadedRobot, frame_id
 from thesis_pin.numeric.arrays import skew
+from thesis_pin.numeric.elementwise import blocks
 
 Array = NDArray[np.float64]
+
+CHUNK = 1024
+"""Samples worked on at once, so that memory stays bounded."""
 
 _AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
@@ -30,7 +34,6 @@ class Stance:
         corners: Of each foot, a list of ``(n, k, 3)`` [m].
         speed: Largest speed of a corner [m/s], shape ``(n, feet)``.
         frames: Origins of the frames that the feet are fixed to [m], ``(n, feet, 3)``.
-        jacobian: Of these frames, linear then angular, shape ``(n, feet, 6, nv)``.
         root: Where the root's joint is [m], shape ``(n, 3)``.
         com: Centre of mass [m], shape ``(n, 3)``.
     """
@@ -40,7 +43,6 @@ class Stance:
     corners: list[Array]
     speed: Array
     frames: Array
-    jacobian: Array
     root: Array
     com: Array
 
@@ -52,10 +54,41 @@ class Stance:
             [corners[some] for corners in self.corners],
             self.speed[some],
             self.frames[some],
-            self.jacobian[some],
             self.root[some],
             self.com[some],
         )
+
+    @classmethod
+    def joined(cls, parts: Sequence[Stance]) -> Stance:
+        """The feet at the samples of several, one after the other."""
+        every = [[getattr(part, field.name) for part in parts] for field in fields(cls)]
+        origin, turn, corners, speed, frames, root, com = every
+        return cls(
+            np.concatenate(origin),
+            np.concatenate(turn),
+            [np.concatenate(points) for points in zip(*corners, strict=True)],
+            np.concatenate(speed),
+            np.concatenate(frames),
+            np.concatenate(root),
+            np.concatenate(com),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Levers:
+    """What pushes on feet do to the joints, over some samples; kilobytes a sample.
+
+    Attributes:
+        frames: Origins of the frames that the feet are fixed to [m], ``(n, feet, 3)``.
+        jacobian: Of these frames, linear then angular, world axes, shape ``(n, feet, 6, nv)``.
+    """
+
+    frames: Array
+    jacobian: Array
+
+    def part(self, some: slice | NDArray[np.intp]) -> Levers:
+        """They at some of the samples."""
+        return Levers(self.frames[some], self.jacobian[some])
 
     def pushes(self, foot: int, points: Array) -> Array:
         """Generalized forces of unit forces at points of a foot, ``(n, 3)`` → ``(n, nv, 3)``."""
@@ -83,6 +116,17 @@ def stance(
     Raises:
         UnknownName: A foot is on a frame that isn't there.
     """
+    parts = blocks(len(q), CHUNK)
+    rates = [None if v is None else v[some] for some in parts]
+    return Stance.joined(
+        [placed(robot, feet, floor, q[p], rate)[0] for p, rate in zip(parts, rates, strict=True)]
+    )
+
+
+def placed(
+    robot: LoadedRobot, feet: Sequence[Foot], floor: Floor, q: Array, v: Array | None = None
+) -> tuple[Stance, Levers]:
+    """:func:`stance`, and what pushes on the feet do to the joints."""
     model = robot.model
     data, count = model.createData(), len(q)
     ids = [frame_id(model, foot.frame, where=f"foot {foot.name}") for foot in feet]
@@ -117,4 +161,4 @@ def stance(
             arm = points - frames[:, j, None]
             moved = twist[:, j, None, :3] + np.cross(twist[:, j, None, 3:], arm)
             speed[:, j] = np.linalg.norm(moved, axis=-1).max(axis=1)
-    return Stance(origin, axes, corners, speed, frames, jacobian, root, com)
+    return Stance(origin, axes, corners, speed, frames, root, com), Levers(frames, jacobian)

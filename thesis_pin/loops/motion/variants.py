@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PPoly
 
+from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.smoothing.resolution import Sampled
 
 Array = NDArray[np.float64]
@@ -42,7 +42,7 @@ class Curve:
 
     joint: int
     order: int
-    curve: PPoly
+    curve: Piecewise
 
 
 @dataclass(frozen=True, eq=False)

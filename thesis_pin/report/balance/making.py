@@ -103,6 +103,7 @@ def balance_report(
         extremes = [*worst, *np.abs(found.torque).argmax(axis=0).tolist()]
         opened = drawn(Way(robot, motion, setting.whole, precision, {}), extremes, judge)
         if opened is not None and opened.motors.sliding is not None:
+            del found  # of very many samples two don't fit into memory
             found = judge(joints.q, joints.v, joints.a, opened.motors.sliding, every)
     carried = replace(found.loops, base=found.loops.base[:, :0])
     motors = TorqueReport(

@@ -9,12 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.report.writers import number_rows
+
 Array = NDArray[np.float64]
 
 LEAST_STEP = 1e-6
 """Points nearer than this [s] are one: a controller divides by the time between them."""
 
 _NANO = 1_000_000_000
+_WHOLE = re.compile(rb"e(?<![\d.]\de)")  # after a single digit
+_UNSIGNED = re.compile(rb"e(?=\d)")
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,24 +47,23 @@ def joint_trajectory_yaml(states: JointStates) -> bytes:
         states: The motion; samples less than :data:`LEAST_STEP` after the one before are left
             out, which are those beside abrupt changes.
     """
+    kept = apart(states.time)
     lines = [
-        "header: {stamp: {sec: 0, nanosec: 0}, frame_id: ''}",
-        f"joint_names: [{', '.join(map(_quoted, states.names))}]",
-        "points:",
+        b"header: {stamp: {sec: 0, nanosec: 0}, frame_id: ''}",
+        f"joint_names: [{', '.join(map(_quoted, states.names))}]".encode(),
+        b"points:",
     ]
     columns = (
-        ("positions", states.position),
-        ("velocities", states.rate),
-        ("accelerations", states.acceleration),
-        ("effort", states.effort),
+        _vectors("positions", states.position[kept]),
+        _vectors("velocities", states.rate[kept]),
+        _vectors("accelerations", states.acceleration[kept]),
+        _vectors("effort", states.effort[kept]),
     )
-    rows = {word: np.asarray(values + 0.0).tolist() for word, values in columns}
-    for k in apart(states.time):
-        sec, nanosec = divmod(round((states.time[k] - states.time[0]) * _NANO), _NANO)
-        lines.append(f"- time_from_start: {{sec: {sec}, nanosec: {nanosec}}}")
-        for word, values in rows.items():
-            lines.append(f"  {word}: [{', '.join(map(_number, values[k]))}]")
-    return ("\n".join(lines) + "\n").encode()
+    for time, *vectors in zip(states.time[kept].tolist(), *columns, strict=True):
+        sec, nanosec = divmod(round((time - states.time[0]) * _NANO), _NANO)
+        lines.append(f"- time_from_start: {{sec: {sec}, nanosec: {nanosec}}}".encode())
+        lines += vectors
+    return b"\n".join(lines) + b"\n"
 
 
 def apart(time: Array) -> list[int]:
@@ -74,10 +77,17 @@ def apart(time: Array) -> list[int]:
     return kept
 
 
-def _number(value: float) -> str:
-    """A number that YAML 1.1 takes for one: 1e-05 is a text there, 1.0e-05 isn't."""
-    text = repr(value)
-    return text.replace("e", ".0e") if "e" in text and "." not in text else text
+def _vectors(word: str, values: Array) -> list[bytes]:
+    """A line for each sample: values ``(n, k)`` → n lines."""
+    start = f"  {word}: [".encode()
+    return [start + _spelled(row).replace(b",", b", ") + b"]" for row in number_rows(values)]
+
+
+def _spelled(numbers: bytes) -> bytes:
+    """Numbers that YAML 1.1 takes for some: 1e-05 is a text there, 1.0e-05 isn't, nor 1.0e+16."""
+    if b"e" not in numbers:
+        return numbers
+    return _UNSIGNED.sub(b"e+", _WHOLE.sub(b".0e", numbers))
 
 
 def _quoted(name: str) -> str:

@@ -19,7 +19,14 @@ from thesis_pin.contacts.standing.placing import stand
 COS = np.cos(np.pi / 8)
 
 
-def corner_problem(found, sample, standing_feet):
+def foot_jacobian(found, q, foot):
+    """Of a foot's frame, world axes, as Pinocchio gives it at a pose."""
+    model = found.robot.model
+    frame = model.getFrameId(found.feet[foot].frame)
+    return pin.computeFrameJacobian(model, model.createData(), q, frame, pin.LOCAL_WORLD_ALIGNED)
+
+
+def corner_problem(found, sample, q, standing_feet):
     """Corner forces in the world: what they sum to, what they take off the motors, their limits.
 
     Friction pyramids of eight edges, written from corner forces, without wrenches or their cones.
@@ -30,7 +37,7 @@ def corner_problem(found, sample, standing_feet):
         axes = stance.turn[sample, k]
         for point in stance.corners[k][sample]:
             arm = point - stance.frames[sample, k]
-            jacobian = stance.jacobian[sample, k]
+            jacobian = foot_jacobian(found, q, k)
             moved = jacobian[:3] + np.array([np.cross(w, arm) for w in jacobian[3:].T]).T
             takes.append(moved.T[robot.actuated])
             cross = np.array([np.cross(point, axis) for axis in np.eye(3)]).T
@@ -44,9 +51,9 @@ def corner_problem(found, sample, standing_feet):
     return np.concatenate(columns, axis=1), np.concatenate(takes, axis=1), wide
 
 
-def slsqp(found, sample, feet):
+def slsqp(found, sample, q, feet):
     """Least sum of squared torques, and the torques, by another solver."""
-    sums, takes, limits = corner_problem(found, sample, feet)
+    sums, takes, limits = corner_problem(found, sample, q, feet)
     without = found.loops.joint_force[sample][found.robot.actuated]
     # joint_force is what the tree needs beside the contact forces that were found: undo these.
     for k in range(len(found.feet)):
@@ -54,7 +61,7 @@ def slsqp(found, sample, feet):
         arm = stance.origin[sample, k] - stance.frames[sample, k]
         moment = wrench[3:] + np.cross(arm, wrench[:3])
         push = np.concatenate([wrench[:3], moment])
-        without = without + (stance.jacobian[sample, k].T @ push)[found.robot.actuated]
+        without = without + (foot_jacobian(found, q, k).T @ push)[found.robot.actuated]
     weight = np.abs(found.required[sample, :3]).max()
     total = found.required[sample] / weight
     scaled = without / weight
@@ -85,7 +92,7 @@ def test_least_torques_are_those_another_solver_finds_from_corner_forces(name, f
     found = foot_dynamics(robot, every, *states, support=support)
     compared = 0
     for k in np.flatnonzero(found.admissible)[:6]:
-        done, cost, torque = slsqp(found, k, feet)
+        done, cost, torque = slsqp(found, k, q[k], feet)
         if not done:
             continue
         compared += 1
@@ -106,7 +113,7 @@ def test_soles_of_two_sizes_share_what_another_solver_says_within_each_one_s_con
         assert (found.contact_margin > -1e-9 * found.scale).all()
         assert (found.contact_margin < 1e-6 * found.scale).any()  # some limit holds
         for k in range(2):
-            done, cost, _ = slsqp(found, k, (0, 1))
+            done, cost, _ = slsqp(found, k, q[k], (0, 1))
             assert done
             assert (found.torque[k] ** 2).sum() == pytest.approx(cost, rel=1e-6)
 

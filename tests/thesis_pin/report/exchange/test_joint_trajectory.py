@@ -46,6 +46,8 @@ def test_samples_beside_an_instant_are_one_point_and_the_last_stays():
     assert [point["positions"][0] for point in points] == [0.0, 2.0, 10.0]
 
 
-def test_small_numbers_are_no_texts():
-    (point, *_) = read(np.array([0.0, 1.0]), np.full((2, 2), 1e-05))["points"]
-    assert point["positions"] == [1e-05, 1e-05]
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_numbers_of_any_size_are_no_texts(value):
+    (point, *_) = read(np.array([0.0, 1.0]), np.array([[value, 1.0], [2.0, 1e-05]]))["points"]
+    assert all(isinstance(one, float) for one in point["positions"])
+    assert point["positions"] == [value, 1.0]

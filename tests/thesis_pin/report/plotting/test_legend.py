@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thesis_pin.report.figures import default_style
@@ -16,6 +16,7 @@ def entries(count):
     return [Entry(f"joint {k}" * (1 + k % 3), LINE, area=k % 2 == 0) for k in range(count)]
 
 
+@settings(deadline=None)  # the first imports Matplotlib
 @given(st.integers(1, 40), st.integers(1, 5))
 @default_style()
 def test_names_stand_within_the_frame_and_apart(count, columns):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thesis_pin.report.plotting.scales import shown, ticks
@@ -33,13 +33,15 @@ def test_gaps_have_no_place_in_the_range():
     assert shown([np.array([np.nan, 2.0, 4.0]), 3.0]) == pytest.approx((1.9, 4.1))
 
 
+@settings(deadline=None)  # the first imports Matplotlib
 @given(finite, st.floats(1e-6, 1e12), st.integers(1, 12))
 def test_labels_say_the_marked_values(start, length, most):
     low, high = start, start + max(length, 1e-6 * abs(start))
     found = ticks(low, high, most)
     assert len(found.values) <= 10
-    assert all(low - 1e-6 * length <= value <= high + 1e-6 * length for value in found.values)
-    np.testing.assert_allclose(read(found), found.values, rtol=0, atol=1e-6 * (high - low))
+    slack = 1e-6 * (high - low)
+    assert all(low - slack <= value <= high + slack for value in found.values)
+    np.testing.assert_allclose(read(found), found.values, rtol=0, atol=slack)
     assert len(set(found.labels)) == len(found.labels)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common, options
-from thesis_pin.command.options import add_branch, add_json, count, number
+from thesis_pin.command.options import add_branch, add_json, add_simulation, count, number
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 _branch = partial(
@@ -103,6 +103,50 @@ def _force(words: argparse.ArgumentParser) -> None:
     words.add_argument("--force", action="store_true", help="replace a file that is there")
 
 
+def _which_servos(words: argparse.ArgumentParser) -> None:
+    words.add_argument(
+        "--servo-stiffness",
+        type=number("--servo-stiffness", positive=True),
+        default=20.0,
+        metavar="N·m/rad",
+        help="how a position servo gives way (default: 20)",
+    )
+    words.add_argument(
+        "--servo-damping",
+        type=number("--servo-damping"),
+        default=0.05,
+        metavar="N·m·s/rad",
+        help="how it is damped (default: 0.05)",
+    )
+    words.add_argument(
+        "--armature",
+        type=number("--armature"),
+        default=5e-4,
+        metavar="kg·m²",
+        help="inertia of rotors as joints feel it, where the specification has none "
+        "(default: 0.0005)",
+    )
+    words.add_argument(
+        "--no-sag-compensation",
+        action="store_true",
+        help="command the planned angles, not beyond them by what the servos give way",
+    )
+    words.add_argument(
+        "--friction",
+        type=number("--friction", positive=True),
+        metavar="NUMBER",
+        help="coefficient between sole and floor, at least 1e-6 (default: the specification's)",
+    )
+    words.add_argument(
+        "--floor-tilt",
+        nargs=2,
+        type=number("--floor-tilt"),
+        default=(0.0, 0.0),
+        metavar=("AHEAD", "RIGHT"),
+        help="angles by which the floor rises ahead and to the right [°] (default: 0 0)",
+    )
+
+
 def _which_pose(words: argparse.ArgumentParser) -> None:
     _branch(words, default="all")
     words.add_argument("side", choices=("left", "right"))
@@ -123,6 +167,8 @@ def _which_pose(words: argparse.ArgumentParser) -> None:
         help="Rx(pitch) Ry(roll) Rz(yaw) [°] (default: 0 0 0)",
     )
 
+
+_robot = partial(options.add_robot, another="another biped")
 
 ROBOT = Robot(
     package="scout_pin",
@@ -155,6 +201,16 @@ COMMAND = Command(
             "Servos of a list held against what a gait asks of each joint: safety factor, RMS.",
             "size examples/servos.csv --gait examples/walk.toml --time-unit 0.05",
             samples=401,
+        ),
+        Verb(
+            "simulate",
+            "does the robot walk this gait, in an engine of its own?",
+            "A gait walked by position servos on a floor, in MuJoCo: distance, heading, slip, "
+            "tilt, torques beside the plan's; exits with 1 if it does something else.",
+            "simulate --gait examples/walk.toml --html simulated.html",
+            "scout_pin.study.simulate.draws:simulate_gait",
+            "scout_pin.verbs:simulate",
+            (_robot, _which_gait, _which_servos, add_simulation),
         ),
         common.view_verb(
             ROBOT,

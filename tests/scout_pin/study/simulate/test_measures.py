@@ -1,0 +1,171 @@
+"""Numbers of a try, from motions made by hand."""
+
+from dataclasses import replace
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from scout_pin.study.simulate.measures import measures
+from scout_pin.study.simulate.planned import Planned
+from scout_pin.study.simulate.verdict import criteria, passes, sentences
+from scout_pin.study.simulate.walking import Walked
+from thesis_pin.tolerances import GRAVITY
+
+COUNT = 101
+
+
+@pytest.fixture
+def case(scout):
+    """Two seconds: the right foot goes 60 mm ahead from 0.5 to 1.5 s, the torso 30 mm."""
+    time = np.linspace(0, 2, COUNT)
+    share = np.clip(time - 0.5, 0, 1)
+    q = np.zeros((COUNT, 19))
+    q[:, 6], q[:, 2], q[:, 1] = 1.0, 0.22, 0.03 * share
+    feet = np.zeros((2, COUNT, 3))
+    feet[0, :, 0], feet[1, :, 0] = -0.04, 0.04
+    feet[1, :, 1] = 0.06 * share
+    swings = (share > 0) & (share < 1)
+    feet[1, swings, 2] = 0.01
+    plan = Planned(
+        commands=np.zeros((COUNT - 1, 12)),
+        before=0,
+        after=0,
+        step=0.02,
+        every=1,
+        time=time,
+        q=q,
+        v=np.zeros((COUNT, 18)),
+        feet=feet,
+        low=feet[..., 2],
+        torque=np.full((COUNT, 12), 0.1),
+        stances=(((0.0, 2.0),), ((0.0, 0.5), (1.5, 2.0))),
+    )
+    soles = np.broadcast_to(np.eye(4), (2, COUNT, 4, 4)).copy()
+    soles[..., :3, 3] = feet
+    weight = scout.mass * GRAVITY
+    load = np.stack([np.where(swings, weight, weight / 2), np.where(swings, 0.0, weight / 2)])
+    walked = Walked(
+        q.copy(),
+        np.zeros((COUNT, 18)),
+        np.zeros((COUNT, 12)),
+        soles,
+        load,
+        np.zeros(COUNT, dtype=bool),
+        np.full(12, 0.1),
+        np.zeros(12),
+    )
+    return scout, plan, walked
+
+
+def failing(found):
+    return {one.name for one in criteria(found) if not one.met}
+
+
+def test_a_try_that_is_the_plan_passes(case):
+    found = measures(*case)
+    assert passes(found)
+    assert sentences(found) == []
+    assert found.distance == pytest.approx(0.03)
+    assert found.planned_distance == pytest.approx(0.03)
+    assert [(one.side, one.start, one.end) for one in found.slips] == [
+        ("left", 0.0, 2.0),
+        ("right", 0.0, 0.5),
+        ("right", 1.5, 2.0),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("share", "met"), [(0.94, False), (0.96, True), (1.04, True), (1.06, False)]
+)
+def test_distance_is_to_be_within_five_per_cent(case, share, met):
+    robot, plan, walked = case
+    walked.soles[1, :, 1, 3] *= share
+    found = measures(robot, plan, walked)
+    assert found.distance == pytest.approx(0.03 * share)
+    assert ("distance" not in failing(found)) == met
+
+
+@pytest.mark.parametrize(
+    ("degrees", "met"), [(4.9, True), (-4.9, True), (5.1, False), (-5.1, False)]
+)
+def test_heading_is_to_be_within_five_degrees_and_left_is_told_from_right(case, degrees, met):
+    robot, plan, walked = case
+    turn = pin.Quaternion(pin.exp3(np.array([0, 0, np.radians(degrees)]))).coeffs()
+    walked.q[-1, 3:7] = turn
+    found = measures(robot, plan, walked)
+    assert np.degrees(found.heading) == pytest.approx(degrees)
+    assert ("heading" not in failing(found)) == met
+    if not met:
+        assert f"to the {'left' if degrees > 0 else 'right'} of" in sentences(found)[0]
+
+
+@pytest.mark.parametrize(("slip", "met"), [(0.9e-3, True), (1.1e-3, False)])
+def test_a_loaded_sole_that_moves_slips_and_an_unloaded_one_does_not(case, slip, met):
+    robot, plan, walked = case
+    walked.soles[0, 60:, 0, 3] += slip
+    found = measures(robot, plan, walked)
+    assert found.worst_slip.side == "left"
+    assert found.worst_slip.distance == pytest.approx(slip)
+    assert ("slip" not in failing(found)) == met
+    walked.load[0, 60:] = 0.0
+    assert measures(robot, plan, walked).worst_slip.distance < 1e-12
+
+
+def test_a_sole_that_spins_slips_at_its_corners(case):
+    robot, plan, walked = case
+    walked.soles[0, 60:, :3, :3] = pin.exp3(np.array([0, 0, 0.02]))
+    outline = np.array(robot.specification.leg("left").sole)
+    found = measures(robot, plan, walked)
+    farthest = np.linalg.norm(outline, axis=1).max() * 2 * np.sin(0.01)
+    assert found.worst_slip.distance == pytest.approx(farthest)
+
+
+@pytest.mark.parametrize(("degrees", "met"), [(9.9, True), (10.5, False)])
+def test_tilt_is_from_the_plan_and_its_first_time_is_told(case, degrees, met):
+    robot, plan, walked = case
+    walked.q[70:, 3:7] = pin.Quaternion(pin.exp3(np.array([np.radians(degrees), 0, 0]))).coeffs()
+    found = measures(robot, plan, walked)
+    assert np.degrees(found.tilt) == pytest.approx(degrees)
+    assert ("upright" not in failing(found)) == met
+    if not met:
+        assert found.tips_at == pytest.approx(1.4)
+    plan.q[70:, 3:7] = walked.q[70:, 3:7]
+    assert measures(robot, plan, walked).tilt < 1e-7
+
+
+def test_servos_at_their_limit_and_soles_that_meet_fail_with_amount_and_time(case):
+    robot, plan, walked = case
+    full = np.zeros(12)
+    full[9] = 0.0123
+    meeting = walked.meeting.copy()
+    meeting[30] = True
+    found = measures(robot, plan, replace(walked, saturated=full, meeting=meeting))
+    assert failing(found) == {"torque", "soles"}
+    assert sentences(found) == [
+        "The servo of right_knee_pitch gives all it has for 1.23% of the time.",
+        "The soles touch each other at t = 0.6 s.",
+    ]
+
+
+def test_a_foot_that_bears_load_in_mid_swing_stumbles(case):
+    robot, plan, walked = case
+    walked.load[1, 50] = 2.0
+    found = measures(robot, plan, walked)
+    assert sentences(found) == [
+        "The right foot bears 2.00 N at t = 1 s, where the plan has it 10.0 mm above the floor."
+    ]
+    walked.load[1, 50] = 0.1  # a brush
+    assert measures(robot, plan, walked).stumble is None
+
+
+@pytest.mark.parametrize(("strays", "met"), [(1.9e-3, True), (2.1e-3, False)])
+def test_what_is_to_stay_may_stray_by_two_millimetres(case, strays, met):
+    robot, plan, walked = case
+    plan.feet[1, :, 1] = 0.0
+    walked.soles[1, :, 1, 3] = 0.0
+    walked.soles[:, -1, 0, 3] += strays
+    found = measures(robot, plan, walked)
+    assert found.planned_distance == 0.0
+    assert found.distance == pytest.approx(strays)
+    assert ("distance" not in failing(found)) == met

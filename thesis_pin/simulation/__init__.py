@@ -1,0 +1,1 @@
+"""A second engine: any Pinocchio tree as MJCF, stepped and recorded by MuJoCo."""
