@@ -35,6 +35,7 @@ from .report.document import trajectory_report as trajectory_report
 
 # Study
 from .study.size import size as size
+from .study.simulate.draws import simulate_path as simulate_path
 
 # Only Pollard
 from .specification import ACTUATOR_NAMES as ACTUATOR_NAMES

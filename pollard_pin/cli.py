@@ -14,6 +14,7 @@ from thesis_pin.command.options import (
     add_json,
     add_points,
     add_robot,
+    add_simulation,
     add_smooth,
     number,
 )
@@ -110,6 +111,35 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
     words.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
 
 
+def _which_engine(words: argparse.ArgumentParser) -> None:
+    words.add_argument(
+        "--engine",
+        choices=("mujoco", "pinocchio"),
+        default="mujoco",
+        help="MuJoCo, whose ball joints are stiff springs, or Pinocchio's exact constrained "
+        "dynamics (default: mujoco)",
+    )
+    words.add_argument(
+        "--open-loop",
+        action="store_true",
+        help="nothing corrects the torques (default: so it is where no stiffness is given)",
+    )
+    words.add_argument(
+        "--stiffness",
+        nargs="+",
+        type=number("--stiffness"),
+        metavar="N·m/rad",
+        help="of a servo at each motor's joint: one number, or six in the motors' order",
+    )
+    words.add_argument(
+        "--damping",
+        nargs="+",
+        type=number("--damping"),
+        metavar="N·m·s/rad",
+        help="the same of its rate (default: critical for what each motor moves at the start)",
+    )
+
+
 _branch = partial(
     add_branch,
     signs="seven signs e0 f0 w e1 f1 e2 f2, written --branch=-++-+++",
@@ -147,6 +177,16 @@ COMMAND = Command(
             "Motors of a list held against what a path asks of each joint: safety factor, RMS.",
             "size examples/servos.csv --path examples/spray_arch.toml",
             samples=2001,
+        ),
+        Verb(
+            "simulate",
+            "does the robot do what was planned, in an engine of its own?",
+            "Torques of a path replayed on the closed robot, open loop or under joint servos: "
+            "deviation of the tool, loops, energy; exits with 1 if it fails.",
+            "simulate --path examples/spray_arch.toml --stiffness 30 30 30 0.3 0.3 0.01",
+            "pollard_pin.study.simulate.draws:simulate_path",
+            "pollard_pin.verbs:simulate",
+            (_robot, _which_path, _which_engine, add_simulation),
         ),
         common.view_verb(
             ROBOT,

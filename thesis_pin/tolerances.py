@@ -160,6 +160,15 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             and up to 0.15 N·m/cm³.
         specific_power, specific_torque: The same for its mass [W/kg], [N·m/kg]; the best
             have 400 W/kg and 80 N·m/kg.
+        replay_deviation: How far a replayed motion's tool may be from its path [m]: spray and
+            servos know no better.
+        replay_turn: The same of its orientation [rad]: half a servo's usual accuracy of 1°.
+        replay_lost: How far off its path a tool is that isn't replaying it any more, where a replay
+            ends [m]: what follows is a fall.
+        replay_opening: How far an engine's loops may open [m], a thousandth of what the tool may be
+            off, and play of good ball joints.
+        replay_energy: How far work and change of energy may differ, relative to the work
+            exchanged [-]: engines of order four do a hundred times better.
         walked_share, walked_place: How far a simulated walk's distance may be off the planned one,
             relative to it [-], and that of what is to stay in place [m].
         walked_heading: The same of its heading at the end [rad].
@@ -254,6 +263,11 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     torque_density: float = 3e5
     specific_power: float = 600.0
     specific_torque: float = 120.0
+    replay_deviation: float = 1e-3
+    replay_turn: float = 1e-2
+    replay_lost: float = 0.05
+    replay_opening: float = 1e-6
+    replay_energy: float = 1e-6
     walked_share: float = 0.05
     walked_place: float = 2e-3
     walked_heading: float = 0.0873  # 5°

@@ -112,7 +112,6 @@ def simulate(arguments: argparse.Namespace) -> ExitCode:
     from scout_pin.study.simulate.conditions import Conditions
 
     ahead, right = np.radians(arguments.floor_tilt).tolist()
-    asked = {} if arguments.time_step is None else {"time_step": arguments.time_step}
     conditions = Conditions(
         gains=ServoGains(arguments.servo_stiffness, arguments.servo_damping),
         sag_compensation=not arguments.no_sag_compensation,
@@ -124,7 +123,7 @@ def simulate(arguments: argparse.Namespace) -> ExitCode:
         draws=arguments.draws,
         seed=arguments.seed,
         jobs=arguments.jobs,
-        **asked,
+        time_step=arguments.time_step,
     )
 
     def make(bar: Bar) -> Simulation:

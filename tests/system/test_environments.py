@@ -27,6 +27,7 @@ VERBS = {
     "pollard": (
         ["trajectory"],
         ["size", "examples/servos.csv"],
+        ["simulate"],
         ["view", "--html", "-"],
         ["convert", "--as", "joints"],
         ["ik", "0.45", "0", "0.1", "0", "0", "0"],

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable
+
+from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
 from thesis_pin.pages.torque_scene import scene
 from thesis_pin.report.tables import Table
@@ -25,7 +29,11 @@ def torque_page(report: TorqueReport) -> bytes:
             title=f"{report.robot.model.name}: {report.motion.name}",
             subtitle=f"{time[-1] - time[0]:.4g} s, {len(time)} samples, {len(report.names)} motors",
             good=report.within_limits,
-            verdict=[*report.doubts(), *report.verdict(), *report.warnings()],
+            verdict=[
+                *report.doubts(),
+                *report.verdict(),
+                *without_folder(report.robot, report.warnings()),
+            ],
             tiles=_tiles(report),
             plots=plots(report),
             tables=[*motors_tables(report), parameters_table(report.parameters), software()],
@@ -34,14 +42,29 @@ def torque_page(report: TorqueReport) -> bytes:
     )
 
 
+def peak_tiles(report: TorqueReport) -> list[Tile]:
+    """The largest torque of a motor that turns, and the largest force of one that slides."""
+    peak = report.actuators.peak_torque
+    return [
+        Tile(f"peak {word}", f"{peak[chosen].max():.4g} {unit}")
+        for word, unit, chosen in (
+            ("torque", "N·m", report.turning),
+            ("force", "N", ~report.turning),
+        )
+        if chosen.any()
+    ]
+
+
+def without_folder(robot: ClosedRobot, sentences: Iterable[str]) -> list[str]:
+    """Sentences that name the description's file, not where it lies on this machine."""
+    file = robot.description.where
+    return [one.replace(file, os.path.basename(file)) for one in sentences]
+
+
 def _tiles(report: TorqueReport) -> list[Tile]:
     a = report.actuators
-    tiles = []
-    for unit, chosen in (("N·m", report.turning), ("N", ~report.turning)):
-        if chosen.any():
-            word = "torque" if unit == "N·m" else "force"
-            tiles.append(Tile(f"peak {word}", f"{a.peak_torque[chosen].max():.4g} {unit}"))
-    tiles += [
+    tiles = [
+        *peak_tiles(report),
         Tile("peak power of a motor", f"{a.peak_power.max(initial=0.0):.4g} W"),
         Tile("work given by the motors", f"{a.positive_work.sum():.4g} J"),
     ]

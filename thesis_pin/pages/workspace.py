@@ -109,7 +109,7 @@ def _picture(space: Workspace) -> str:
     data = base64.b64encode(png).decode()
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}"'
-        f' style="min-width: {width // 3}px">'
+        f' style="min-width: {width // 3}px; max-width: {width * 2 // 3}px">'
         f'<image width="{width}" height="{height}" href="data:image/png;base64,{data}"/></svg>'
     )
 

@@ -62,7 +62,7 @@ def path_scene(report: TrajectoryReport) -> Scene:
         time=report.joints.time[keep],
         groups=_groups(largest, force_scale),
         items=(
-            *robot_items(robot.model, robot.visual_model, q, group="robot", colour=_colour),
+            *robot_items(robot.model, robot.visual_model, q, group="robot", colour=colour_of_part),
             *closure_items(robot.model, [loop.frames for loop in robot.loops], q, "loops", 0.011),
             *_tool(report, keep, q, zone),
             *_motors(report, keep, moves, largest),
@@ -83,7 +83,8 @@ def path_scene(report: TrajectoryReport) -> Scene:
     )
 
 
-def _colour(name: str) -> str:
+def colour_of_part(name: str) -> str:
+    """Colour of a part of the robot by its name, chain by chain."""
     return _CHAIN.get(name.split("_")[0], SKY)
 
 

@@ -13,6 +13,9 @@ from thesis_pin.errors import BadInput
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import real, whole
 
+SHORTEST, USUAL, LONGEST = 1e-5, 5e-4, 2e-3
+"""Time steps [s] of the engine; contacts that give way in 5 ms need the longest."""
+
 BODIES = 1 + len(SIDES) * len(LINK_NAMES)
 
 
@@ -31,7 +34,8 @@ class Conditions:
         armature: Inertia of rotors where the specification gives none [kg·m²].
         draws: How often it is tried, each time with other errors.
         seed: Of the errors; draw k of a seed is the same however many there are.
-        time_step: Of the engine [s].
+        time_step: Of the engine [s]; None for half a millisecond, or less for servos so stiff
+            that they need it.
         jobs: Processes that share the draws; results don't depend on it. A script has to simulate
             below ``if __name__ == "__main__"`` if they are more than one.
 
@@ -48,7 +52,7 @@ class Conditions:
     armature: float = 5e-4
     draws: int = 1
     seed: int = 0
-    time_step: float = 5e-4
+    time_step: float | None = None
     jobs: int = 1
 
     def __post_init__(self) -> None:
@@ -60,7 +64,9 @@ class Conditions:
         for angle in vector("the floor's tilt", self.floor_tilt, 2).tolist():
             real("the floor's tilt", angle, low=-math.pi / 4, high=math.pi / 4, unit="rad")
         real("the rotors' inertia", self.armature, low=0.0, high=1.0, unit="kg·m²")
-        real("the engine's time step", self.time_step, low=1e-5, high=2e-3, unit="s")
+        if self.time_step is not None:
+            low, high = SHORTEST, LONGEST
+            real("the engine's time step", self.time_step, low=low, high=high, unit="s")
         for name, least, most in (("draws", 1, 10_000), ("seed", 0, 2**32 - 1), ("jobs", 1, 256)):
             if whole(name, getattr(self, name), least) > most:
                 raise BadInput(f"{name} is {getattr(self, name)}", allowed=f"at most {most:,}")

@@ -95,7 +95,7 @@ def figures(simulation: Simulation) -> dict[str, bytes]:
     servos = panels([[torques(simulation, 0)], [torques(simulation, 1)]], 8, 7)
     walk = panels([[tilt(simulation)], [loads(simulation)]], 8, 6)
     return {
-        "world.xml": world_text(robot, tree, conditions).encode(),
+        "world.xml": world_text(robot, tree, conditions, simulation.plan.step).encode(),
         **figure_files("torques", servos),
         **figure_files("walk", walk),
         **figure_files("ways", panels([[ways(simulation)]], 6, 6)),

@@ -14,7 +14,7 @@ from scout_pin.report.document import GaitReport
 from scout_pin.specification import SIDES
 from scout_pin.study.servo import sag_compensated
 from scout_pin.study.simulate.conditions import Conditions
-from scout_pin.study.simulate.world import rotors
+from scout_pin.study.simulate.world import rotors, time_step
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -28,6 +28,8 @@ MOST_STEPS = 2_000_000
 RECORDED = 1e-3
 """Time [s] between recorded instants, or the engine's step if that is longer."""
 
+_FIRST = slice(0, 1)
+
 
 @dataclass(frozen=True)
 class Planned:
@@ -37,6 +39,7 @@ class Planned:
         commands: Angles [rad] commanded at each step, standing before and after included,
             ``(steps, 12)``.
         before, after: Of these, steps at rest before it begins and after it has ended.
+        step: Time step of the engine [s].
         every: Steps from one recorded instant to the next.
         time: Recorded instants [s], 0 where it begins, ``(n,)``.
         q, v: What is planned then, as Pinocchio counts, ``(n, 19)`` and ``(n, 18)``.
@@ -49,6 +52,7 @@ class Planned:
     commands: np.ndarray
     before: int
     after: int
+    step: float
     every: int
     time: np.ndarray
     q: np.ndarray
@@ -69,7 +73,9 @@ def planned(report: GaitReport, conditions: Conditions) -> Planned:
     Raises:
         BadInput: There would be too many steps.
     """
-    robot, gait, unit, step = report.robot, report.gait, report.time_unit, conditions.time_step
+    robot, gait, unit = report.robot, report.gait, report.time_unit
+    first = free_flyer_state(report.motion.torso.part(_FIRST), report.joints.part(_FIRST))[0]
+    step = time_step(robot, conditions, first[0])
     seconds = (gait.end - gait.start) * unit
     steps = int(np.ceil(seconds / step - 1e-6))
     if steps > MOST_STEPS:
@@ -111,6 +117,7 @@ def planned(report: GaitReport, conditions: Conditions) -> Planned:
         ),
         before,
         after,
+        step,
         every,
         np.arange(-before, steps + after + 1)[::every] * step,
         q,

@@ -158,6 +158,7 @@ class Simulation:
             "inertia": self.report.robot.inertia,
             **self.conditions.document(),
             "friction": self.friction,
+            "time_step": self.plan.step,
             "engine": f"MuJoCo {self.engine}",
             "thesis_pin": __version__,
         }

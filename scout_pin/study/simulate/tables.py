@@ -17,7 +17,7 @@ def how(simulation: Simulation) -> str:
     c = simulation.conditions
     friction = simulation.friction
     return (
-        f"MuJoCo {simulation.engine}, steps of {c.time_step * 1e3:g} ms, servos of "
+        f"MuJoCo {simulation.engine}, steps of {simulation.plan.step * 1e3:.3g} ms, servos of "
         f"{c.gains.stiffness:g} N·m/rad and {c.gains.damping:g} N·m·s/rad"
         f"{', sag made up for' if c.sag_compensation else ''}, friction {friction:g}"
     )

@@ -65,7 +65,7 @@ def walk(
     """
     zeros, masses = conditions.errors(draw)
     tree = walking_tree(robot, conditions, masses)
-    world = engine(robot, tree, conditions)
+    world = engine(robot, tree, conditions, plan.step)
     servos = _Servos(robot, world, plan)
     floor = _Floor(robot, world)
     world.place(plan.q[0], None if plan.before else plan.v[0], -plan.before * world.time_step)

@@ -13,8 +13,9 @@ import pinocchio as pin
 
 from scout_pin.model import Scout
 from scout_pin.specification import JOINT_NAMES, SIDES
-from scout_pin.study.simulate.conditions import Conditions
+from scout_pin.study.simulate.conditions import SHORTEST, USUAL, Conditions
 from scout_pin.urdf import SOLE_THICKNESS
+from thesis_pin.errors import BadInput
 from thesis_pin.model.urdf import number, numbers
 from thesis_pin.numeric.planar import convex_hull
 from thesis_pin.numeric.rotations import quaternions
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
 
 FLOOR_TIME = 5e-3
 """Time [s] in which a contact of the engine gives way and comes back."""
+
+_FINE, _COARSE = 0.5, 1.0
+"""Steps of the engine as shares of the time in which a servo swings its joint by a radian."""
 
 _CORNER = 1e-4
 """Radius [m] of the balls that corners are for the engine: none that anybody could see."""
@@ -74,21 +78,54 @@ def hull(robot: Scout, side: str) -> np.ndarray:
     return np.asarray(outline[convex_hull(outline)])
 
 
-def engine(robot: Scout, tree: pin.Model, conditions: Conditions) -> Engine:
+def time_step(robot: Scout, conditions: Conditions, q: np.ndarray) -> float:
+    """The engine's time step [s]: what is asked for, or what the servos allow.
+
+    A joint on a servo swings at the square root of stiffness over the inertia it feels; an engine
+    whose steps are longer than that lets it swing ever farther.
+
+    Args:
+        robot: The biped.
+        conditions: Servos, rotors, and the step that is asked for.
+        q: A pose of the gait, ``(19,)``.
+
+    Raises:
+        BadInput: Servos are too stiff for it.
+    """
+    tree = walking_tree(robot, conditions, np.ones(len(robot.model.inertias) - 1))
+    mass = pin.crba(tree, tree.createData(), q)
+    mass = np.triu(mass) + np.triu(mass, 1).T
+    felt = np.linalg.inv(mass)[6:, 6:]
+    swing = float(np.sqrt(conditions.gains.stiffness * np.linalg.eigvalsh(felt)[-1]))
+    step = conditions.time_step
+    if step is None:
+        step = min(USUAL, _FINE / swing)
+    if step * swing > _COARSE or step < SHORTEST:
+        raise BadInput(
+            f"servos of {conditions.gains.stiffness:g} N·m/rad swing their joints at "
+            f"{swing:.3g} rad/s, too fast for steps of {step:.3g} s",
+            allowed=f"steps of at most {_COARSE / swing:.2g} s and at least {SHORTEST:g} s",
+            remedy="Take shorter steps, softer servos or heavier rotors",
+        )
+    return step
+
+
+def engine(robot: Scout, tree: pin.Model, conditions: Conditions, step: float) -> Engine:
     """The compiled world.
 
     Args:
         robot: The biped.
         tree: From :func:`walking_tree`.
-        conditions: Friction, tilt, time step, servos.
+        conditions: Friction, tilt, servos.
+        step: Time step [s].
 
     Raises:
         BadInput, ModelError: MuJoCo isn't installed, or refuses the robot.
     """
-    return Engine(world_text(robot, tree, conditions), tree)
+    return Engine(world_text(robot, tree, conditions, step), tree)
 
 
-def world_text(robot: Scout, tree: pin.Model, conditions: Conditions) -> str:
+def world_text(robot: Scout, tree: pin.Model, conditions: Conditions, step: float) -> str:
     """The world as MJCF."""
     friction = conditions.friction
     if friction is None:
@@ -103,7 +140,7 @@ def world_text(robot: Scout, tree: pin.Model, conditions: Conditions) -> str:
     gains, stall = conditions.gains, robot.stall_torque.tolist()
     return mjcf(
         tree,
-        World(time_step=conditions.time_step, gravity=gravity(conditions)),
+        World(time_step=step, gravity=gravity(conditions)),
         drives=[
             Drive(name, gains.stiffness, gains.damping, limit)
             for name, limit in zip(JOINT_NAMES, stall, strict=True)

@@ -1,6 +1,7 @@
 """The page and the view of a balance report: forces, polygon and points are where they act."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -54,6 +55,40 @@ def test_a_margin_outside_by_less_than_counts_has_no_tick(report, margin, good):
     assert f"{margin * 1e3:.3g} mm" in tile
     mark = _tiles(BalanceReport(report.motors, near, True))[1]
     assert (mark.label, mark.good) == ("least margin", good)
+
+
+def test_where_a_robot_slips_its_margin_is_kept_and_its_friction_is_not():
+    robot, feet, pose = standing("solo12")
+    slipping = balance_report(robot, pose=pose, feet=feet, floor=Floor(0.0, np.radians(35)))
+    assert slipping.cause.slips
+    good = {tile.label: tile.good for tile in _tiles(slipping)}
+    assert slipping.least_margin.value > 0
+    assert (good["least margin"], good["friction in use"]) == (True, False)
+
+
+def test_the_largest_torque_and_the_largest_share_of_a_limit_are_two_motors(report):
+    motors = report.motors
+    most, nearest = motors.actuators.peak_torque.argmax(), motors.effort_use.argmax()
+    assert motors.names[most] != motors.names[nearest]
+    tiles = {tile.label: tile.value for tile in _tiles(report)}
+    assert tiles["peak torque"] == f"{motors.actuators.peak_torque[most]:.4g} N·m"
+    assert tiles["of a motor's limit in use, at most"] == f"{motors.effort_use[nearest]:.0%}"
+
+
+def test_a_held_pose_has_no_columns_of_rates_and_work(report):
+    page = balance_page(report).decode()
+    assert "peak speed" not in page
+    assert "of limit" in page
+    assert "bears load" not in page
+
+
+def test_a_page_names_the_description_s_file_without_its_folder():
+    robot, feet, pose = standing("anymal")
+    report = balance_report(robot, pose=pose, feet=feet)
+    assert any(robot.description.where in one for one in report.warnings())
+    page = balance_page(report).decode()
+    assert "anymal.urdf:" in page
+    assert str(Path(robot.description.where).parent) not in page
 
 
 def test_a_foot_off_the_floor_has_no_arrow_and_a_slope_is_drawn():

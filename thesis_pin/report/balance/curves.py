@@ -32,8 +32,8 @@ def ground(report: BalanceReport) -> Plot:
     areas = []
     middles = _stances(found.support)[:MOST_POLYGONS]
     for rows, polygon in found.support_polygons:
-        if len(polygon) > 2 and np.isin(middles, rows).any():
-            areas.append(Area("support polygon", polygon, GREEN))
+        if len(polygon) > 1 and np.isin(middles, rows).any():
+            areas.append(Area("support polygon", polygon, GREEN, filled=len(polygon) > 2))
     for k, foot in enumerate(found.feet):
         standing = np.flatnonzero(found.support[:, k])
         if foot.kind == "sole" and standing.size:
@@ -42,12 +42,12 @@ def ground(report: BalanceReport) -> Plot:
                 areas.append(Area("soles", corners, BLUE, filled=False))
     zmp = floor.flat(found.zero_moment_point)
     com = floor.flat(found.stance.com)
-    # At rest one lies on the other: a cross about a dot shows both.
+    # At rest one lies on the other: a dot on a cross shows both.
     dot: Marks = "dot" if report.held else None
     cross: Marks = "cross" if report.held else None
     curves_ = [
-        Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=dot, x=zmp[:, 0]),
         Curve("centre of mass, from above", com[:, 1], ORANGE, "dash", cross, com[:, 0]),
+        Curve("zero-moment point", zmp[:, 1], VERMILLION, marks=dot, x=zmp[:, 0]),
     ]
     touching = [
         floor.flat(found.stance.origin[found.support[:, k], k])

@@ -11,6 +11,9 @@ from thesis_pin.report.tables import Part, Table
 from thesis_pin.report.torque.tables import loops_table, motors_table
 from thesis_pin.report.torque.uncertainty import open_table
 
+HELD_FEET, HELD_MOTORS = (0, 3, 5, 6, 7), (0, 1, 3)
+"""Columns that say something of a pose that is held."""
+
 
 def feet_table(report: BalanceReport) -> Table:
     """What every foot has to bear."""
@@ -41,9 +44,8 @@ def summary(report: BalanceReport) -> Iterator[Part]:
     if not report.held:
         title += f", {time[-1] - time[0]:g} s"
     feet = feet_table(report)
-    yield feet.only(title, (0, 3, 5, 6, 7) if report.held else (0, 2, 3, 4, 5, 6))
-    held = (0, 1, 3) if report.held else (0, 1, 3, 4, 5, 8)
-    yield motors_table(motors).only("Motors", held)
+    yield feet.only(title, HELD_FEET if report.held else (0, 2, 3, 4, 5, 6))
+    yield motors_table(motors).only("Motors", HELD_MOTORS if report.held else (0, 1, 3, 4, 5, 8))
     if report.robot.loops:
         yield loops_table(motors)
     if motors.headlines is not None:

@@ -158,8 +158,10 @@ def _sharing(report: BalanceNumbers) -> list[str]:
     most = int(report.found.freedoms.max())
     if not most:
         return ["What each foot carries follows from the motion."]
+    components = "1 component" if most == 1 else f"{most} components"
+    least = "" if int(report.found.freedoms.min()) == most else "up to "
     return [
-        f"Feet leave up to {most} components of their forces open; load is shared by "
+        f"Feet leave {least}{components} of their forces open; load is shared by "
         f"{_SHARED[report.found.sharing]}."
     ]
 

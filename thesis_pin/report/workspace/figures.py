@@ -64,7 +64,7 @@ def workspace_figure(space: Workspace) -> Figure:
         "\n".join(
             wrap(
                 f"{space.robot.model.name}: condition number {space.measure.said()}",
-                60 * len(normals),
+                75 * len(normals),
             )
         ),
         size=10,

@@ -31,6 +31,7 @@ def case(scout):
         commands=np.zeros((COUNT - 1, 12)),
         before=0,
         after=0,
+        step=0.02,
         every=1,
         time=time,
         q=q,

@@ -7,8 +7,10 @@ import pinocchio as pin
 import pytest
 
 from scout_pin.specification import SIDES
+from scout_pin.study.servo import ServoGains
 from scout_pin.study.simulate.conditions import Conditions
-from scout_pin.study.simulate.world import engine, gravity, walking_tree
+from scout_pin.study.simulate.world import engine, gravity, time_step, walking_tree
+from thesis_pin.errors import BadInput
 
 from ...conftest import states
 from ...dynamics.test_rotors import REFLECTED, geared
@@ -20,7 +22,7 @@ BARE = Conditions(armature=0.0)
 
 def made(robot, conditions=BARE, masses=None):
     tree = walking_tree(robot, conditions, np.ones(13) if masses is None else masses)
-    return engine(robot, tree, conditions)
+    return engine(robot, tree, conditions, 5e-4)
 
 
 def test_the_engine_s_inverse_dynamics_are_pinocchio_s(biped, rng):
@@ -100,3 +102,26 @@ def test_masses_and_inertias_change_together(scout, rng):
     np.testing.assert_allclose(model.body_mass[1:], factors * plain.body_mass[1:])
     np.testing.assert_allclose(model.body_inertia[1:], factors[:, None] * plain.body_inertia[1:])
     np.testing.assert_allclose(model.body_ipos, plain.body_ipos, atol=1e-12)
+
+
+@pytest.mark.parametrize("stiffness", [20.0, 500.0, 5e4])
+def test_the_usual_time_step_is_short_enough_for_any_servo(scout, stiffness):
+    """A joint that stands off its command by a little swings as its servo has it, no farther."""
+    conditions = Conditions(gains=ServoGains(stiffness, 0.0))
+    q = scout.configuration(np.eye(4), np.full(12, 0.2))
+    q[2] = 5.0  # in the air
+    step = time_step(scout, conditions, q)
+    world = engine(scout, walking_tree(scout, conditions, np.ones(13)), conditions, step)
+    world.model.opt.gravity[:] = 0.0
+    off = 0.1 * scout.stall_torque[0] / stiffness
+    world.place(q)
+    record = world.run(np.tile(stiffness * (q[7:] + off), (4000, 1)))
+    assert np.abs(record.q[:, 7:] - q[7:]).max() < 4 * off
+
+
+def test_a_time_step_too_long_for_the_servos_is_refused(scout):
+    q = scout.configuration(np.eye(4), np.zeros(12))
+    with pytest.raises(BadInput, match=r"too fast for steps of 0\.001 s"):
+        time_step(scout, Conditions(gains=ServoGains(1e5), time_step=1e-3), q)
+    with pytest.raises(BadInput, match="softer servos"):
+        time_step(scout, Conditions(gains=ServoGains(1e8)), q)

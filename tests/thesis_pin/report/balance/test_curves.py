@@ -35,3 +35,9 @@ def test_points_of_contact_of_all_feet_share_a_line_of_the_legend():
     want = report.found.floor.flat(report.found.stance.origin[0])
     found = np.unique(np.stack([points.x, points.y], axis=1).round(9), axis=0)
     np.testing.assert_allclose(found, np.unique(want.round(9), axis=0), atol=1e-12)
+
+
+def test_what_two_points_span_is_a_line():
+    robot, feet, pose = standing("bolt")
+    (line,) = ground(balance_report(robot, pose=pose, feet=feet)).areas
+    assert (line.name, len(line.corners), line.filled) == ("support polygon", 2, False)
