@@ -104,7 +104,7 @@ def main() -> None:
     t = np.linspace(0.0, way.duration, 1001)
     change = np.stack([curve(t) for curve in gait.curves["torso"]], axis=1) - thesis_torso(t)
     change *= np.array([1e3, 1e3, 1e3, *np.degrees([1, 1, 1])])
-    for name, column in zip("x y z pitch roll yaw".split(), change.T, strict=True):
+    for name, column in zip(["x", "y", "z", "pitch", "roll", "yaw"], change.T, strict=True):
         unit = "mm" if name in "xyz" else "°"
         rms = np.sqrt((column**2).mean())
         print(f"{name}: at most {np.abs(column).max():.1f} {unit}, RMS {rms:.1f} {unit}")

@@ -34,7 +34,7 @@ def test_a_walk_is_judged_by_reports_at_800_samples(plan):
     assert walk.report.margin.min() >= 0.8 * 0.008
     shares = walk.report.actuators.peak_torque / plan.cycle.robot.stall_torque
     assert shares.max() <= 0.9 * 1.01
-    assert walk.report.servo_use.max() <= 1.0
+    assert walk.report.servo_use.max() <= 0.9 * 1.01  # a tenth of the line is left
 
 
 def test_a_walk_begins_and_ends_at_rest_with_its_feet_side_by_side(plan):
@@ -109,7 +109,7 @@ def test_a_lopsided_biped_walks_too():
         ({"margin": 0.0075}, "margin of 7.50 mm"),
         ({"torque": 0.92}, "of its stall torque"),
         ({"speed": 0.95}, "of its no-load speed"),
-        ({"line": 1.0001}, "of its torque-speed line"),
+        ({"line": 0.92}, "of its torque-speed line"),
         ({"walks": False}, "its report says"),
     ],
 )
