@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -135,42 +135,3 @@ def where_lines_hold(offset: np.ndarray, slope: np.ndarray) -> tuple[np.ndarray,
     never = ((slope == 0) & (offset > 0)).any(axis=1)
     lower[~easy], upper[~easy] = np.where(never, np.inf, low), np.where(never, -np.inf, high)
     return lower, upper
-
-
-def crossing(
-    value: Callable[[float], float],
-    low: tuple[float, float],
-    high: tuple[float, float],
-    near: float,
-) -> float:
-    """Where a function of one number crosses zero, in few calls.
-
-    Importing SciPy's root finders takes as long as a gait's report.
-
-    Args:
-        value: The function.
-        low: A place and the function there.
-        high: Another place, of the same sign; the function has the other sign there.
-        near: How near the place has to be, relative to it.
-
-    Source: T. R. Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero
-    of a nonlinear function without using derivatives", Adv. Eng. Softw. 28 (1997).
-    """
-    (x_1, f_1), (x_2, f_2) = low, high
-    part = f_1 / (f_1 - f_2)  # a straight line's, which is what it is in most cases
-    while True:
-        least = near / 2 * abs(x_1 if abs(f_1) < abs(f_2) else x_2) / abs(x_2 - x_1)
-        if f_1 == 0.0 or f_2 == 0.0 or least >= 0.5:
-            return x_1 if abs(f_1) < abs(f_2) else x_2
-        x = x_1 + min(max(part, least), 1.0 - least) * (x_2 - x_1)
-        f = value(x)
-        if (f > 0.0) == (f_1 > 0.0):
-            x_3, f_3 = x_1, f_1
-        else:
-            x_3, f_3, x_2, f_2 = x_2, f_2, x_1, f_1
-        x_1, f_1 = x, f
-        place, size = (x_1 - x_2) / (x_3 - x_2), (f_1 - f_2) / (f_3 - f_2)
-        part = 0.5
-        if size**2 < place and (1.0 - size) ** 2 < 1.0 - place:  # a parabola in f fits between
-            part = f_1 / (f_2 - f_1) * f_3 / (f_2 - f_3)
-            part += (x_3 - x_1) / (x_2 - x_1) * f_1 / (f_3 - f_1) * f_2 / (f_3 - f_2)

@@ -9,7 +9,6 @@ import numpy as np
 
 from scout_pin.dynamics.scaling import DoubleSupport
 from scout_pin.report.judged.causes import CAUSES, Cause
-from thesis_pin.numeric.inequalities import crossing
 from thesis_pin.tolerances import TOLERANCES
 
 _TRIED = 12  # samples looked at for each speed tried
@@ -75,15 +74,19 @@ class Trial:
 
         ``most`` is the most that they use of a servo at the bad speed.
         """
+        from scipy.optimize import brentq
+
+        ends = {bad**2: most}  # brentq asks for both once more
 
         def passed(square: float) -> float:
-            return float(min(self.uses(math.sqrt(square), some)[1].max() - 1.0, 1.0))
+            if square not in ends:
+                ends[square] = self.uses(math.sqrt(square), some)[1].max()
+            return float(min(ends[square] - 1.0, 1.0))
 
         # Of s² torques are linear between two changes of what the programme presses against.
-        start, end = (fine**2, passed(fine**2)), (bad**2, float(min(most - 1.0, 1.0)))
-        if start[1] >= 0.0:
+        if passed(fine**2) >= 0.0:
             return fine
-        return math.sqrt(crossing(passed, start, end, TOLERANCES.time_unit / 2))
+        return math.sqrt(brentq(passed, fine**2, bad**2, rtol=TOLERANCES.time_unit / 2))
 
     def _few(self, s: float) -> np.ndarray:
         some = beyond(self.double, s, s)

@@ -1,19 +1,11 @@
 """Inequalities in one number, against trying them on a grid."""
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from thesis_pin.numeric.inequalities import (
-    Intervals,
-    crossing,
-    rest_of,
-    where_lines_hold,
-    where_positive,
-)
+from thesis_pin.numeric.inequalities import Intervals, rest_of, where_lines_hold, where_positive
 
 LOW, HIGH = 0.2, 5.0
 numbers = st.floats(-10, 10).map(lambda x: round(x, 3)) | st.sampled_from([0.0, 1.0, -1.0])
@@ -75,35 +67,3 @@ def test_nearly_equal_numbers_dont_cancel_in_a_root(scale):
     row = tuple(np.array([scale * x]) for x in (1.0, -1e8, 1.0))
     start, end, _ = where_positive(row, 1e-10, 1.0)
     assert (start[0], end[0]) == (1e-10, pytest.approx(1e-8, rel=1e-12))
-
-
-SHAPES = {
-    "line": lambda x, root, steep: steep * (x - root),
-    "two lines": lambda x, root, steep: max(steep * (x - root), 9 * steep * (x - root) - 3 * steep),
-    "cut off": lambda x, root, steep: min(steep * (x - root), 1e-3),
-    "step": lambda x, root, steep: -steep if x < root else 1.0,
-    "growth": lambda x, root, steep: math.exp(min(steep, 9.0) * (x - root)) - 1.0,
-}
-
-
-@pytest.mark.parametrize("shape", SHAPES)
-@given(st.floats(0.5, 5.0), st.floats(0.01, 20.0), st.booleans())
-def test_a_crossing_is_found_as_near_as_asked_in_few_calls(shape, root, steep, falls):
-    calls = []
-
-    def value(x):
-        calls.append(x)
-        return (-1.0 if falls else 1.0) * SHAPES[shape](x, root, steep)
-
-    ends = [(x, value(x)) for x in (0.3, 7.0)]
-    for low, high in (ends, ends[::-1]):
-        calls.clear()
-        found = crossing(value, low, high, 1e-6)
-        assert found == pytest.approx(root, rel=1.001e-6)
-        assert all(0.3 < x < 7.0 for x in calls)
-        assert len(calls) <= (3 if shape == "line" else 30)  # 23 halve as often
-
-
-def test_a_crossing_at_an_end_costs_no_call():
-    assert crossing(lambda x: 1 / 0, (2.0, 0.0), (5.0, 1.0), 1e-6) == 2.0
-    assert crossing(lambda x: 1 / 0, (2.0, -1.0), (5.0, 0.0), 1e-6) == 5.0
