@@ -193,6 +193,10 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
         _drop_output()
         return ExitCode.DONE
     except Exception as error:
+        if (end := _ended_by(error)) is not None:
+            if isinstance(end, SystemExit):
+                raise end from None
+            return _end(parser, ExitCode.INTERRUPTED, "interrupted")
         if isinstance(error, OSError) and error.errno in _FULL:
             _drop_output()
             text = f"error: standard output can't be written: {error.strerror}"
@@ -200,6 +204,13 @@ def run(parser: argparse.ArgumentParser, arguments: Sequence[str] | None = None)
         if getattr(parsed, "debug", False):
             traceback.print_exc()
         return _end(parser, ExitCode.BUG, _bug(error))
+
+
+def _ended_by(error: BaseException) -> KeyboardInterrupt | SystemExit | None:
+    """What a signal raised and compiled modules, while they are imported, call their failure."""
+    while error.__cause__ is not None:
+        error = error.__cause__
+    return error if isinstance(error, KeyboardInterrupt | SystemExit) else None
 
 
 def _end(parser: argparse.ArgumentParser, code: ExitCode, text: str) -> ExitCode:

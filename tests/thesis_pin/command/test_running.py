@@ -60,6 +60,26 @@ def test_a_verb_s_own_code_is_the_command_s(code):
     assert run(doing(lambda _: code), []) == code
 
 
+def while_a_compiled_module_is_imported(signalled):
+    """What such modules make of an exception that a signal raises in them."""
+
+    def verb(_):
+        raise ImportError("initialization failed") from signalled
+
+    return doing(verb)
+
+
+def test_ctrl_c_while_a_compiled_module_is_imported_is_no_bug(capsys):
+    assert run(while_a_compiled_module_is_imported(KeyboardInterrupt()), []) == 130
+    assert capsys.readouterr().err == "robot-pin: interrupted\n"
+
+
+def test_a_signal_to_end_while_a_compiled_module_is_imported_ends_the_process():
+    with pytest.raises(SystemExit) as end:
+        run(while_a_compiled_module_is_imported(SystemExit(143)), [])
+    assert end.value.code == 143
+
+
 def test_a_bug_says_where_it_is_and_how_to_report_it(capsys):
     assert run(failing(KeyError("left\nknee")), []) == 70
     err = capsys.readouterr().err
