@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from pollard_pin.motion.path import PEAK, Sampled, Timing, ToolPath, Triple, driven, timing_law
 from pollard_pin.motion.samples import through_orientations
@@ -20,6 +20,9 @@ from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.numeric.splines import hermite_quintic
 from thesis_pin.tolerances import TOLERANCES
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 Speed = float | np.ndarray
 """One tool speed, or one at each position [m/s]."""
@@ -137,6 +140,8 @@ def _steady(
     # Gauss-Legendre with three points, exact to the sixth order of a part's length.
     width, root = np.diff(places), np.sqrt(0.15)
     points = places[:-1, None] + width[:, None] * np.array([0.5 - root, 0.5, 0.5 + root])
+    from scipy.interpolate import PchipInterpolator
+
     speed = PchipInterpolator(along, speeds)
     rate, _ = _pace(curve, speed, points.ravel(), along, where)
     slowness = (1.0 / rate).reshape(points.shape) @ np.array([5, 8, 5]) / 18

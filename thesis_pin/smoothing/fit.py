@@ -16,7 +16,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import lapack
 
 from thesis_pin.smoothing.basis import Array, Penalty, penalty
 from thesis_pin.smoothing.samples import Samples
@@ -81,6 +80,8 @@ class Fit:
         return self._known[strength]
 
     def _solve(self, strength: float) -> Solution:
+        from scipy.linalg import lapack
+
         samples, ratio = self.samples, float(np.exp(strength))
         free = samples.free
         band = (samples.gram + ratio * self._bands)[:, free]

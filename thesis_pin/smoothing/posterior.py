@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import lapack
 
 from thesis_pin.smoothing.basis import Array
 from thesis_pin.smoothing.fit import Strength
@@ -22,6 +21,8 @@ def draws(found: Strength, normal: Array, ends: Array | None = None) -> Array:
     Returns:
         Coefficients, shape ``(count, draws)``.
     """
+    from scipy.linalg import lapack
+
     fit, solution = found.fit, found.solution
     samples, free = fit.samples, fit.samples.free
     count = free.stop - free.start

@@ -19,9 +19,13 @@ from scout_pin.study.plan.sampling.sloped import Sloped
 LENGTH = 0.010
 """What counts as much as the whole of a servo [m]."""
 
-_ANGLE = 0.2  # the same of joint angles [rad],
+TORSO_UNITS = np.array([0.01, 0.01, 0.01, 0.1, 0.1, 0.1])
+"""The same of the torso's coordinates [m], [rad]."""
+
+_ANGLE = 0.2  # of joint angles [rad],
 _COSINE = 0.1  # of the knees' cosines,
 _CONTACT = 0.1  # and of wrenches, relative to weight times length
+_SPARE = 0.01  # of the same: no wrench is planned on a cone's very border
 _LEAST_FORCE = 0.1  # of the weight: less is next to jumping
 _RANGE = 0.025  # share of a joint's range at either end that is left alone
 
@@ -79,7 +83,7 @@ class Limits:
             "knee": found.knee.size.less(self.knee).times(1.0 / _COSINE),
             "lower": found.angle.times(-1.0).less(-self.lower).times(1.0 / _ANGLE),
             "upper": found.angle.less(self.upper).times(1.0 / _ANGLE),
-            "contact": found.contact.times(1.0 / _CONTACT),
+            "contact": found.contact.less(-_SPARE).times(1.0 / _CONTACT),
             "force": found.force.times(-1.0).less(-_LEAST_FORCE),
         }
         if self.line:
@@ -101,11 +105,100 @@ KINDS = {
 }
 """What is limited, in words."""
 
+UNITS = {"margin": "m", "torque": "N·m", "speed": "rad/s", "lower": "rad", "upper": "rad"}
+"""SI units of what is limited, where it has one."""
+
+_COORDINATES = ("x", "y", "height", "pitch", "roll", "yaw")
+
+
+@dataclass(frozen=True)
+class Worst:
+    """Where a kind of limit is passed most, or comes nearest to it.
+
+    Attributes:
+        kind: One of :data:`KINDS`.
+        subject: The joint, leg or coordinate; empty where there is none to name.
+        t: When [s].
+        excess: By how much it is passed, relative; at most zero where it is kept.
+        value: What it is, in :data:`UNITS`; a knee's is a cosine, beyond one out of reach. Of
+            the torso's posture metres or radians.
+        limit: What it may be.
+    """
+
+    kind: str
+    subject: str
+    t: float
+    excess: float
+    value: float
+    limit: float
+
+
+def worsts(
+    robot: Scout,
+    limits: Limits,
+    excess: dict[str, Sloped],
+    times: np.ndarray,
+    posture: np.ndarray,
+) -> list[Worst]:
+    """Every kind's worst sample, the one that is passed most first.
+
+    Args:
+        robot: The biped.
+        limits: The limits.
+        excess: By how much they are passed.
+        times: Of the samples [s], ``(n,)``.
+        posture: Least and greatest of the torso's coordinates [m], [rad], ``(2, 6)``.
+    """
+    found = []
+    for kind in excess:
+        _, sample, column, size = worst({kind: excess[kind]})
+        if kind == "posture":
+            value, limit = _bounded(posture, column, size)
+        else:
+            value, limit = _plain(robot, limits, kind, column, size)
+        name = subject(kind, column)
+        found.append(Worst(kind, name, float(times[sample]), size, value, limit))
+    return sorted(found, key=lambda one: -one.excess)
+
+
+def _plain(
+    robot: Scout, limits: Limits, kind: str, column: int, excess: float
+) -> tuple[float, float]:
+    """Value and limit of an excess in its own unit."""
+    if kind == "margin":
+        return limits.margin - excess * LENGTH, limits.margin
+    if kind in ("torque", "speed"):
+        most, whole = (
+            (limits.torque, robot.stall_torque)
+            if kind == "torque"
+            else (limits.rate, robot.no_load_speed)
+        )
+        return float(most[column] + excess * whole[column]), float(most[column])
+    if kind in ("lower", "upper"):
+        bound = float((limits.lower if kind == "lower" else limits.upper)[column])
+        return bound + excess * _ANGLE * (-1.0 if kind == "lower" else 1.0), bound
+    if kind == "knee":
+        return limits.knee + excess * _COSINE, limits.knee
+    if kind == "contact":
+        return excess * _CONTACT - _SPARE, -_SPARE
+    if kind == "force":
+        return _LEAST_FORCE - excess, _LEAST_FORCE
+    return 1.0 + excess, 1.0
+
+
+def _bounded(posture: np.ndarray, column: int, excess: float) -> tuple[float, float]:
+    """A coordinate of the torso and its bound: columns are the least ones, then the greatest."""
+    bound = float(posture[column // 6, column % 6])
+    sign = 1.0 if column >= 6 else -1.0
+    return bound + sign * excess * float(TORSO_UNITS[column % 6]), bound
+
 
 def subject(kind: str, column: int) -> str:
-    """Which joint or leg a limit's column is about; empty where there is none to name."""
+    """Which joint, leg or coordinate a column is about; empty where there is none to name."""
     if kind in ("torque", "speed", "line", "lower", "upper"):
         return JOINT_NAMES[column]
+    if kind == "posture":
+        return _COORDINATES[column % 6]
     return SIDES[column] if kind == "knee" else ""
 
 

@@ -22,15 +22,12 @@ from scout_pin.study.plan.footing import Footing
 from scout_pin.study.plan.sampling.floor import contacts, pressed
 from scout_pin.study.plan.sampling.reach import STRAIGHT
 from scout_pin.study.plan.sampling.sloped import Sloped
-from scout_pin.study.plan.sampling.slopes import StateSlopes, state_slopes
+from scout_pin.study.plan.sampling.slopes import state_slopes
 from scout_pin.study.plan.sampling.state import State, state
 from thesis_pin.errors import WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import instance
 from thesis_pin.tolerances import GRAVITY
-
-_STEPS = np.repeat([3e-7, 1e-5, 1e-4], 6)
-"""Steps of finite differences by values, rates and accelerations [m], [rad], per s, per s²."""
 
 
 @dataclass(frozen=True)
@@ -109,17 +106,25 @@ class Sampler:
         if len(jets) != footing.count:
             raise WrongShape("jets", jets.shape, f"({footing.count}, 18), as the footing")
         here = self.state(jets, footing)
-        of = self._slopes(jets, footing, here) if slopes else None
+        of = state_slopes(self.robot, jets, footing, here, self.straight) if slopes else None
 
         def known(value: np.ndarray, name: str) -> Sloped:
             return Sloped(value, None if of is None else getattr(of, name))
 
         wrench = known(here.dynamics.sole_wrench, "wrench")
-        edge, force = pressed(footing, wrench, self.weight)
+        moved = None if of is None else of.sole
+        edge, force = pressed(footing, here.feet, wrench, moved, self.weight)
         return Quantities(
             edge,
             force,
-            contacts(self.robot.contacts, footing, here.dynamics, wrench, self.weight),
+            contacts(
+                self.robot.contacts,
+                footing.support,
+                here.feet,
+                here.dynamics,
+                wrench,
+                self.weight,
+            ),
             known(here.dynamics.torque, "torque"),
             known(here.joints.v, "rate"),
             known(here.joints.q, "angle"),
@@ -129,31 +134,3 @@ class Sampler:
     def state(self, jets: np.ndarray, footing: Footing) -> State:
         """Joints, torques and wrenches of samples."""
         return state(self.robot, self.branches, jets, footing, self.straight)
-
-    def _slopes(self, jets: np.ndarray, footing: Footing, here: State) -> StateSlopes:
-        """Exact where angles are; where they are softened by finite differences."""
-        found = state_slopes(self.robot, jets, footing, here)
-        soft = np.flatnonzero((np.abs(here.knee) > self.straight).any(axis=1))
-        if soft.size:
-            differences = self._differences(jets[soft], footing.part(soft))
-            for one in fields(found):
-                getattr(found, one.name)[soft] = getattr(differences, one.name)
-        return found
-
-    def _differences(self, jets: np.ndarray, footing: Footing) -> StateSlopes:
-        """Central differences at m samples, all of them in one stack."""
-        count = len(jets)
-        moved = np.tile(jets, (36, 1, 1))
-        for k, step in enumerate(_STEPS.tolist()):
-            moved[k, :, k] += step
-            moved[18 + k, :, k] -= step
-        there = self.state(moved.reshape(-1, 18), footing.part(np.tile(np.arange(count), 36)))
-
-        def slope(values: np.ndarray) -> np.ndarray:
-            both = values.reshape(2, 18, count, *values.shape[1:])
-            change = np.moveaxis(both[0] - both[1], 0, -1)
-            return np.asarray(change / (2.0 * _STEPS))
-
-        dynamics, joints = there.dynamics, there.joints
-        values = (joints.q, joints.v, dynamics.torque, there.knee, dynamics.sole_wrench)
-        return StateSlopes(*(slope(one) for one in values))

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 from thesis_pin.loops.checking.poses import in_range, named_pose, neutral
 from thesis_pin.loops.closures import ClosedRobot
@@ -174,6 +173,8 @@ def _least_open(robot: ClosedRobot, starts: list[tuple[str, Array]]) -> Assembly
 
 def _fitted(robot: ClosedRobot, q: Array, steps: int) -> tuple[float, Array]:
     """A minimum near a configuration inside the ranges: half the squared gaps, and where."""
+    from scipy.optimize import minimize  # which only a robot that doesn't close needs
+
     weights, data = robot.scale.rows, robot.model.createData()
 
     def opening(step: Array) -> tuple[float, Array]:

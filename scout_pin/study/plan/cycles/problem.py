@@ -10,14 +10,14 @@ from scout_pin.model import Scout
 from scout_pin.study.plan.cycles.feet import Moments, Pace, Steps
 from scout_pin.study.plan.cycles.splines import Cyclic
 from scout_pin.study.plan.footing import Footing
-from scout_pin.study.plan.limits import Limits
+from scout_pin.study.plan.limits import KINDS, TORSO_UNITS, Limits
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.samples import Sampler
 from scout_pin.study.plan.sampling.sloped import Sloped
 
-_UNITS = np.array([0.01, 0.01, 0.01, 0.1, 0.1, 0.1])[:, None]  # of coefficients [m], [rad]
+_UNITS = TORSO_UNITS[:, None]  # of coefficients
 _SHARE_UNIT, _LENGTH_UNIT = 0.1, 0.01
-_SHARES = (0.05, 0.6)
+_SHARES = (0.1, 0.6)
 _SHORTEST = 0.003  # step [m], where it is free
 _NUDGE = 1e-6  # of the unknowns of the pace, whose slopes are differences
 _WEIGHT = 3.0
@@ -53,6 +53,7 @@ class CycleProblem:
         step_time: Of a step [s]; None where the speed is fixed.
         free_length: Whether the length of a step is an unknown.
         back_off: By how much excesses are to be below zero, so that they are between samples.
+        held: Kinds of limits that count, of :data:`scout_pin.study.plan.limits.KINDS`.
     """
 
     sampler: Sampler
@@ -65,6 +66,7 @@ class CycleProblem:
     step_time: float | None
     free_length: bool
     back_off: float
+    held: frozenset[str] = frozenset(KINDS)
 
     @property
     def robot(self) -> Scout:
@@ -118,10 +120,22 @@ class CycleProblem:
         jets = self.jets(known, self.cyclic.basis(u), u)
         return self.limits.excess(self.robot, self.sampler(jets, footing, slopes=slopes))
 
+    def checked(self, known: Unknowns, moments: Moments) -> dict[str, Sloped]:
+        """:meth:`excess` anywhere, without slopes and with that of the posture itself."""
+        u = moments.times(known.share)
+        jets = self.jets(known, self.cyclic.basis(u), u)[:, :6]
+        over = np.concatenate([self.bounds[0] - jets, jets - self.bounds[1]], axis=1)
+        posture = Sloped(over / np.tile(_UNITS[:, 0], 2), None)
+        return self.excess(known, moments=moments) | {"posture": posture}
+
     def posture(self, known: Unknowns) -> tuple[np.ndarray, np.ndarray]:
-        """By how much coefficients pass their bounds: values ``(2, 6, size)``, signs alike."""
+        """By how much coefficients pass their bounds: values ``(2, 6, size)``, signs alike.
+
+        The curves are in the hull of their coefficients.
+        """
         low, high = self.bounds[0][:, None], self.bounds[1][:, None]
         over = np.stack([low - known.coefficients, known.coefficients - high]) / _UNITS
+        over += self.back_off
         return over, np.broadcast_to(np.array([-1.0, 1.0])[:, None, None], over.shape)
 
 
@@ -146,7 +160,11 @@ class Descending:
         inside = _inside(known)
         excess = problem.excess(inside, slopes=slopes)
         values = [rest]
-        active = {kind: np.nonzero(one.value > -problem.back_off) for kind, one in excess.items()}
+        active = {
+            kind: np.nonzero(one.value > -problem.back_off)
+            for kind, one in excess.items()
+            if kind in problem.held
+        }
         values += [excess[k].value[rows] + problem.back_off for k, rows in active.items()]
         residual = _WEIGHT * np.concatenate(values)
         if not slopes:
@@ -193,7 +211,7 @@ class Descending:
     def _bounds(self, x: np.ndarray, known: Unknowns) -> tuple[np.ndarray, np.ndarray]:
         """What passes the bounds of posture and pace, and its slopes."""
         over, signs = self.problem.posture(known)
-        where = np.argwhere(over > 0.0)
+        where = np.argwhere((over > 0.0) & ("posture" in self.problem.held))
         size = self.problem.cyclic.size
         values = over[tuple(where.T)].tolist()
         columns = (where[:, 1] * size + where[:, 2]).tolist()

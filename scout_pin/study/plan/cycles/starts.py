@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 import pinocchio as pin
@@ -14,10 +15,12 @@ from scout_pin.study.plan.cycles.feet import Steps
 from scout_pin.study.plan.cycles.splines import KNOTS, Cyclic
 
 _GUESSES = ((6.0, 20.0, -12.0), (10.0, 30.0, -20.0), (3.0, 12.0, -6.0), (12.0, 40.0, -30.0))
-"""Roll [°], sway and lowering [mm] of a torso :data:`_HIGH` above the floor. Lowered by 6 mm at
-least: at the thesis's height a sway straightens the knee."""
+"""Roll either way [°], sway and lowering [mm] of a torso :data:`_HIGH` above the floor. Lowered by
+6 mm at least: at the thesis's height a sway straightens the knee."""
 
 _HIGH = 0.2344
+STARTS = 2 * len(_GUESSES)
+
 SHARE = 0.25
 """Share of a step in which both feet stand, to begin with."""
 
@@ -51,10 +54,10 @@ def starts(build: Build, steps: Steps, cyclic: Cyclic, step_length: float) -> It
     u = np.arange(cyclic.size) / KNOTS
     sway = np.sin(np.pi * (u - SHARE / 2))
     size, middle = build.height / _HIGH, sum(steps.across) / 2
-    for roll, aside, lower in _GUESSES:
+    for sign, (roll, aside, lower) in product((1.0, -1.0), _GUESSES):
         wanted = np.zeros((cyclic.size, 6))
         wanted[:, 0] = middle - sway * aside * 1e-3 * size
         wanted[:, 1] = build.forward - step_length / 2
         wanted[:, 2] = build.height + lower * 1e-3 * size
-        wanted[:, 4] = np.radians(roll) * sway
+        wanted[:, 4] = sign * np.radians(roll) * sway
         yield cyclic.fitted(wanted)

@@ -16,6 +16,7 @@ from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.numeric.arrays import skew
 from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.trajectory import BodyMotion
 
 NEAREST = 8
 """Facets of a cone that are looked at a sample, those that the wrench passes or is nearest to."""
@@ -24,12 +25,20 @@ _LEAST = 0.05  # of the weight: less pressure is taken for this, or its point ru
 _ALONE = 250_000  # multiplications that OpenBLAS leaves to one thread
 
 
-def pressed(footing: Footing, wrench: Sloped, weight: float) -> tuple[Sloped, Sloped]:
+def pressed(
+    footing: Footing,
+    soles: tuple[BodyMotion, BodyMotion],
+    wrench: Sloped,
+    moved: np.ndarray | None,
+    weight: float,
+) -> tuple[Sloped, Sloped]:
     """How far the zero-moment point is inside each edge, and the vertical force.
 
     Args:
         footing: The feet.
+        soles: Where the joints have the soles.
         wrench: Of the floor on each sole, in its axes, ``(n, 2, 6)``.
+        moved: Derivatives of the soles' places, world axes, ``(n, 2, 3, 18)``, if wanted.
         weight: Of the robot [N].
 
     Returns:
@@ -37,7 +46,7 @@ def pressed(footing: Footing, wrench: Sloped, weight: float) -> tuple[Sloped, Sl
 
     Source: Scout thesis, section 6.2, equation (6.1).
     """
-    to_world = np.stack([_to_world(foot.rotation, foot.position) for foot in footing.feet], axis=1)
+    to_world = np.stack([_to_world(foot.rotation, foot.position) for foot in soles], axis=1)
     total = np.einsum("nkij,nkj->ni", to_world, wrench.value)  # about the world's origin
     share = total[:, 2] / weight
     load = np.maximum(share, _LEAST)
@@ -46,6 +55,9 @@ def pressed(footing: Footing, wrench: Sloped, weight: float) -> tuple[Sloped, Sl
     if wrench.slope is None:
         return Sloped(distance, None), Sloped(share[:, None], None)
     slope = np.einsum("nkij,nkjl->nil", to_world, wrench.slope)
+    if moved is not None and moved.any():  # the same force at another place
+        force = np.einsum("nkij,nkj->nki", to_world[:, :, :3, :3], wrench.value[:, :, :3])
+        slope[:, 3:] -= np.einsum("nkij,nkjl->nil", skew(force), moved)
     moments = np.stack([-slope[:, 4], slope[:, 3]], axis=1) / (load * weight)[:, None, None]
     pressing = np.where(share > _LEAST, 1.0, 0.0)[:, None] * slope[:, 2] / weight
     moved = moments - scaled[:, :, None] * (pressing / load[:, None])[:, None]
@@ -54,7 +66,8 @@ def pressed(footing: Footing, wrench: Sloped, weight: float) -> tuple[Sloped, Sl
 
 def contacts(
     soles: tuple[Contact, Contact],
-    footing: Footing,
+    support: np.ndarray,
+    feet: tuple[BodyMotion, BodyMotion],
     dynamics: ContactDynamics,
     wrench: Sloped,
     weight: float,
@@ -63,24 +76,25 @@ def contacts(
 
     Args:
         soles: What the floor can do to each sole.
-        footing: The feet.
+        support: Feet in support, booleans ``(n, 2)``.
+        feet: Where the joints have the soles.
         dynamics: Floor wrenches.
         wrench: The same in the soles' axes with slopes.
         weight: Of the robot [N].
     """
-    value = np.full((len(footing.support), NEAREST), -1.0)
+    value = np.full((len(support), NEAREST), -1.0)
     slope = None if wrench.slope is None else np.zeros((*value.shape, wrench.slope.shape[-1]))
-    double = footing.support.all(axis=1)
+    double = support.all(axis=1)
     for k, contact in enumerate(soles):
         unit = np.repeat([contact.length, 1.0], 3) / (weight * contact.length)
-        for some in _few(np.flatnonzero(footing.support[:, k] & ~double), contact):
+        for some in _few(np.flatnonzero(support[:, k] & ~double), contact):
             beyond = (wrench.value[some, k] * unit) @ contact.facets.T
             near = np.sort(np.argpartition(beyond, -NEAREST, axis=1)[:, -NEAREST:], axis=1)
             value[some] = np.take_along_axis(beyond, near, axis=1)
             if slope is not None and wrench.slope is not None:
                 slope[some] = (contact.facets[near] * unit) @ wrench.slope[some, k]
     for sample in np.flatnonzero(double & (dynamics.double_violation > 0.0)).tolist():
-        missing, by = _missing(soles, footing, wrench.part(slice(sample, sample + 1)))
+        missing, by = _missing(soles, feet, sample, wrench.part(slice(sample, sample + 1)))
         size = weight * soles[0].length
         value[sample, 0] = missing / size
         if slope is not None:
@@ -95,15 +109,20 @@ def _few(samples: np.ndarray, contact: Contact) -> list[np.ndarray]:
 
 
 def _missing(
-    soles: tuple[Contact, Contact], footing: Footing, wrench: Sloped
+    soles: tuple[Contact, Contact],
+    feet: tuple[BodyMotion, BodyMotion],
+    sample: int,
+    wrench: Sloped,
 ) -> tuple[float, np.ndarray]:
     """The least wrench that two soles can't supply together [N·m, forces scaled], and its slope.
 
-    The distance of a cone grows along the vector that leads to it.
+    The distance of a cone grows along the vector that leads to it. Soles that softened legs move
+    against each other are taken to stay.
     """
-    one, other = footing.feet
-    back = one.rotation[0].T
-    turn, offset = back @ other.rotation[0], back @ (other.position[0] - one.position[0])
+    one, other = feet
+    back = one.rotation[sample].T
+    turn = back @ other.rotation[sample]
+    offset = back @ (other.position[sample] - one.position[sample])
     second = np.zeros((6, 6))  # wrenches of the second sole in the first one's frame
     second[:3, :3] = second[3:, 3:] = turn
     second[3:, :3] = skew(offset) @ turn

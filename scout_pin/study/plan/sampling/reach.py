@@ -51,3 +51,9 @@ def softened(cosine: np.ndarray, straight: float = STRAIGHT) -> np.ndarray:
     size, room = np.abs(cosine), _ROOM * (1.0 - straight)
     beyond = straight + room * np.tanh((size - straight) / room)
     return np.asarray(np.where(size > straight, np.copysign(beyond, cosine), cosine))
+
+
+def softening(cosine: np.ndarray, straight: float = STRAIGHT) -> np.ndarray:
+    """Derivative of :func:`softened`."""
+    size = np.maximum(np.abs(cosine) - straight, 0.0)
+    return np.asarray(1.0 - np.tanh(size / (_ROOM * (1.0 - straight))) ** 2)

@@ -21,6 +21,7 @@ from scout_pin.specification import SIDES
 from scout_pin.study.plan.footing import Footing
 from scout_pin.study.plan.sampling.jets import JET, root_slopes
 from scout_pin.study.plan.sampling.sharing import shared_slopes
+from scout_pin.study.plan.sampling.soft import soft_slopes
 from scout_pin.study.plan.sampling.state import State
 
 ROOT = slice(0, 6)
@@ -35,6 +36,8 @@ class StateSlopes:
         angle, rate, torque: Of the joints, ``(n, 12, 18)``.
         knee: Of the cosines that knees are asked for, ``(n, 2, 18)``.
         wrench: Of the floor's wrenches in the soles' axes, ``(n, 2, 6, 18)``.
+        sole: Of the places to which the joints bring the soles, world axes, ``(n, 2, 3, 18)``;
+            zero where angles are exact.
     """
 
     angle: np.ndarray
@@ -42,6 +45,7 @@ class StateSlopes:
     torque: np.ndarray
     knee: np.ndarray
     wrench: np.ndarray
+    sole: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -64,14 +68,17 @@ class FrameSlopes:
     force: np.ndarray
 
 
-def state_slopes(robot: Scout, jets: np.ndarray, footing: Footing, here: State) -> StateSlopes:
-    """Derivatives of a state whose angles are exact.
+def state_slopes(
+    robot: Scout, jets: np.ndarray, footing: Footing, here: State, straight: float
+) -> StateSlopes:
+    """Derivatives of a state.
 
     Args:
         robot: The biped.
         jets: The torso's, shape ``(n, 18)``.
         footing: Its feet.
         here: The state of these jets.
+        straight: Cosine of a knee's angle up to which angles are exact.
     """
     of = _frame_slopes(robot, here)
     root = root_slopes(jets, here.torso)
@@ -81,6 +88,19 @@ def state_slopes(robot: Scout, jets: np.ndarray, footing: Footing, here: State) 
     for k, mine in enumerate(LEGS):
         back, jacobian = -inverses[k], of.jacobian[:, k, :, ROOT]
         q[:, mine] = back @ (jacobian @ root.q)
+    sines = np.sin(here.joints.q[:, [3, 9]] + _knee_zero(robot))
+    knee, sole = -sines[..., None] * q[:, [9, 15]], np.zeros((len(jets), 2, 3, JET))
+    for k, side in enumerate(SIDES):
+        some = np.flatnonzero(np.abs(here.knee[:, k]) > straight)
+        if some.size:
+            turn = here.torso.rotation[some]
+            theta = here.joints.q[some, 6 * k : 6 * k + 6]
+            short = np.einsum("nji,nj->ni", turn, here.short[some, k])
+            leg, asked = robot.legs[side], here.knee[some, k]
+            found = soft_slopes(leg, theta, short, asked, straight, root.q[some])
+            q[some, LEGS[k]], knee[some, k] = found
+            moved = of.jacobian[some, k, :3] @ q[some]
+            sole[some, k] = here.feet[k].rotation[some] @ moved
     for k, mine in enumerate(LEGS):
         back, jacobian = -inverses[k], of.jacobian[:, k, :, ROOT]
         v[:, mine] = back @ (of.twist[:, k] @ q + jacobian @ root.v)
@@ -101,8 +121,7 @@ def state_slopes(robot: Scout, jets: np.ndarray, footing: Footing, here: State) 
         turned = np.swapaxes(of.jacobian[:, k, :, mine], 1, 2)
         torque[:, 6 * k : 6 * k + 6] -= turned @ wrench[:, k]
     torque += robot.specification.assumptions.joint_friction.viscous * v[:, 6:]
-    sines = np.sin(here.joints.q[:, [3, 9]] + _knee_zero(robot))
-    return StateSlopes(q[:, 6:], v[:, 6:], torque, -sines[..., None] * q[:, [9, 15]], wrench)
+    return StateSlopes(q[:, 6:], v[:, 6:], torque, knee, wrench, sole)
 
 
 def _knee_zero(robot: Scout) -> np.ndarray:

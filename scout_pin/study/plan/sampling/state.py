@@ -6,12 +6,14 @@ what is planned is what is judged.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from scout_pin.coordinates import fill_root
 from scout_pin.dynamics.inverse import inverse_dynamics, walking
+from scout_pin.kinematics.forward import leg_forward_kinematics
+from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.rates import solve
 from scout_pin.kinematics.screws import LegScrews
 from scout_pin.model import Scout
@@ -33,12 +35,17 @@ class State:
         torso: Its motion in the world.
         joints: The joints' trajectory, softened where a knee is too straight or folded.
         knee: Cosine that each knee is asked for, ``(n, 2)``.
+        short: From the soles that the joints reach to their places, world axes [m],
+            ``(n, 2, 3)``; zero where angles are exact.
+        feet: The soles where the joints have them, left then right.
         dynamics: Torques and floor wrenches.
     """
 
     torso: BodyMotion
     joints: JointTrajectory
     knee: np.ndarray
+    short: np.ndarray
+    feet: tuple[BodyMotion, BodyMotion]
     dynamics: ContactDynamics
 
     def pinocchio(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -72,13 +79,17 @@ def state(
     walking(robot)
     torso, count = torso_motion(jets), len(jets)
     q, v, a = (np.empty((12, count)) for _ in range(3))
-    knee = np.empty((count, 2))
+    knee, short = np.empty((count, 2)), np.zeros((count, 2, 3))
+    feet = list(footing.feet)
     for k, side in enumerate(SIDES):
         leg, foot = robot.legs[side], footing.feet[k]
         mine = slice(6 * k, 6 * k + 6)
         theta, knee[:, k] = soft_angles(leg, foot.entries_in(torso), branches[k], straight)
         if leg.turned:
             theta = fitted(theta, leg.lower, leg.upper)
+        if (soft := np.abs(knee[:, k]) > straight).any():
+            short[soft, k] = _short(leg, theta[soft], foot.part(soft), torso.part(soft))
+            foot = feet[k] = replace(foot, position=foot.position - short[:, k])
         screws = LegScrews(leg, theta)
         screws.refuse_singular()
         q[mine] = theta.T
@@ -87,5 +98,13 @@ def state(
                 row[:] = joint
     time = np.zeros(count)
     joints = JointTrajectory(time, q.T, v.T, a.T)
-    motion = GaitMotion(time, time, footing.support, torso, *footing.feet)
-    return State(torso, joints, knee, inverse_dynamics(robot, motion, joints))
+    motion = GaitMotion(time, time, footing.support, torso, feet[0], feet[1])
+    dynamics = inverse_dynamics(robot, motion, joints)
+    return State(torso, joints, knee, short, (feet[0], feet[1]), dynamics)
+
+
+def _short(leg: LegGeometry, theta: np.ndarray, foot: BodyMotion, torso: BodyMotion) -> np.ndarray:
+    """From where angles ``(n, 6)`` bring the sole to its place, world axes [m], ``(n, 3)``."""
+    sole = leg_forward_kinematics(leg, theta)[:, :3, 3]
+    reached = torso.position + np.einsum("nij,nj->ni", torso.rotation, sole)
+    return np.asarray(foot.position - reached)
