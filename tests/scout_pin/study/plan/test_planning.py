@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scout_pin.study.plan.cycles.shortfall import Binding, Shortfall
 
 import scout_pin
 from scout_pin.motion.files import load_gait
+from scout_pin.study.plan.cycles.shortfall import Binding, Shortfall
 from scout_pin.study.plan.document import document, files
 from scout_pin.study.plan.planning import plan_gait
 from scout_pin.study.plan.request import PlanRequest
