@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -116,9 +117,21 @@ class CycleProblem:
         """
         moments, pace = moments or self.moments, self.pace(known)
         u = moments.times(pace.share)
-        footing = Footing.of(self.robot, self.steps.feet(moments, pace), moments.support)
+        footing = self._footing(moments, pace)
         jets = self.jets(known, self.cyclic.basis(u), u)
         return self.limits.excess(self.robot, self.sampler(jets, footing, slopes=slopes))
+
+    def _footing(self, moments: Moments, pace: Pace) -> Footing:
+        """The feet; their support polygons are kept, for only the length of steps changes them."""
+        feet, key = self.steps.feet(moments, pace), (id(moments), pace.step_length)
+        if key not in self._kept:
+            self._kept.clear()
+            self._kept[key] = moments, Footing.of(self.robot, feet, moments.support)
+        return replace(self._kept[key][1], feet=feet)
+
+    @cached_property
+    def _kept(self) -> dict[tuple[int, float], tuple[Moments, Footing]]:
+        return {}
 
     def checked(self, known: Unknowns, moments: Moments) -> dict[str, Sloped]:
         """:meth:`excess` anywhere, without slopes and with that of the posture itself."""

@@ -34,6 +34,7 @@ _ENOUGH = 2e-4  # cost of which no more than a third of the back-off is used up
 _ROUNDS = 4  # of adding samples where the check finds more
 _ADDED = 12
 _TRIED = 30  # steps of a first attempt
+_STUCK, _SLOW = 0.1, 0.02  # gain of five of them below which they end
 _LONGER = 90  # and of the best ones'
 _HOPELESS = 3  # starts, none of which gets near
 FAR = 0.5
@@ -168,7 +169,8 @@ class Search:
         self, problem: CycleProblem, known: Unknowns, length: float, most: int
     ) -> Descent:
         descending = Descending(problem, length)
-        return descend(descending, problem.packed(known), most=most, enough=_ENOUGH)
+        start, slow = problem.packed(known), _STUCK if most <= _TRIED else _SLOW
+        return descend(descending, start, most=most, slow=slow, enough=_ENOUGH)
 
     def first(self, request: PlanRequest) -> Candidate:
         """A cycle that keeps a request's limits, else the one that passes them least."""
