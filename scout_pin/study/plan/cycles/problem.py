@@ -170,7 +170,7 @@ class Descending:
         known = problem.unpacked(x, self.step_length)
         rest, of = self._bounds(x, known)
         # A pace that can't be has no samples: they are taken at the nearest that can.
-        inside = _inside(known)
+        inside = inside_pace(known)
         excess = problem.excess(inside, slopes=slopes)
         values = [rest]
         active = {
@@ -244,7 +244,8 @@ class Descending:
         return np.array(values), matrix
 
 
-def _inside(known: Unknowns) -> Unknowns:
+def inside_pace(known: Unknowns) -> Unknowns:
+    """The nearest whose pace has samples: a search may try others on its way."""
     return replace(
         known,
         share=float(np.clip(known.share, 0.02, 0.8)),

@@ -11,7 +11,13 @@ from scout_pin.kinematics.branches import taken_branches
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.cycles.feet import Moments, Pace, Steps
-from scout_pin.study.plan.cycles.problem import CycleProblem, Descending, Unknowns, bounds
+from scout_pin.study.plan.cycles.problem import (
+    CycleProblem,
+    Descending,
+    Unknowns,
+    bounds,
+    inside_pace,
+)
 from scout_pin.study.plan.cycles.splines import Cyclic
 from scout_pin.study.plan.cycles.starts import SHARE, STARTS, Build, starts
 from scout_pin.study.plan.cycles.symmetry import mirrored
@@ -113,7 +119,7 @@ class Search:
         free = request.free_length
         return CycleProblem(
             self.sampler,
-            self.steps,
+            Steps.of(self.sampler.robot, request),
             self.cyclic,
             Moments.even(self.cyclic.steps, _DOUBLE, _SINGLE),
             Limits.of(self.sampler.robot, request),
@@ -151,7 +157,7 @@ class Search:
         for left in reversed(range(_ROUNDS)):
             descent = self._descended(problem, known, length, most)
             steps += descent.iterations
-            known = problem.unpacked(descent.x, length)
+            known = inside_pace(problem.unpacked(descent.x, length))
             excess = problem.checked(known, CHECKED)
             found = Candidate(request, problem, known, excess, steps)
             counted = [one.value.max(axis=1) for kind, one in excess.items() if kind in held]

@@ -49,18 +49,19 @@ class Cyclic:
         Returns:
             Shape ``(n, 3, 6, size)``.
         """
+        count = KNOTS * CYCLE
         span = np.floor(u * KNOTS)
         powers = (u * KNOTS - span)[:, None] ** np.arange(DEGREE, -1, -1)
-        pieces, result = _pieces(), np.zeros((len(u), 3, 6, self.size))
-        rows = np.arange(len(u))
+        pieces, whole = _pieces(), np.zeros((len(u), 3, count))
+        rows = np.arange(len(u))[:, None]
+        numbers = (span.astype(int)[:, None] - np.arange(DEGREE + 1)) % count
         for order in range(3):
             values = powers[:, order:] @ _derived(pieces, order).T * float(KNOTS) ** order
-            for back in range(DEGREE + 1):
-                number = span.astype(int) - back
-                turns, index = np.divmod(number, self.size)
-                signs = np.where(turns[:, None] % 2 == 1, self._signs, 1.0)
-                result[rows, order, :, index] += values[:, back, None] * signs
-        return result
+            whole[rows, order, numbers] = values
+        if self.steps == CYCLE:
+            return np.repeat(whole[:, :, None], 6, axis=2)
+        first, second = whole[:, :, None, :KNOTS], whole[:, :, None, KNOTS:]
+        return np.asarray(first + self._signs[:, None] * second)
 
     @property
     def _signs(self) -> np.ndarray:
