@@ -24,7 +24,7 @@ from thesis_pin.report.tables import Table
 
 if TYPE_CHECKING:  # reports need none of it
     from pollard_pin.report.document import TrajectoryReport
-    from pollard_pin.study.simulate.document import Simulation
+    from pollard_pin.study.simulate.result import Simulation
     from thesis_pin.report.exchange.movement import Movement
 
 _PLANNED = 2001

@@ -118,9 +118,12 @@ def fill_root(torso: BodyMotion, out: tuple[np.ndarray, np.ndarray, np.ndarray])
     """Write the root's part of :func:`free_flyer_state`: ``(19, n)``, ``(18, n)``, ``(18, n)``."""
     turn, (q, v, a) = rows(torso.rotation), out
     q[:3], q[3:7] = torso.position.T, quaternion_rows(turn)
-    v[:3], v[3:6] = into(turn, rows(torso.velocity)), into(turn, rows(torso.omega))
-    a[:3], a[3:6] = into(turn, rows(torso.acceleration)), into(turn, rows(torso.alpha))
-    a[:3] -= cross(v[3:6], v[:3])
+    v[:3], a[:3] = into(turn, rows(torso.velocity)), into(turn, rows(torso.acceleration))
+    if torso.turns:
+        v[3:6], a[3:6] = into(turn, rows(torso.omega)), into(turn, rows(torso.alpha))
+        a[:3] -= cross(v[3:6], v[:3])
+    else:
+        v[3:6] = a[3:6] = 0.0
 
 
 def _motion(q: np.ndarray, v: ArrayLike | None, a: ArrayLike | None) -> tuple[np.ndarray, ...]:

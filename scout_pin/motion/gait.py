@@ -145,12 +145,14 @@ class Gait:
         At an instant where phases meet, a foot of either bears load.
         """
         t = _times(t)
-        result = np.zeros((len(t), 2), dtype=bool)
+        result, first, last = np.zeros((len(t), 2), dtype=bool), t.min(), t.max()
         for phase in self.phases:
+            if phase.end < first or phase.start > last:
+                continue
             inside = (t >= phase.start) & (t <= phase.end)
             for k, side in enumerate(("left", "right")):
                 if phase.support in (side, "double"):
-                    result[inside, k] = True
+                    result[:, k] |= inside
         return result
 
     def touchdowns(self) -> list[tuple[float, str]]:
@@ -208,7 +210,9 @@ class Gait:
     def body(self, name: str, t: np.ndarray, time_unit: float | None = None) -> BodyMotion:
         """Motion of one body at times t; derivatives are per second."""
         choice("body", name, BODIES)
-        t, unit = _times(t), self._unit(time_unit)
+        return self._sampled(name, _times(t), self._unit(time_unit))
+
+    def _sampled(self, name: str, t: np.ndarray, unit: float) -> BodyMotion:
         if len(t) >= LONG:
             return LongBody(len(t), partial(self._body, name, t, unit))
         return self._body(name, t, unit)
@@ -247,7 +251,7 @@ class Gait:
                 where=f"gait {self.name!r}",
                 allowed=f"{self.start:g} to {self.end:g}",
             )
-        bodies = {name: self.body(name, t, unit) for name in BODIES}
+        bodies = {name: self._sampled(name, t, unit) for name in BODIES}
         if self.variants is None:  # else the samples were judged when they were read
             _ = self._stances
         return GaitMotion(time=t * unit, t=t, support=self.support(t), **bodies, branch=self.branch)

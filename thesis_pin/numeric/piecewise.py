@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from thesis_pin.numeric.elementwise import Samples
-from thesis_pin.numeric.sparing import Part, plus, times
+from thesis_pin.numeric.sparing import Part, nothing, plus, times
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
@@ -118,7 +118,9 @@ def _horner(coefficients: list[Part], offset: Part) -> tuple[Part, Part, Part]:
     value: Part = 0.0
     rate: Part = 0.0
     second: Part = 0.0
-    for coefficient in coefficients:
+    powers = len(coefficients) - 1
+    first = next((k for k in range(powers) if not nothing(coefficients[k])), powers)
+    for coefficient in coefficients[first:]:
         second = plus(times(second, offset), rate)
         rate = plus(times(rate, offset), value)
         value = plus(times(value, offset), coefficient)

@@ -15,7 +15,7 @@ from thesis_pin.errors import BadInput
 from thesis_pin.numeric import sparing
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, whole
-from thesis_pin.numeric.sparing import minus, plus, times
+from thesis_pin.numeric.sparing import minus, nothing, plus, times
 
 _PLANE = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 
@@ -130,15 +130,18 @@ def euler_parts(
         The nine entries of the rotation, row by row, and the three of ω and of α.
     """
     columns: list[sparing.Triple] = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
-    omega: sparing.Triple = (0.0, 0.0, 0.0)
+    omega: sparing.Triple = [0.0, 0.0, 0.0]
     alpha: sparing.Triple = omega
     for letter, angle, rate, second in zip(axes, angles, rates, accelerations, strict=True):
         axis = columns["xyz".index(letter)]
-        spin = [times(rate, part) for part in axis]
-        drift = sparing.cross(omega, spin)
-        more = [plus(times(second, part), bend) for part, bend in zip(axis, drift, strict=True)]
-        alpha = [plus(*pair) for pair in zip(alpha, more, strict=True)]
-        omega = [plus(*pair) for pair in zip(omega, spin, strict=True)]
+        if not nothing(rate, second):
+            spin = [times(rate, part) for part in axis]
+            drift = sparing.cross(omega, spin)
+            more = [plus(times(second, part), bend) for part, bend in zip(axis, drift, strict=True)]
+            alpha = [plus(*pair) for pair in zip(alpha, more, strict=True)]
+            omega = [plus(*pair) for pair in zip(omega, spin, strict=True)]
+        if nothing(angle):
+            continue
         one, other = _PLANE[letter]
         cosine, sine = sparing.cosine_sine(angle)
         pairs = list(zip(columns[one], columns[other], strict=True))

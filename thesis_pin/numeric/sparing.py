@@ -24,13 +24,22 @@ Triple: TypeAlias = Sequence[Part]
 
 def times(a: Part, b: Part) -> Part:
     """a b."""
-    for one, other in ((a, b), (b, a)):
-        if isinstance(one, float):
-            if one == 0.0:
-                return 0.0
-            if one == 1.0:
-                return other
+    if isinstance(a, float):
+        if a == 0.0:
+            return 0.0
+        if a == 1.0:
+            return b
+    if isinstance(b, float):
+        if b == 0.0:
+            return 0.0
+        if b == 1.0:
+            return a
     return a * b
+
+
+def nothing(*parts: Part) -> bool:
+    """Whether all of some numbers are exactly zero."""
+    return all(isinstance(part, float) and part == 0.0 for part in parts)
 
 
 def plus(a: Part, b: Part) -> Part:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -66,6 +67,11 @@ class BodyMotion:
     def count(self) -> int:
         """Number of samples."""
         return len(self.position)
+
+    @cached_property
+    def turns(self) -> bool:
+        """Whether it has an angular velocity or acceleration at any sample."""
+        return bool(self.omega.any() or self.alpha.any())
 
     @property
     def placement(self) -> np.ndarray:

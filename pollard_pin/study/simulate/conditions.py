@@ -9,10 +9,14 @@ import numpy as np
 
 from pollard_pin.specification import six
 from thesis_pin.errors import BadInput
+from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 
 EngineName = Literal["mujoco", "pinocchio"]
 ENGINES: tuple[str, ...] = get_args(EngineName)
+
+_STIFFEST = 1e6
+"""Stiffness [N·m/rad] and damping [N·m·s/rad] that no servo reaches, at most."""
 
 Values = float | tuple[float, ...]
 """One number for all motors, or six."""
@@ -122,11 +126,11 @@ def _six(name: str, value: Values) -> np.ndarray:
     Raises:
         BadInput: It is something else.
     """
-    found = np.atleast_1d(np.asarray(value, dtype=float))
-    if found.shape not in ((1,), (6,)) or not np.isfinite(found).all() or (found < 0).any():
+    found = np.atleast_1d(finite_array(name, value))
+    if found.shape not in ((1,), (6,)) or (found < 0).any() or (found > _STIFFEST).any():
         raise BadInput(
             f"{name} is {' '.join(f'{one:g}' for one in found.ravel()[:8])}",
-            allowed="one number of at least 0 for all motors, or six",
+            allowed=f"one number from 0 to {_STIFFEST:g} for all motors, or six",
         )
     return six(tuple(found) if len(found) == 6 else float(found[0]))
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from pollard_pin.specification import ACTUATOR_SYMBOLS
-from pollard_pin.study.simulate.result import Outcome
+from pollard_pin.study.simulate.result import Simulation
 from thesis_pin.report.curves import BLUE, GREEN, PALETTE, VERMILLION, Curve, Limit, Plot
 from thesis_pin.report.figures import figure_files, panels
 from thesis_pin.tolerances import TOLERANCES
 
 
-def plots(simulation: Outcome) -> list[Plot]:
+def plots(simulation: Simulation) -> list[Plot]:
     """Every plot of a simulation's page."""
     return [
         deviation(simulation),
@@ -21,7 +21,7 @@ def plots(simulation: Outcome) -> list[Plot]:
     ]
 
 
-def deviation(simulation: Outcome) -> Plot:
+def deviation(simulation: Simulation) -> Plot:
     """How far the tool is off its path; a straight line grows exponentially."""
     replay = simulation.replay
     return Plot(
@@ -34,7 +34,7 @@ def deviation(simulation: Outcome) -> Plot:
     )
 
 
-def torques(simulation: Outcome, place: int) -> Plot:
+def torques(simulation: Simulation, place: int) -> Plot:
     """Torques of the base's (0) or the wrist's (1) motors, what servos add included."""
     replay, some = simulation.replay, range(3 * place, 3 * place + 3)
     return Plot(
@@ -46,7 +46,7 @@ def torques(simulation: Outcome, place: int) -> Plot:
     )
 
 
-def _small(simulation: Outcome) -> list[Plot]:
+def _small(simulation: Simulation) -> list[Plot]:
     """What ought to be zero: opening of the loops, imbalance of the energy."""
     replay = simulation.replay
     error = np.abs(replay.energy_error) / max(replay.exchanged, 1e-300)
@@ -71,7 +71,7 @@ def _small(simulation: Outcome) -> list[Plot]:
     ]
 
 
-def figures(simulation: Outcome) -> dict[str, bytes]:
+def figures(simulation: Simulation) -> dict[str, bytes]:
     """The plots as PNG and SVG: file name → content."""
     motors = panels([[torques(simulation, 0)], [torques(simulation, 1)]], 8, 6)
     errors = panels([[plot] for plot in (deviation(simulation), *_small(simulation))], 8, 8)

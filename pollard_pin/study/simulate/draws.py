@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
+from contextlib import closing
 from dataclasses import replace
 from functools import partial
 
@@ -12,9 +13,10 @@ from pollard_pin.model import Pollard
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import LINK_NAMES, Link, ReplacedInertia, Specification
 from pollard_pin.study.simulate.conditions import Conditions
-from pollard_pin.study.simulate.document import Simulation
+from pollard_pin.study.simulate.engines import engine_name
+from pollard_pin.study.simulate.measures import Measures, measures
 from pollard_pin.study.simulate.replay import Prepared, Replay, prepare, replay
-from pollard_pin.study.simulate.result import Drawn, criteria
+from pollard_pin.study.simulate.result import Simulation
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.workers import shared, silent
@@ -55,27 +57,27 @@ def simulate_path(
             "planned",
             allowed="six",
         )
-    prepared = prepare(report, conditions)
-    errors = bool(conditions.mass_error or conditions.servo_zero_error)
-    if not errors:
-        done = replay(report, conditions, prepared, progress=progress)
-        return Simulation(report, conditions, prepared, done)
-    if conditions.draws == 1:
-        first, drawn = _draw(report, conditions, prepared, 0, progress)
-        return Simulation(report, conditions, prepared, first, (drawn,))
-    found: dict[int, Drawn] = {}
-    task = partial(_numbered, report, conditions, prepared)
-    numbers = range(1, conditions.draws)
-    first, found[0] = _draw(report, conditions, prepared, 0)
-    progress(1, conditions.draws)
-    results: Iterable[tuple[int, Drawn]] = map(task, numbers)
-    if conditions.jobs > 1 and len(numbers) > 1:
-        results = shared(task, numbers, min(conditions.jobs, len(numbers)), _ready)
-    for number, drawn in results:
-        found[number] = drawn
-        progress(len(found), conditions.draws)
-    every = tuple(found[number] for number in sorted(found))
-    return Simulation(report, conditions, prepared, first, every)
+    engine, prepared = engine_name(conditions.engine), prepare(report, conditions)
+    draws, jobs = conditions.draws, conditions.jobs
+    steps = round(report.path.duration / prepared.time_step)
+    found: dict[int, Measures] = {}
+
+    def told(done: int, _: int) -> None:
+        progress(len(found) * steps + done, draws * steps)
+
+    first, found[0] = _draw(report, conditions, prepared, 0, told)
+    others = range(1, draws)
+    if jobs > 1 and len(others) > 1:
+        begin = partial(_begin, report, conditions, prepared)
+        with closing(shared(_try, others, min(jobs, len(others)), begin)) as results:
+            for draw, one in results:
+                found[draw] = one
+                told(0, steps)
+    else:
+        for draw in others:
+            found[draw] = _draw(report, conditions, prepared, draw, told)[1]
+    every = tuple(found[draw] for draw in range(draws))
+    return Simulation(report, conditions, prepared, first, every, engine)
 
 
 def weighed(specification: Specification, scale: np.ndarray) -> Specification:
@@ -118,25 +120,27 @@ def _draw(
     prepared: Prepared,
     number: int,
     progress: Callable[[int, int], None] = silent,
-) -> tuple[Replay, Drawn]:
+) -> tuple[Replay, Measures]:
     """The replay of one drawn robot, which its seed and number alone determine."""
     rng = np.random.default_rng([conditions.seed, number])
     zero = conditions.servo_zero_error * rng.normal(size=6)
     masses = rng.normal(size=len(LINK_NAMES))
     scale = np.maximum(1 + conditions.mass_error * masses, _LIGHTEST)
-    robot = Pollard(weighed(report.robot.specification, scale), report.robot.inertia)
+    robot = report.robot
+    if (scale != 1).any():
+        robot = Pollard(weighed(robot.specification, scale), robot.inertia)
     there = replace(prepared, servo=replace(prepared.servo, zero=zero))
     done = replay(report, conditions, there, robot, progress)
-    failed = tuple(one.name for one in criteria(done) if not one.met)
-    deviation, turn = done.peak_deviation[0], done.peak_turn[0]
-    return done, Drawn(scale, zero, deviation, turn, done.ended, failed)
+    return done, measures(done, scale, zero)
 
 
-def _numbered(
-    report: TrajectoryReport, conditions: Conditions, prepared: Prepared, number: int
-) -> tuple[int, Drawn]:
-    return number, _draw(report, conditions, prepared, number)[1]
+_given: list[tuple[TrajectoryReport, Conditions, Prepared]] = []
+"""What a process that shares draws was given."""
 
 
-def _ready() -> None:
-    """Nothing has to be got ready in a process."""
+def _begin(report: TrajectoryReport, conditions: Conditions, prepared: Prepared) -> None:
+    _given[:] = [(report, conditions, prepared)]
+
+
+def _try(draw: int) -> tuple[int, Measures]:
+    return draw, _draw(*_given[0], draw)[1]

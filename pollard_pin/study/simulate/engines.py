@@ -11,13 +11,14 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+import pinocchio as pin
 
 from pollard_pin.mjcf import mjcf
 from pollard_pin.model import Pollard
 from pollard_pin.study.simulate.conditions import EngineName, Servo
-from pollard_pin.study.simulate.reference import Stretch
+from pollard_pin.study.simulate.planned import Stretch
 from pollard_pin.urdf import anchors
-from thesis_pin.simulation.engine import Engine
+from thesis_pin.simulation.engine import Engine, engine_module
 
 LONGEST: dict[str, float] = {"mujoco": 5e-4, "pinocchio": 2e-3}
 """Time step of each engine where servos ask for none shorter [s]: at these, loops and energy close
@@ -38,6 +39,17 @@ class Track:
     v: np.ndarray
     torque: np.ndarray
     work: np.ndarray
+
+
+def engine_name(name: EngineName) -> str:
+    """Name and version of an engine.
+
+    Raises:
+        BadInput: It isn't installed.
+    """
+    if name == "mujoco":
+        return f"MuJoCo {engine_module().__version__}"
+    return f"Pinocchio {pin.__version__}"
 
 
 class Carrier(Protocol):

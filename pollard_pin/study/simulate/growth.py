@@ -26,6 +26,9 @@ _ROUNDING = 1e-16
 """What every number of an engine is uncertain by [rad]: half a unit in its last place."""
 
 
+_DEAD = 1e-300
+"""What is left of errors that die within a step between two looks is taken as that much."""
+
 _ARM = 0.5
 """From a joint to the spray tip [m], for what an angle's error makes there."""
 
@@ -82,6 +85,8 @@ def growth(robot: Pollard, joints: JointTrajectory, torque: np.ndarray, servo: S
         middle = (systems[k] + systems[k + 1]) / 2
         grown = expm(middle * width) @ grown
         now = float(np.linalg.norm(scale[:, None] * grown / scale, 2))
+        if now < _DEAD:
+            now, grown = _DEAD, _DEAD * np.eye(12)
         factor.append(size + float(np.log(now)))
         if now > 1e6 or now < 1e-6:  # else it would overflow after some hundred e-foldings
             size, grown = size + float(np.log(now)), grown / now

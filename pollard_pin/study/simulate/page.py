@@ -7,9 +7,8 @@ import numpy as np
 from pollard_pin.report.drawn.view import colour_of_part
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from pollard_pin.study.simulate.curves import plots
-from pollard_pin.study.simulate.document import Simulation, parameters
+from pollard_pin.study.simulate.result import Simulation
 from pollard_pin.study.simulate.tables import criteria_table, draws_table, how, motors_table
-from pollard_pin.study.simulate.verdict import sentences
 from thesis_pin.pages.drawing import CLOSED, OPEN, closure_items, robot_items
 from thesis_pin.pages.ghost import with_ghost
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
@@ -23,20 +22,20 @@ MOST_SAMPLES = 1201
 def simulation_page(simulation: Simulation) -> bytes:
     """A simulation as one self-contained HTML file."""
     report = simulation.report
-    draws = [draws_table(simulation)] if simulation.draws else []
+    draws = [draws_table(simulation)] if len(simulation.draws) > 1 else []
     return html(
         Page(
             title=f"{report.robot.specification.name.capitalize()}: {report.path.name}, simulated",
             subtitle=f"{report.path.duration:.4g} s, {how(simulation)}",
             good=simulation.passed,
-            verdict=sentences(simulation),
+            verdict=simulation.verdict(),
             tiles=_tiles(simulation),
             plots=plots(simulation),
             tables=[
                 criteria_table(simulation),
                 motors_table(simulation),
                 *draws,
-                *closing_tables(report.assumptions(), parameters(simulation)),
+                *closing_tables(report.assumptions(), simulation.parameters),
             ],
             scene=simulation_scene(simulation),
         )
@@ -52,7 +51,7 @@ def simulation_scene(simulation: Simulation) -> Scene:
     deviation, name = replay.deviation[keep], robot.specification.name.capitalize()
     scene = Scene(
         title=f"{name}, {simulation.report.path.name}, simulated",
-        description=f"Animation of a simulation of {name}. {' '.join(sentences(simulation)[:3])} "
+        description=f"Animation of a simulation of {name}. {' '.join(simulation.verdict()[:3])} "
         "A translucent robot shows the plan.",
         time=replay.time[keep],
         groups=(

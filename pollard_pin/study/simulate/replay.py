@@ -13,7 +13,7 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.study.simulate.conditions import Conditions, Servo, gains
 from pollard_pin.study.simulate.engines import LONGEST, Track, carrier
 from pollard_pin.study.simulate.growth import Growth, felt_inertia, growth
-from pollard_pin.study.simulate.reference import Stretch, stretches
+from pollard_pin.study.simulate.planned import Stretch, stretches
 from thesis_pin.errors import BadInput, SingularPose, Unreachable
 from thesis_pin.numeric.arrays import ascending
 from thesis_pin.numeric.workers import silent
@@ -21,6 +21,9 @@ from thesis_pin.tolerances import TOLERANCES
 
 RECORDED = 2001
 """Recorded instants of a replay, at most."""
+
+MOST_STEPS = 20_000_000
+"""Steps of a replay, at most: a quarter of an hour of work."""
 
 _LOOKED_AT = 10.0
 """Places a second at which the growth of errors is worked out, and …"""
@@ -103,7 +106,7 @@ def prepare(report: TrajectoryReport, conditions: Conditions) -> Prepared:
     """Gains, time step and growth of errors.
 
     Raises:
-        BadInput: The time step is too long for the servos.
+        BadInput: The time step is too long for the servos, or there are too many steps.
     """
     robot, path = report.robot, report.path
     count = int(np.clip(_LOOKED_AT * path.duration, *_PLACES))
@@ -120,6 +123,12 @@ def prepare(report: TrajectoryReport, conditions: Conditions) -> Prepared:
             f"a time step of {step:g} s is too long for these servos, whose fastest mode takes "
             f"{1 / grown.fastest:.1e} s",
             remedy=f"Take at most {_RESOLVED / grown.fastest:.1e} s, or softer servos",
+        )
+    if path.duration / step > MOST_STEPS:
+        raise BadInput(
+            f"{path.duration:g} s in steps of {step:.2g} s are {path.duration / step:.2g} steps",
+            allowed=f"at most {MOST_STEPS:,}",
+            remedy="Take longer steps, softer servos or a shorter path",
         )
     return Prepared(servo, path.duration / math.ceil(path.duration / step - 1e-9), grown)
 

@@ -1,154 +1,224 @@
-"""What a replay comes to: criteria, each met or not and why, and robots with drawn errors."""
+"""A simulated path: its replays, its verdict, its documents."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from pollard_pin.report.document import TrajectoryReport
-from pollard_pin.specification import ACTUATOR_SYMBOLS
+from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, LINK_NAMES
 from pollard_pin.study.simulate.conditions import Conditions
+from pollard_pin.study.simulate.measures import Measures
 from pollard_pin.study.simulate.replay import Prepared, Replay
+from pollard_pin.study.simulate.verdict import (
+    NAMES,
+    Criterion,
+    criteria,
+    draws_sentences,
+    passes,
+    reason,
+    sentences,
+)
 from thesis_pin.tolerances import TOLERANCES
+from thesis_pin.version import __version__
+
+SCHEMA = "pollard-pin/simulation"
+VERSION = 1
+
+QUANTILES = (0.05, 0.5, 0.95)
+"""Of draws, in summaries."""
 
 
 @dataclass(frozen=True)
-class Criterion:
-    """One thing that has to hold.
-
-    Attributes:
-        name: Short.
-        value, limit: In ``unit``.
-        unit: Of both.
-        met: Whether it holds.
-        said: The same in a sentence.
-    """
-
-    name: str
-    value: float
-    limit: float
-    unit: str
-    met: bool
-    said: str
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """One robot with drawn errors, and how it did.
-
-    Attributes:
-        mass_scale: Of the nine bodies, shape ``(9,)``.
-        zero: By how much each servo reads too much [rad], shape ``(6,)``.
-        deviation: Largest of the spray tip [m].
-        turn: Largest of the tool [rad].
-        ended: When [s], and why before the path did.
-        failed: Names of criteria that aren't met.
-    """
-
-    mass_scale: np.ndarray
-    zero: np.ndarray
-    deviation: float
-    turn: float
-    ended: tuple[float, str]
-    failed: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """The numbers of a replay.
+class Simulation:
+    """What became of a path in an engine.
 
     Attributes:
         report: The plan.
-        conditions: What was asked for.
+        conditions: What it was tried under.
         prepared: Gains, time step, growth of errors.
-        replay: The replay; of several draws, of the first.
-        draws: Each drawn robot; empty where none was asked for.
+        replay: What the robot did in the first draw.
+        draws: All draws in numbers, in their order.
+        engine: Name and version of the engine.
     """
 
     report: TrajectoryReport
     conditions: Conditions
     prepared: Prepared
     replay: Replay
-    draws: tuple[Drawn, ...] = ()
-
-    @property
-    def criteria(self) -> tuple[Criterion, ...]:
-        """What has to hold, of the replay shown."""
-        return tuple(criteria(self.replay))
+    draws: tuple[Measures, ...]
+    engine: str
 
     @property
     def passed(self) -> bool:
-        """Whether everything holds, in every draw."""
-        if self.draws:
-            return not any(one.failed for one in self.draws)
-        return all(one.met for one in self.criteria)
+        """Whether every draw keeps all that is asked."""
+        return all(passes(one) for one in self.draws)
+
+    @property
+    def within_limits(self) -> bool:
+        """The same, by the name that all reports have."""
+        return self.passed
+
+    @property
+    def criteria(self) -> tuple[Criterion, ...]:
+        """What is asked of the first draw, with its answers."""
+        return criteria(self.draws[0])
+
+    @property
+    def reason(self) -> str | None:
+        """Why the tool leaves its path in the first draw, where errors that grow explain it."""
+        return reason(self.draws[0], self.prepared.growth, self.replay.slope)
+
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed: what the report asks."""
+        return self.report.doubts()
+
+    def verdict(self) -> list[str]:
+        """The answer in plain sentences, the most important first."""
+        draws, duration = len(self.draws), self.report.path.duration
+        does = "does" if self.passed else "doesn't do"
+        among = f" in {draws} draws" if draws > 1 else ""
+        said = [
+            f"{'PASS' if self.passed else 'FAIL'}: the simulated robot {does} what its plan "
+            f"says{among}."
+        ]
+        why = [] if self.reason is None else [self.reason]
+        if draws > 1:
+            worst = max(range(draws), key=lambda k: self.draws[k].deviation[0])
+            of_worst = [f"Draw {worst}: {one}" for one in sentences(self.draws[worst], duration)]
+            return [*said, *draws_sentences(self.draws), *of_worst, *why]
+        kept = [one.words for one in self.criteria if one.met]
+        return [*said, *sentences(self.draws[0], duration), *why, *kept]
+
+    def summary(self) -> dict[str, object]:
+        """The verdict, criterion by criterion, peaks, growth of errors, draws in quantiles."""
+        first, grown, replay = self.draws[0], self.prepared.growth, self.replay
+        tries = [criteria(one) for one in self.draws]
+        return {
+            "passed": self.passed,
+            "verdict": self.verdict(),
+            "reason": self.reason,
+            "criteria": [vars(one) for one in self.criteria],
+            "draws": len(self.draws),
+            "draws_passed": sum(all(one.met for one in each) for each in tries),
+            "kept": {
+                name: sum(one.met for each in tries for one in each if one.name == name)
+                for name in NAMES
+            },
+            "quantiles": {
+                "of": list(QUANTILES),
+                **{name: np.quantile(values, QUANTILES) for name, values in self.spread.items()},
+            },
+            "energy": {
+                "work": float(replay.work[-1].sum()),
+                "change": float(replay.energy[-1]),
+                "exchanged": first.exchanged,
+                "error": float(np.abs(replay.energy_error).max()),
+                "relative_error": first.energy_error,
+            },
+            "growth": {
+                "rate": float(grown.rate.max()),
+                "e_foldings": float(grown.factor[-1]),
+                "seen": replay.slope,
+                "horizon": grown.horizon(TOLERANCES.replay_deviation),
+            },
+            "planned_peak_torque": self.report.actuators.peak_torque,
+            "report_within_limits": self.report.within_limits,
+        }
+
+    @property
+    def spread(self) -> dict[str, list[float]]:
+        """What draws differ in: name → value of each."""
+        return {
+            "deviation": [one.deviation[0] for one in self.draws],
+            "turn": [one.turn[0] for one in self.draws],
+            "saturated": [float(one.saturated.max()) for one in self.draws],
+            "peak_torque": [float(one.peak_torque.max()) for one in self.draws],
+        }
+
+    @property
+    def parameters(self) -> dict[str, object]:
+        """What was asked for, and what was chosen."""
+        report, conditions, servo = self.report, self.conditions, self.prepared.servo
+        damping = "critical" if conditions.damping is None else "asked for"
+        return {
+            "robot": report.robot.specification.name,
+            **report.path.parameters,
+            "branch": str(report.branch),
+            "inertia": report.robot.inertia,
+            "engine": self.engine,
+            "control": "open loop" if conditions.open_loop else "joint servos",
+            "servo_stiffness": servo.stiffness,
+            "servo_damping": servo.damping,
+            "servo_damping_choice": None if conditions.open_loop else damping,
+            "torque_limit": servo.limit,
+            "servo_zero_error": conditions.servo_zero_error,
+            "mass_error": conditions.mass_error,
+            "draws": conditions.draws,
+            "seed": conditions.seed,
+            "time_step": self.prepared.time_step,
+            "thesis_pin": __version__,
+        }
+
+    def document(self) -> dict[str, object]:
+        """The simulation as JSON-ready data; see docs/simulation.md."""
+        replay = self.replay
+        return {
+            "schema": SCHEMA,
+            "version": VERSION,
+            "actuators": list(ACTUATOR_NAMES),
+            "actuator_symbols": list(ACTUATOR_SYMBOLS),
+            "joints": list(JOINT_NAMES),
+            "parameters": self.parameters,
+            "summary": self.summary(),
+            "draws": [_draw(k, one) for k, one in enumerate(self.draws)],
+            "time": replay.time,
+            "theta": replay.q,
+            "theta_rate": replay.v,
+            "planned_theta": replay.planned,
+            "torque": replay.torque,
+            "deviation": replay.deviation,
+            "turn": replay.turn,
+            "opening": replay.opening,
+            "work": replay.work,
+            "energy_change": replay.energy,
+        }
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """The first draw's samples as columns of a table: name with unit → values."""
+        replay = self.replay
+        found: dict[str, np.ndarray] = {
+            "time_s": replay.time,
+            "deviation_m": replay.deviation,
+            "turn_rad": replay.turn,
+            "opening_m": replay.opening,
+            "energy_change_J": replay.energy,
+        }
+        for prefix, names, values, unit in (
+            ("theta", JOINT_NAMES, replay.q, "rad"),
+            ("theta_rate", JOINT_NAMES, replay.v, "rad_s"),
+            ("planned_theta", JOINT_NAMES, replay.planned, "rad"),
+            ("torque", ACTUATOR_NAMES, replay.torque, "Nm"),
+            ("work", ACTUATOR_NAMES, replay.work, "J"),
+        ):
+            for k, name in enumerate(names):
+                found[f"{prefix}_{name}_{unit}"] = values[:, k]
+        return found
 
 
-def criteria(replay: Replay) -> Iterator[Criterion]:
-    """What has to hold of a replay."""
-    limits, whole = TOLERANCES, not replay.ended[1]
-    value, time = replay.peak_deviation
-    left = replay.left
-    met = value <= limits.replay_deviation and whole
-    yield Criterion(
-        "deviation",
-        value,
-        limits.replay_deviation,
-        "m",
-        met,
-        f"The spray tip stays within {value * 1e3:.3g} mm of its path (t = {time:.3f} s)."
-        if met
-        else f"The spray tip leaves its path by 1 mm at t = {left:.3f} s, "
-        f"at most by {value * 1e3:.3g} mm."
-        if left is not None
-        else f"The spray tip stays within {value * 1e3:.3g} mm of its path, but not to its end.",
-    )
-    value, time = replay.peak_turn
-    met = value <= limits.replay_turn
-    yield Criterion(
-        "turn",
-        value,
-        limits.replay_turn,
-        "rad",
-        met,
-        f"The tool turns {'at most' if met else 'up to'} {np.degrees(value):.3g}° from its planned "
-        f"orientation (t = {time:.3f} s)"
-        + ("." if met else f"; allowed are {np.degrees(limits.replay_turn):.2g}°."),
-    )
-    value, time = replay.peak_opening
-    met = value <= limits.replay_opening
-    yield Criterion(
-        "opening",
-        value,
-        limits.replay_opening,
-        "m",
-        met,
-        f"The ball joints {'stay closed' if met else 'open'} to {value:.1e} m (t = {time:.3f} s)"
-        + ("." if met else f"; allowed are {limits.replay_opening:.0e} m: take shorter steps."),
-    )
-    value = replay.relative_energy_error
-    met = value <= limits.replay_energy
-    yield Criterion(
-        "energy",
-        value,
-        limits.replay_energy,
-        "",
-        met,
-        f"The motors' work and the change of kinetic and potential energy differ by {value:.1e} of "
-        f"the {replay.exchanged:.3g} J exchanged"
-        + ("." if met else f"; allowed are {limits.replay_energy:.0e}: take shorter steps."),
-    )
-    share = float(replay.saturated.max())
-    motor = ACTUATOR_SYMBOLS[int(replay.saturated.argmax())]
-    yield Criterion(
-        "saturation",
-        share,
-        0.0,
-        "",
-        share == 0,
-        "No motor reaches its largest torque."
-        if share == 0
-        else f"{motor} is at its largest torque {share:.2%} of the time.",
-    )
+def _draw(number: int, found: Measures) -> dict[str, object]:
+    peaks = {name: getattr(found, name) for name in ("deviation", "turn", "opening")}
+    return {
+        "draw": number,
+        "criteria": {one.name: one.met for one in criteria(found)},
+        "mass_scale": dict(zip(LINK_NAMES, found.mass_scale.tolist(), strict=True)),
+        "servo_zero": found.servo_zero,
+        **{name: {"largest": value, "time": time} for name, (value, time) in peaks.items()},
+        "energy_error": found.energy_error,
+        "peak_torque": found.peak_torque,
+        "saturated": found.saturated,
+        "left_path": found.left,
+        "ended": found.ended[0],
+        "why": found.ended[1] or None,
+    }

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
-from pollard_pin.study.simulate.result import Outcome
-from pollard_pin.study.simulate.verdict import sentences
+from pollard_pin.study.simulate.result import Simulation
 from thesis_pin.report.tables import Part, Table
 
 ENGINE_WORDS = {
@@ -17,14 +16,14 @@ ENGINE_WORDS = {
 }
 
 
-def how(simulation: Outcome) -> str:
+def how(simulation: Simulation) -> str:
     """Engine, step and control in a line."""
     conditions, step = simulation.conditions, simulation.prepared.time_step
     control = "open loop" if conditions.open_loop else "under joint servos"
     return f"{ENGINE_WORDS[conditions.engine]}, steps of {step * 1e3:.4g} ms, {control}"
 
 
-def motors_table(simulation: Outcome) -> Table:
+def motors_table(simulation: Simulation) -> Table:
     """Of every motor: gains, torque beside the plan's, time at its limit."""
     replay, servo = simulation.replay, simulation.prepared.servo
     columns = {
@@ -40,10 +39,10 @@ def motors_table(simulation: Outcome) -> Table:
     return Table.of("Motors", columns)
 
 
-def criteria_table(simulation: Outcome) -> Table:
+def criteria_table(simulation: Simulation) -> Table:
     """What has to hold."""
     columns = {
-        "criterion": [one.name for one in simulation.criteria],
+        "criterion": [str(one.name) for one in simulation.criteria],
         "value": [f"{one.value:.3g} {one.unit}" for one in simulation.criteria],
         "limit": [f"{one.limit:g} {one.unit}" for one in simulation.criteria],
         "": ["met" if one.met else "not met" for one in simulation.criteria],
@@ -51,21 +50,24 @@ def criteria_table(simulation: Outcome) -> Table:
     return Table.of("Criteria", columns)
 
 
-def draws_table(simulation: Outcome) -> Table:
+def draws_table(simulation: Simulation) -> Table:
     """How drawn robots do, in quantiles."""
+    units = {
+        "deviation": ("mm", 1e3),
+        "turn": ("°", np.degrees(1.0)),
+        "saturated": ("%", 1e2),
+        "peak_torque": ("N·m", 1.0),
+    }
     rows = []
-    for name, unit, values in (
-        ("largest deviation", "mm", [1e3 * one.deviation for one in simulation.draws]),
-        ("largest turn", "°", [np.degrees(one.turn) for one in simulation.draws]),
-        ("heaviest body", "×", [one.mass_scale.max() for one in simulation.draws]),
-    ):
-        levels = np.quantile(values, [0, 0.25, 0.5, 0.75, 1])
-        rows.append((f"{name} [{unit}]", *(f"{value:.4g}" for value in levels)))
+    for name, values in simulation.spread.items():
+        unit, factor = units[name]
+        levels = np.quantile(values, (0, 0.25, 0.5, 0.75, 1)) * factor
+        rows.append((f"{name.replace('_', ' ')} [{unit}]", *(f"{v:.3f}" for v in levels)))
     heads = ("of the draws", "least", "quarter", "half", "three quarters", "largest")
     return Table(f"{len(simulation.draws)} robots with drawn errors", heads, rows)
 
 
-def summary(simulation: Outcome) -> Iterator[Part]:
+def summary(simulation: Simulation) -> Iterator[Part]:
     """A simulation in a table and paragraphs."""
     report = simulation.report
     table = motors_table(simulation)
@@ -75,10 +77,10 @@ def summary(simulation: Outcome) -> Iterator[Part]:
         ("motor", *table.columns[2:]),
         [row[1:] for row in table.rows],
     )
-    if simulation.draws:
+    if len(simulation.draws) > 1:
         yield draws_table(simulation)
     yield ""
-    yield from sentences(simulation)
+    yield from simulation.verdict()
     if not simulation.conditions.open_loop and simulation.conditions.damping is None:
         yield "Damping wasn't given: it is critical for the inertia each motor feels at the start."
     if simulation.conditions.engine == "mujoco":

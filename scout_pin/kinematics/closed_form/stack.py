@@ -173,7 +173,8 @@ class ClosedForm:
         c_4 *= 1.0 / (2.0 * x_3 * x_4)
         if bent is not None:
             c_4 = bent(c_4)
-        np.clip(c_4, -1.0, 1.0, out=c_4)
+        np.minimum(c_4, 1.0, out=c_4)
+        np.maximum(c_4, -1.0, out=c_4)
         knee, s_4 = np.arccos(c_4), np.sqrt(1.0 - c_4 * c_4)
         thigh = np.arctan2(s_4 * x_4, c_4 * x_4 + x_3)
         np.sqrt(gap, out=gap)

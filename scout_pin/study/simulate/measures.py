@@ -63,6 +63,8 @@ class Measures:
         slips: Of every stance of every foot, in the order of their landings.
         tilt, tilt_time: Farthest that the torso tips from the plan, and when.
         tips_at: When it first tips farther than ``walked_tilt``; None if it never does.
+        line: Largest share of each servo's torque-speed line that the plan takes, its rotor
+            counted, ``(12,)``.
         saturated: Share of steps in which each servo gave all it has, ``(12,)``.
         peak_torque: Of each joint [N·m], ``(12,)``.
         meet: First time at which the soles touch each other; None if they never do.
@@ -77,6 +79,7 @@ class Measures:
     tilt: float
     tilt_time: float
     tips_at: float | None
+    line: np.ndarray
     saturated: np.ndarray
     peak_torque: np.ndarray
     meet: float | None
@@ -119,6 +122,7 @@ def measures(robot: Scout, plan: Planned, walked: Walked) -> Measures:
         float(tilt.max()),
         float(plan.time[tilt.argmax()]),
         float(plan.time[tips[0]]) if tips.size else None,
+        plan.line,
         walked.saturated,
         walked.peak_torque,
         float(plan.time[meets[0]]) if meets.size else None,
@@ -143,13 +147,14 @@ def turns(plan: Planned, walked: Walked) -> tuple[np.ndarray, np.ndarray]:
 def _slips(robot: Scout, plan: Planned, walked: Walked) -> list[Slip]:
     """Every stance of every foot, and what of the swings beside it is near the floor."""
     weight = robot.mass * GRAVITY
-    found = []
+    begin, last, found = 0.0, plan.duration - 1e-9, []
     for number, side in enumerate(SIDES):
         corners = sole_corners(hull(robot, side), walked.soles[number])[..., :2]
         spans = plan.stances[number]
         for k, (start, end) in enumerate(spans):
-            low = -1e-9 if k == 0 else (spans[k - 1][1] + start) / 2
-            high = np.inf if k == len(spans) - 1 else (spans[k + 1][0] + end) / 2
+            low = ((spans[k - 1][1] if k else begin) + start) / 2 if start > begin else -1e-9
+            later = spans[k + 1][0] if k + 1 < len(spans) else last
+            high = (later + end) / 2 if end < last else np.inf
             inside = (plan.time >= low) & (plan.time <= high)
             inside &= plan.low[number] <= TOLERANCES.raised  # higher up, it stumbles
             loaded = np.flatnonzero(inside & (walked.load[number] > TOLERANCES.bearing * weight))

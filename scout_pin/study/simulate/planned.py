@@ -46,6 +46,9 @@ class Planned:
         feet: Planned places of both soles, left then right, ``(2, n, 3)``.
         low: Planned height of each sole's lowest corner [m], ``(2, n)``.
         torque: Planned torques [N·m], ``(n, 12)``.
+        line: Largest share of each servo's torque-speed line that the plan takes, its rotor
+            counted, ``(12,)``.
+        duration: How long the gait takes [s].
         stances: Of each foot, planned times [s] from landing to lift-off.
     """
 
@@ -60,6 +63,8 @@ class Planned:
     feet: np.ndarray
     low: np.ndarray
     torque: np.ndarray
+    line: np.ndarray
+    duration: float
     stances: tuple[tuple[tuple[float, float], ...], ...]
 
 
@@ -89,10 +94,15 @@ def planned(report: GaitReport, conditions: Conditions) -> Planned:
     motion = gait.sample(t, unit)
     joints = joint_trajectory(robot, motion, branch=report.branch, reference=gait.reference)
     commands, torque = np.empty((steps + 1, 12)), np.empty((steps + 1, 12))
+    line, rotor = np.zeros(12), rotors(robot, conditions) - robot.specification.armature()
     for part in blocks(steps + 1):
         some = joints.part(part)
         torque[part] = inverse_dynamics(robot, motion.part(part), some).torque
         commands[part] = _commands(report, conditions, some, torque[part])
+        given = torque[part] + rotor * some.a
+        # Against its turning a servo gives at any speed what it gives at rest.
+        ahead = np.maximum(np.sign(given) * some.v, 0.0) / robot.no_load_speed
+        line = np.maximum(line, (np.abs(given) / robot.stall_torque + ahead).max(axis=0))
     before = _count(step) if report.ends.start.rests else 0
     after = _count(step) if report.ends.end.rests else 0
     stands = [_standing(report, conditions, motion, joints, k) for k in (0, steps)]
@@ -125,6 +135,8 @@ def planned(report: GaitReport, conditions: Conditions) -> Planned:
         np.stack([foot.position for foot in feet]),
         np.stack(corners),
         torque[index],
+        line,
+        seconds,
         tuple(tuple(_stances(report, side)) for side in SIDES),
     )
 

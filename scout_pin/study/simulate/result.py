@@ -129,6 +129,7 @@ class Simulation:
             },
             "planned_distance": self.draws[0].planned_distance,
             "planned_peak_torque": self.planned_peak,
+            "planned_line": self.plan.line,
             "report_within_limits": self.report.within_limits,
         }
 

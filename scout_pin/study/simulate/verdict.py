@@ -122,11 +122,12 @@ def _torque(found: Measures) -> Criterion:
     worst = int(found.saturated.argmax())
     if found.saturated[worst] == 0:
         return Criterion("torque", True, "No servo ever gives all it has.")
-    share = found.saturated[worst]
     return Criterion(
         "torque",
         False,
-        f"The servo of {JOINT_NAMES[worst]} gives all it has for {share:.2%} of the time.",
+        f"The servo of {JOINT_NAMES[worst]} gives all it has for {found.saturated[worst]:.2%} of "
+        f"the time; the plan, its rotor counted, takes {found.line[worst]:.0%} of its torque-speed "
+        "line.",
     )
 
 

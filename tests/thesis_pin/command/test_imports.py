@@ -2,11 +2,9 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
 HEAVY = ("scipy", "matplotlib", "yourdfpy", "plotly")
 
 
@@ -14,10 +12,7 @@ HEAVY = ("scipy", "matplotlib", "yourdfpy", "plotly")
     "command",
     [
         "scout_pin.cli gait --samples 11",
-        f"scout_pin.cli gait --samples 41 --specification {EXAMPLES / 'lopsided.toml'} "
-        f"--gait {EXAMPLES / 'lopsided_walk.toml'}",
         "pollard_pin.cli trajectory --samples 11",
-        "pollard_pin.cli trajectory --samples 11 --html page.html",
     ],
 )
 def test_a_command_works_without_what_is_heavy(tmp_path, command):
@@ -31,4 +26,4 @@ def test_a_command_works_without_what_is_heavy(tmp_path, command):
         [sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, check=True
     )
     assert ran.stderr.endswith("left []")
-    assert ran.stdout or list(tmp_path.iterdir())
+    assert ran.stdout

@@ -53,7 +53,7 @@ def test_energy_closes_and_loops_stay_closed_at_several_time_steps(default_repor
     assert done.prepared.time_step == pytest.approx(step)
     assert done.replay.exchanged > 1.0
     for name in ("energy", "opening"):
-        assert criterion(done, name).met, criterion(done, name).said
+        assert criterion(done, name).met, criterion(done, name).words
     assert done.replay.relative_energy_error < 3e-8
     assert done.replay.peak_opening[0] < 1e-7
 
@@ -83,7 +83,7 @@ def test_an_integrator_that_loses_energy_fails_by_it(short_report, held, monkeyp
     done = simulate_path(short_report, held())
     assert not done.passed
     assert [one.name for one in done.criteria if not one.met] == ["energy"]
-    assert any("take shorter steps" in one for one in done.verdict())
+    assert any("Take shorter steps" in one for one in done.verdict())
 
 
 @BOTH
@@ -127,7 +127,7 @@ def test_a_motor_that_is_too_weak_is_named_and_fails(short_report, held, engine)
     assert not done.passed
     one = criterion(done, "saturation")
     assert not one.met
-    assert one.said.startswith("θ21 is at its largest torque")
+    assert one.words.startswith("θ21 is at its largest torque")
     assert done.replay.saturated[0] > 0.01
     assert np.abs(done.replay.torque[:, 0]).max() == pytest.approx(effort[0])
 

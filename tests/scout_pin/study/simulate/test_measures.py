@@ -39,6 +39,8 @@ def case(scout):
         feet=feet,
         low=feet[..., 2],
         torque=np.full((COUNT, 12), 0.1),
+        line=np.full(12, 0.9),
+        duration=2.0,
         stances=(((0.0, 2.0),), ((0.0, 0.5), (1.5, 2.0))),
     )
     soles = np.broadcast_to(np.eye(4), (2, COUNT, 4, 4)).copy()
@@ -143,7 +145,8 @@ def test_servos_at_their_limit_and_soles_that_meet_fail_with_amount_and_time(cas
     found = measures(robot, plan, replace(walked, saturated=full, meeting=meeting))
     assert failing(found) == {"torque", "soles"}
     assert sentences(found) == [
-        "The servo of right_knee_pitch gives all it has for 1.23% of the time.",
+        "The servo of right_knee_pitch gives all it has for 1.23% of the time; the plan, its rotor "
+        "counted, takes 90% of its torque-speed line.",
         "The soles touch each other at t = 0.6 s.",
     ]
 
@@ -169,3 +172,12 @@ def test_what_is_to_stay_may_stray_by_two_millimetres(case, strays, met):
     assert found.planned_distance == 0.0
     assert found.distance == pytest.approx(strays)
     assert ("distance" not in failing(found)) == met
+
+
+def test_a_foot_that_lands_where_the_gait_ends_does_not_slip_by_its_step(case):
+    """And one that begins in the air doesn't slip from where it was."""
+    robot, plan, walked = case
+    landing = replace(plan, stances=(plan.stances[0], ((0.0, 0.5),)), duration=1.5)
+    assert measures(robot, landing, walked).worst_slip.distance < 1e-12
+    leaving = replace(plan, stances=(plan.stances[0], ((1.5, 2.0),)))
+    assert measures(robot, leaving, walked).worst_slip.distance < 1e-12

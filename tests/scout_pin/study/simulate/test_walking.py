@@ -120,3 +120,15 @@ def test_too_many_steps_are_refused_before_any_is_taken(report_of, monkeypatch):
     monkeypatch.setattr("scout_pin.study.simulate.planned.MOST_STEPS", 100)
     with pytest.raises(BadInput, match="steps"):
         simulate_gait(report_of("squat"), Conditions())
+
+
+def test_the_share_of_the_line_counts_rotors_and_only_the_way_a_servo_pushes(report_of):
+    from scout_pin.study.simulate.world import rotors
+
+    report = report_of("walk", 0.05)
+    conditions = Conditions(time_step=STEP, armature=2e-3)
+    joints, torque, robot = report.joints, report.dynamics.torque, report.robot
+    given = torque + rotors(robot, conditions) * joints.a
+    share = np.abs(given) / robot.stall_torque
+    share += np.where(given * joints.v > 0, np.abs(joints.v), 0.0) / robot.no_load_speed
+    np.testing.assert_allclose(planned(report, conditions).line, share.max(axis=0), rtol=2e-2)
