@@ -87,6 +87,8 @@ MAKERS = {
     "LegSolutions": lambda: scout_pin.load().leg_inverse_kinematics("left", STANDING),
     "Contact": lambda: scout_pin.load().contacts[0],
     "GaitReport": gait_report,
+    "Plan": lambda: scout_pin.plan_gait(scout_pin.load(), steps=1),
+    "PlanRequest": lambda: scout_pin.PlanRequest(speed=0.05, margin=0.004),
     "Simulation": simulation,
     "ToolPath": pollard_pin.appendix_b,
     "ToolPath of segments": lambda: pollard_pin.load_path(ROOT / "examples" / "spray_arch.toml"),
