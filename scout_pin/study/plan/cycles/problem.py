@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -116,9 +117,21 @@ class CycleProblem:
         """
         moments, pace = moments or self.moments, self.pace(known)
         u = moments.times(pace.share)
-        footing = Footing.of(self.robot, self.steps.feet(moments, pace), moments.support)
+        footing = self._footing(moments, pace)
         jets = self.jets(known, self.cyclic.basis(u), u)
         return self.limits.excess(self.robot, self.sampler(jets, footing, slopes=slopes))
+
+    def _footing(self, moments: Moments, pace: Pace) -> Footing:
+        """The feet; their support polygons are kept, for only the length of steps changes them."""
+        feet, key = self.steps.feet(moments, pace), (id(moments), pace.step_length)
+        if key not in self._kept:
+            self._kept.clear()
+            self._kept[key] = moments, Footing.of(self.robot, feet, moments.support)
+        return replace(self._kept[key][1], feet=feet)
+
+    @cached_property
+    def _kept(self) -> dict[tuple[int, float], tuple[Moments, Footing]]:
+        return {}
 
     def checked(self, known: Unknowns, moments: Moments) -> dict[str, Sloped]:
         """:meth:`excess` anywhere, without slopes and with that of the posture itself."""
@@ -157,7 +170,7 @@ class Descending:
         known = problem.unpacked(x, self.step_length)
         rest, of = self._bounds(x, known)
         # A pace that can't be has no samples: they are taken at the nearest that can.
-        inside = _inside(known)
+        inside = inside_pace(known)
         excess = problem.excess(inside, slopes=slopes)
         values = [rest]
         active = {
@@ -231,7 +244,8 @@ class Descending:
         return np.array(values), matrix
 
 
-def _inside(known: Unknowns) -> Unknowns:
+def inside_pace(known: Unknowns) -> Unknowns:
+    """The nearest whose pace has samples: a search may try others on its way."""
     return replace(
         known,
         share=float(np.clip(known.share, 0.02, 0.8)),

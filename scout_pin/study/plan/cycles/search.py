@@ -11,7 +11,13 @@ from scout_pin.kinematics.branches import taken_branches
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.cycles.feet import Moments, Pace, Steps
-from scout_pin.study.plan.cycles.problem import CycleProblem, Descending, Unknowns, bounds
+from scout_pin.study.plan.cycles.problem import (
+    CycleProblem,
+    Descending,
+    Unknowns,
+    bounds,
+    inside_pace,
+)
 from scout_pin.study.plan.cycles.splines import Cyclic
 from scout_pin.study.plan.cycles.starts import SHARE, STARTS, Build, starts
 from scout_pin.study.plan.cycles.symmetry import mirrored
@@ -34,6 +40,7 @@ _ENOUGH = 2e-4  # cost of which no more than a third of the back-off is used up
 _ROUNDS = 4  # of adding samples where the check finds more
 _ADDED = 12
 _TRIED = 30  # steps of a first attempt
+_STUCK, _SLOW = 0.1, 0.02  # gain of five of them below which they end
 _LONGER = 90  # and of the best ones'
 _HOPELESS = 3  # starts, none of which gets near
 FAR = 0.5
@@ -112,7 +119,7 @@ class Search:
         free = request.free_length
         return CycleProblem(
             self.sampler,
-            self.steps,
+            Steps.of(self.sampler.robot, request),
             self.cyclic,
             Moments.even(self.cyclic.steps, _DOUBLE, _SINGLE),
             Limits.of(self.sampler.robot, request),
@@ -150,7 +157,7 @@ class Search:
         for left in reversed(range(_ROUNDS)):
             descent = self._descended(problem, known, length, most)
             steps += descent.iterations
-            known = problem.unpacked(descent.x, length)
+            known = inside_pace(problem.unpacked(descent.x, length))
             excess = problem.checked(known, CHECKED)
             found = Candidate(request, problem, known, excess, steps)
             counted = [one.value.max(axis=1) for kind, one in excess.items() if kind in held]
@@ -168,7 +175,8 @@ class Search:
         self, problem: CycleProblem, known: Unknowns, length: float, most: int
     ) -> Descent:
         descending = Descending(problem, length)
-        return descend(descending, problem.packed(known), most=most, enough=_ENOUGH)
+        start, slow = problem.packed(known), _STUCK if most <= _TRIED else _SLOW
+        return descend(descending, start, most=most, slow=slow, enough=_ENOUGH)
 
     def first(self, request: PlanRequest) -> Candidate:
         """A cycle that keeps a request's limits, else the one that passes them least."""
