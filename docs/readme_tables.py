@@ -31,6 +31,10 @@ def gaits() -> Iterator[str]:
         ("thesis", None),
         (examples / "walk.toml", None),
         (examples / "lopsided_walk.toml", examples / "lopsided.toml"),
+        (examples / "quasi_static.toml", None),
+        (examples / "cruise.toml", None),
+        (examples / "fast.toml", None),
+        (examples / "lopsided_plan.toml", examples / "lopsided.toml"),
     ):
         robot = scout_pin.load(specification)
         report = scout_pin.gait_report(robot, scout_pin.load_gait(gait))

@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Sequence
 from functools import partial
 
+from scout_pin.cli.walks import which_walk
 from thesis_pin.command import common, options
 from thesis_pin.command.options import add_branch, add_json, add_simulation, count, number
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
@@ -232,6 +233,18 @@ COMMAND = Command(
             _which_pose,
         ),
         common.info_verb(ROBOT, "info --specification examples/lopsided.toml"),
+        Verb(
+            "plan",
+            "a gait that the robot can walk, from rest to rest",
+            "Plan a walk within limits of margin, torque, speed and posture, and judge it.",
+            "plan --step-length 30 --margin 10 --steps 4 --out my_walk",
+            "scout_pin.study.plan.planning:plan_gait",
+            "scout_pin.verbs.planned:plan",
+            (
+                partial(options.add_robot, another=ROBOT.another),
+                partial(which_walk, branch=_branch),
+            ),
+        ),
         Verb(
             "new",
             "a biped of your own, and a first gait for it",

@@ -12,6 +12,7 @@ ROOT = Path(__file__).parents[2]
 VERBS = {
     "scout": (
         ["gait"],
+        ["plan"],
         ["size", "examples/servos.csv"],
         ["simulate"],
         ["new", "my_biped.toml"],

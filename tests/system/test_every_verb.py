@@ -18,6 +18,7 @@ from thesis_pin.command.registry import found
 SEEN = {
     "gait": {"--out", "--html"},
     "trajectory": {"--out", "--html"},
+    "plan": {"--out", "--html"},
     "view": {"--html"},
     "workspace": {"--out"},
     "thesis-pin workspace": {"--out", "--html"},

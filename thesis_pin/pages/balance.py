@@ -49,7 +49,9 @@ def _tiles(report: BalanceReport) -> list[Tile]:
         tiles.append(Tile("least margin", f"{least * 1e3:.3g} mm", good))
     if report.slides:
         fastest = max(one.speed for one in report.slides)
-        tiles.append(Tile("feet slide at up to", f"{fastest:.3g} m/s", False))
+        sure = any(one.certain for one in report.slides)
+        word = "feet slide at up to" if sure else "feet may slide, at up to"
+        tiles.append(Tile(word, f"{fastest:.3g} m/s", False if sure else None))
     most = max(report.peak_friction)
     tiles.append(Tile("friction in use", f"{most:.0%}", most <= 1))
     tiles.append(Tile("largest force on a foot", f"{found.normal_force.max():.4g} N"))

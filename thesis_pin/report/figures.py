@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from thesis_pin.errors import BadInput
 from thesis_pin.report.curves import Plot, condensed
 from thesis_pin.report.plotting.grid import arranged
+from thesis_pin.report.plotting.panel import panel
 from thesis_pin.report.plotting.sheet import DOTS, Sheet, png, svg
 
 if TYPE_CHECKING:
@@ -71,14 +72,13 @@ def panels(rows: Sequence[Sequence[Plot]], width: float, height: float, title: s
     """Plots side by side and one below the other.
 
     Args:
-        rows: Rows of equally many plots.
-        width: Width [inch].
+        rows: Rows of equally many plots; those of a row that name the same things share a legend.
+        width: Width [inch]; it gets wider and higher where axes would vanish.
         height: Height [inch].
         title: Headline above all; empty for none.
     """
-    return arranged(
-        [[condensed(plot, STRETCHES) for plot in row] for row in rows], width, height, title
-    )
+    table = [[panel(condensed(plot, STRETCHES)) for plot in row] for row in rows]
+    return arranged(table, width, height, title)
 
 
 def new_figure(

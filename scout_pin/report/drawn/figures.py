@@ -18,10 +18,10 @@ from thesis_pin.pages.scene import thinned
 from thesis_pin.report.curves import BLACK, Curve, Plot, evenly
 from thesis_pin.report.exchange.movement import exchange_files
 from thesis_pin.report.figures import default_style, figure_files, panels
-from thesis_pin.report.plotting.grid import PAD, placed
+from thesis_pin.report.plotting.grid import arranged
 from thesis_pin.report.plotting.legend import Entry, Legend
 from thesis_pin.report.plotting.panel import Panel
-from thesis_pin.report.plotting.sheet import INCH, Look, Sheet, colour
+from thesis_pin.report.plotting.sheet import Look, Sheet, colour
 
 EXCHANGED = 4001
 """Samples of the joints for other programs, at most."""
@@ -74,10 +74,7 @@ def stick_figures(report: GaitReport, frames: int = 8) -> Sheet:
     legend = Legend(
         [Entry(f"{side} leg", Look(colour(SIDE_COLOURS[side]), 2.0)) for side in SIDES], 2
     )
-    width, height = 1.35 * len(some), 4.2
-    room = legend.height + PAD
-    marks = placed(rows, width, height, floor=room)
-    return Sheet(width, height, [*marks, *legend.marks((width * INCH - legend.width) / 2, room)])
+    return arranged(rows, 1.35 * len(some), 4.2, legend=legend)
 
 
 def _sticks(lines: dict[str, NDArray[np.float64]], moment: int, across: int) -> list[Curve]:

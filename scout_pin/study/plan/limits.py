@@ -6,6 +6,7 @@ margin. Planners press the excess of all samples below zero; :func:`worst` says 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,7 +39,7 @@ class Limits:
         margin: Least distance of the zero-moment point inside the support polygon [m].
         torque: Largest torques [N·m], ``(12,)``.
         rate: Largest rates [rad/s], ``(12,)``.
-        line: Whether |τ|/τ_stall + |θ̇|/ω_no-load ≤ 1 is to hold.
+        line: Largest |τ|/τ_stall + |θ̇|/ω_no-load; infinite if it doesn't matter.
         lower, upper: Of the joints' angles [rad], ``(12,)``.
         knee: Largest size of a knee's cosine.
     """
@@ -46,7 +47,7 @@ class Limits:
     margin: float
     torque: np.ndarray
     rate: np.ndarray
-    line: bool
+    line: float
     lower: np.ndarray
     upper: np.ndarray
     knee: float
@@ -59,7 +60,7 @@ class Limits:
             request.margin,
             (1.0 - request.torque_reserve) * robot.stall_torque,
             (1.0 - request.speed_reserve) * robot.no_load_speed,
-            bool(request.servo_line),
+            1.0 - float(request.line_reserve or 0.0) if request.servo_line else math.inf,
             robot.lower + room,
             robot.upper - room,
             float(np.cos(request.knee)),
@@ -86,8 +87,8 @@ class Limits:
             "contact": found.contact.less(-_SPARE).times(1.0 / _CONTACT),
             "force": found.force.times(-1.0).less(-_LEAST_FORCE),
         }
-        if self.line:
-            result["line"] = found.line(robot).less(1.0)
+        if math.isfinite(self.line):
+            result["line"] = found.line(robot).less(self.line)
         return result
 
 
@@ -183,7 +184,7 @@ def _plain(
         return excess * _CONTACT - _SPARE, -_SPARE
     if kind == "force":
         return _LEAST_FORCE - excess, _LEAST_FORCE
-    return 1.0 + excess, 1.0
+    return limits.line + excess, limits.line
 
 
 def _bounded(posture: np.ndarray, column: int, excess: float) -> tuple[float, float]:

@@ -25,6 +25,9 @@ GAP = 0.012
 """Room between the soles where nobody says how far apart the feet are [m]: servos whose zeros
 are off by a degree bring them nearer by some millimetres."""
 
+LINE_RESERVE = 0.1
+"""Share of the servos' torque-speed line that isn't used, where nobody says."""
+
 _RIGHT_ANGLE = math.pi / 2
 
 
@@ -46,6 +49,8 @@ class PlanRequest:
         speed_reserve: Share of the servos' no-load speed that isn't used.
         servo_line: Whether the servos' torque-speed line |τ|/τ_stall + |θ̇|/ω_no-load ≤ 1 is kept
             too.
+        line_reserve: Share of that line that isn't used; None for 10 %, of the fastest walk for
+            none. Rotors and gears that the specification says nothing of need some of it.
         pitch, roll, yaw: How far the torso may turn either way [rad].
         height: Least and greatest height of the torso's origin [m]; None for 80 to 100 % of that
             in the neutral pose.
@@ -66,6 +71,7 @@ class PlanRequest:
     torque_reserve: float = 0.1
     speed_reserve: float = 0.1
     servo_line: bool = True
+    line_reserve: float | None = None
     pitch: float = math.radians(15.0)
     roll: float = math.radians(15.0)
     yaw: float = math.radians(12.0)
@@ -100,6 +106,10 @@ class PlanRequest:
         if not isinstance(self.servo_line, bool | np.bool_):
             raise BadInput(f"servo_line is {shown(self.servo_line)}", allowed="True or False")
         choice("objective", self.objective, OBJECTIVES)
+        if self.line_reserve is None:
+            usual = 0.0 if self.objective == "fastest" else LINE_RESERVE
+            object.__setattr__(self, "line_reserve", usual)
+        real("line_reserve", self.line_reserve, low=0.0, high=0.95)
         branch_words(self.branch)
         self._check_height()
         self._check_speed()

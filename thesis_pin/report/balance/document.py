@@ -31,10 +31,11 @@ class BalanceReport(BalanceNumbers):
         """Why the motion's samples carry no verdict; None if they do, or it is exact."""
         if self.within_limits is not None:
             return None
-        return verdict.why_not(self) or (
+        motors = (
             "The samples can't carry a verdict on the motors: shares of their limits straddle "
             "100%. Finer samples are needed."
         )
+        return verdict.why_not(self) or verdict.may_slide(self) or motors
 
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""

@@ -15,7 +15,7 @@ from thesis_pin.errors import ThesisPinError
 from thesis_pin.report.torque.drawn import Drawn, Judged, stacked
 from thesis_pin.report.torque.nearby import Way, near_ways
 from thesis_pin.report.uncertainty.numbers import few_draws
-from thesis_pin.smoothing.intervals import Interval, largest_value
+from thesis_pin.smoothing.intervals import SPREAD, Interval, largest_value
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -37,11 +37,13 @@ class JudgedBalance:
     Attributes:
         margin: Of the zero-moment point [m], shape ``(k,)``.
         violation: Largest part of its load that the floor can't give [N·m].
+        speed: Of each foot while it bears load [m/s], ``(k, feet)``; NaN else.
         motors: Torques, speeds and loop forces, one variant.
     """
 
     margin: Array
     violation: float
+    speed: Array
     motors: Judged
 
 
@@ -65,6 +67,16 @@ class DrawnBalance:
         """Between which values the largest violation lies [N·m]; own is the motion's."""
         rival = own if self.rival is None else self.rival.violation
         return largest_value(own, rival, np.array([one.violation for one in self.draws]))
+
+    @property
+    def loose(self) -> Array | None:
+        """What the samples leave open of each foot's speed while it bears load [m/s]."""
+        if len(self.draws) < 2:
+            return None
+        apart = SPREAD * np.std([one.speed for one in self.draws], axis=0, ddof=1)
+        known = np.isfinite(apart)
+        mean = np.nansum(apart**2, axis=0) / np.maximum(known.sum(axis=0), 1)
+        return np.asarray(np.sqrt(mean))
 
     @property
     def few(self) -> bool:
@@ -98,4 +110,5 @@ def drawn(way: Way, extremes: list[int], judge: Judge) -> DrawnBalance | None:
 def _judged(dynamics: FootDynamics, speed: Array) -> JudgedBalance:
     force = np.linalg.norm(dynamics.loops.force, axis=-1)
     motors = Judged(dynamics.torque[None], speed[None], force[None])
-    return JudgedBalance(dynamics.margin, float(dynamics.violation.max()), motors)
+    feet = np.where(dynamics.support, dynamics.stance.speed, np.nan)
+    return JudgedBalance(dynamics.margin, float(dynamics.violation.max()), feet, motors)

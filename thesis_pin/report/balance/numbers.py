@@ -68,7 +68,9 @@ class BalanceNumbers:
     @property
     def balanced(self) -> bool | None:
         """Whether the floor gives it, and no foot that bears load slides; None if open."""
-        return False if self.slides else self.supplied
+        if any(one.certain for one in self.slides):
+            return False
+        return None if self.slides and self.supplied else self.supplied
 
     @property
     def supplied(self) -> bool | None:
@@ -132,8 +134,9 @@ class BalanceNumbers:
 
     @cached_property
     def slides(self) -> tuple[Slide, ...]:
-        """Feet that slide while they bear load; what the floor does to them isn't known."""
-        return slides_of(self.found, self.time, self.resting)
+        """Feet that slide while they bear load, or may; what the floor does to them isn't known."""
+        loose = None if self.drawn is None else self.drawn.loose
+        return slides_of(self.found, self.time, self.resting, loose)
 
     @cached_property
     def off_floor(self) -> tuple[float, ...]:

@@ -54,6 +54,14 @@ def why_not(report: BalanceNumbers) -> str | None:
     )
 
 
+def may_slide(report: BalanceNumbers) -> str | None:
+    """Why nobody can tell whether feet slide; None where that decides nothing."""
+    if report.balanced is not None or not report.supplied:
+        return None
+    names = ", ".join(one.foot for one in report.slides)
+    return f"The samples can't tell whether {names} slides under load. Finer samples are needed."
+
+
 def _balance(report: BalanceNumbers) -> list[str]:
     if report.cause is None:
         if not report.found.support.any():
@@ -73,9 +81,12 @@ def _balance(report: BalanceNumbers) -> list[str]:
 
 def _slides(report: BalanceNumbers) -> str:
     each = "; ".join(one.said() for one in report.slides)
-    alone = len(report.slides) == 1
-    what = "A foot slides while it bears" if alone else "Feet slide while they bear"
-    return f"{what} load: {each}."
+    may = "" if any(one.certain for one in report.slides) else "may "
+    what = f"Feet {may}slide while they bear load"
+    if len(report.slides) == 1:
+        what = f"A foot {may}slide{'' if may else 's'} while it bears load"
+    why = ", or the samples are too coarse for it to rest" if may else ""
+    return f"{what}{why}: {each}."
 
 
 def _causes(report: BalanceNumbers) -> list[str]:

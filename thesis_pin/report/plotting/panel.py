@@ -218,7 +218,7 @@ def _axes(panel: Panel, box: Box) -> Iterator[Mark]:
         beside = box.left - _TICK - _GAP
         for (_, at), label in zip(up, y.labels, strict=True):
             yield Text(beside, float(at) - _ASCENT / 2 * LABEL, label, LABEL, 1.0)
-        yield Text(box.left, box.top + _GAP, y.factor, LABEL)
+        yield Text(box.left - _TICK, box.top + 6.0, y.factor, LABEL, 1.0)
         name = beside - _widest(y) - _SPACE - _DESCENT * LABEL
         yield Text(name, centre, panel.plot.label, LABEL, 0.5, upright=True)
 

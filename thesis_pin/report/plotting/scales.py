@@ -89,6 +89,6 @@ def ticks(low: float, high: float, most: int) -> Ticks:
 
 def _digits(step: float) -> int:
     """How many digits behind the point tell multiples of a round step apart, and say them."""
-    digits = max(0, -math.floor(math.log10(step)))
+    digits = max(0, -math.floor(math.log10(step) + 1e-9))  # of 0.99…, which is 1, none
     whole = step * 10.0**digits
     return digits if abs(whole - round(whole)) < 1e-6 * whole else digits + 1  # 2.5

@@ -129,6 +129,7 @@ def test_a_motor_that_is_too_weak_is_named_and_fails(short_report, held, engine)
     assert not one.met
     assert one.words.startswith("θ21 is at its largest torque")
     assert done.replay.saturated[0] > 0.01
+    assert done.verdict()[1].startswith("The plan asks more than the motors give: θ21 for ")
     assert np.abs(done.replay.torque[:, 0]).max() == pytest.approx(effort[0])
 
 

@@ -1,6 +1,7 @@
 """Balance reports of held poses and of motions from tables, against what is known of them."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pinocchio as pin
@@ -324,6 +325,28 @@ def test_a_foot_that_is_said_to_bear_load_a_sample_too_early_is_warned_of_and_do
     assert any("sole moves at up to" in said for said in report.warnings())
     late = slid(tmp_path, way, time > 0.48)
     assert late.slides[0].way == pytest.approx(0.01, rel=0.1)
+
+
+@pytest.mark.parametrize(("swing", "slides"), [(0.0, False), (0.02, True)])
+def test_rounding_to_a_millimetre_is_no_slide_and_a_slide_is_one_all_the_same(
+    swing, slides, tmp_path
+):
+    """A trot whose feet rest while they bear load, and one whose base swings to and fro beside."""
+    robot, feet, _ = standing("anymal")
+    header, *rows = (ROOT / "examples" / "anymal_trot.csv").read_text().splitlines()
+    table = np.array([[float(cell) for cell in row.split(",")] for row in rows])
+    table[:, 1] += swing * np.sin(6 * table[:, 0])
+    file, names = tmp_path / "coarse.csv", [foot.name for foot in feet]
+    np.savetxt(file, table, "%.3f", ",", header=header, comments="")
+    told = thesis_pin.read_motion(robot, file, beside=headings_of(names))
+    report = balance_report(robot, told, feet=feet, support=told_contacts(file, names))
+    assert report.slides
+    assert all(one.certain == slides for one in report.slides)
+    assert report.balanced is (False if slides else None)
+    assert ("may slide" in report.verdict()[0]) is not slides
+    if not slides:
+        sure = replace(report, drawn=replace(report.drawn, draws=()))  # as if nothing was open
+        assert all(one.certain for one in sure.slides)
 
 
 def test_a_slope_without_a_height_lies_below_the_feet_of_a_root_that_is_told(tmp_path):

@@ -65,6 +65,28 @@ def test_names_of_forty_curves_have_their_room():
         assert 0 < name.y < 3.2 * 72
 
 
+def test_panels_of_a_row_that_name_the_same_share_a_legend():
+    row = [plot(), plot(2.0), plot(3.0)]
+    sheet = panels([row], 15, 3)
+    assert texts_of(sheet).count("motor 0") == 1
+    (name,) = (mark for mark in sheet.marks if getattr(mark, "text", "") == "motor 0")
+    assert name.x > max(frame.points[:, 0].max() for frame in shapes_of(sheet, "frame"))
+    assert texts_of(panels([[*row[:2], plot(curves=2)]], 15, 3)).count("motor 0") == 3
+
+
+@pytest.mark.parametrize("shape", [(1, 3), (9, 1)])
+def test_a_sheet_grows_where_its_axes_would_vanish(shape):
+    rows = [[plot(curves=40 + k) for k in range(shape[1])]] * shape[0]
+    sheet = panels(rows, 4.0, 3.0)
+    frames = np.array([np.ptp(frame.points, axis=0) for frame in shapes_of(sheet, "frame")])
+    assert frames.min() >= 72.0 - 1e-9
+    corners = np.concatenate([frame.points for frame in shapes_of(sheet, "frame")])
+    assert (corners > 0).all()
+    assert (corners < [72 * sheet.width, 72 * sheet.height]).all()
+    wider = panels(rows, 90.0, 60.0)
+    assert (wider.width, wider.height) == pytest.approx((90.0, 60.0))
+
+
 def test_a_constant_no_value_at_all_and_a_gap_are_drawn():
     flat = Plot("", "", "y", [Curve("flat", np.full(50, 5.0), "#000000")], TIME)
     none = Plot("", "", "y", [Curve("none", np.full(50, np.nan), "#000000")], TIME)

@@ -1,0 +1,151 @@
+"""``plan_gait()``: a walk from rest to rest that a biped can do, and the reports that say so."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from scout_pin.dynamics.inverse import walking
+from scout_pin.model import Scout
+from scout_pin.motion.gait import Gait
+from scout_pin.report.document import gait_report
+from scout_pin.study.plan.course import start_course, stop_course
+from scout_pin.study.plan.cycle import CyclePlan, plan_cycle
+from scout_pin.study.plan.cycles.feet import least_spacing
+from scout_pin.study.plan.judged import Judged
+from scout_pin.study.plan.request import PlanRequest
+from scout_pin.study.plan.result import Plan, Walk
+from scout_pin.study.plan.transitions import ATTEMPTS, Transition, plan_transition
+from scout_pin.study.plan.walk import chained, steps_of
+from thesis_pin.errors import BadInput
+from thesis_pin.numeric.checks import function, instance, whole
+from thesis_pin.numeric.workers import silent
+
+LEAST_SAMPLES = 800
+"""Samples at which a plan is judged at least."""
+
+MOST_STEPS = 200
+"""Steps of a walk at most: a longer one is its cycle, repeated."""
+
+FIRST = "right"
+"""The foot that goes first, as in the thesis's gait."""
+
+_SHARE = 0.7  # of the progress that is the cycle's
+
+
+def plan_gait(
+    robot: Scout,
+    request: PlanRequest | None = None,
+    *,
+    steps: int = 10,
+    samples: int = 801,
+    progress: Callable[[int, int], None] = silent,
+) -> Plan:
+    """Plan a walk: a cycle, a start from rest that leads to it, and a stop at rest.
+
+    All three are planned within the request's limits; then the cycle and the whole walk are
+    judged by :func:`scout_pin.gait_report`, which knows nothing of how they came about.
+
+    Args:
+        robot: The biped, with a free-flyer root.
+        request: What is asked for; None for the default.
+        steps: Steps of the walk, each a step's length ahead; then the foot behind is drawn up.
+        samples: Evenly spaced samples at which each report judges.
+        progress: Called with what is done and the whole.
+
+    Returns:
+        The plan; where the request can't be met ``met`` is False, and ``verdict()`` says which
+        limit stands in the way and what could be met.
+
+    Raises:
+        BadInput: The robot's root is no free flyer, its feet are out of reach, or an argument
+            isn't allowed.
+        KeyboardInterrupt: Before there was anything to keep.
+    """
+    walking(robot)
+    if whole("steps", steps, 1) > MOST_STEPS:
+        raise BadInput(
+            f"{steps:,} steps",
+            allowed=f"at most {MOST_STEPS}",
+            remedy="Repeat the cycle instead: scout-pin gait --repeat, scout_pin.repeat_gait()",
+        )
+    samples = whole("samples", samples, LEAST_SAMPLES)
+    function("progress", progress, "progress(done, total)")
+    if request is not None:
+        _refuse_overlap(robot, instance("request", request, PlanRequest, "PlanRequest()"))
+    rest = 2 * ATTEMPTS + 2
+    told = [0, rest]
+
+    def of_cycle(done: int, total: int) -> None:
+        told[:] = done, round(total / _SHARE) + rest
+        progress(*told)
+
+    def tick() -> None:
+        told[0] = min(told[0] + 1, told[1])
+        progress(*told)
+
+    cycle = plan_cycle(robot, request, progress=of_cycle)
+    if cycle.interrupted and not cycle.met:
+        raise KeyboardInterrupt
+    if not cycle.met:
+        return Plan(cycle, steps)
+    start, stop = _transitions(cycle, steps, tick)
+    judged = Judged.of(gait_report(cycle.robot, cycle.gait, samples=samples))
+    tick()
+    if not (start.kept and stop.kept):
+        return Plan(cycle, steps, start, stop, judged)
+    gait = walk(cycle, start, stop, steps)
+    report = gait_report(cycle.robot, gait, samples=samples)
+    progress(told[1], told[1])
+    margin = min(cycle.request.margin, start.margin, stop.margin)
+    return Plan(cycle, steps, start, stop, judged, Walk(gait, report, Judged.of(report), margin))
+
+
+def _refuse_overlap(robot: Scout, request: PlanRequest) -> None:
+    """Refuse feet so near to each other that the soles overlap.
+
+    Raises:
+        BadInput: They do.
+    """
+    least = least_spacing(robot)
+    if request.foot_spacing is not None and request.foot_spacing <= least:
+        raise BadInput(
+            f"the soles of feet {request.foot_spacing * 1e3:.4g} mm apart overlap",
+            where="foot_spacing",
+            allowed=f"more than {least * 1e3:.4g} mm",
+        )
+
+
+def _transitions(
+    cycle: CyclePlan, steps: int, tick: Callable[[], None]
+) -> tuple[Transition, Transition]:
+    gait, lift = cycle.gait, cycle.request.lift
+    last = steps_of(gait, FIRST, steps - 1)[1]
+    start = plan_transition(cycle, lambda shift: start_course(gait, FIRST, shift, lift), tick)
+    stop = plan_transition(cycle, lambda settle: stop_course(gait, last, settle, lift), tick)
+    return start, stop
+
+
+def walk(cycle: CyclePlan, start: Transition, stop: Transition, steps: int) -> Gait:
+    """The whole walk: a start, the cycle's steps, a stop.
+
+    Args:
+        cycle: The cycle.
+        start: What leads to it.
+        stop: What ends it.
+        steps: Steps in all but for the one that draws the foot behind up.
+    """
+    first = start.course.stretch(start.free)
+    between, last = steps_of(cycle.gait, FIRST, steps - 1)
+    between = between.moved(
+        first.end - between.start,
+        first.foot(FIRST, first.end) - between.foot(FIRST, between.start),
+    )
+    end = stop.course.stretch(stop.free)
+    end = end.moved(
+        between.end - end.start, between.foot(last, between.end) - end.foot(last, end.start)
+    )
+    name = cycle.robot.specification.name
+    gait = chained("walk", f"planned for {name}", [first, between, end])
+    return Gait(
+        gait.name, gait.source, gait.time_unit, gait.curves, gait.phases, branch=cycle.gait.branch
+    )

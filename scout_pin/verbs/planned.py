@@ -1,0 +1,204 @@
+"""What ``scout-pin plan`` does; imported when it runs."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import shlex
+from typing import TYPE_CHECKING, Any
+
+from scout_pin.model import load
+from thesis_pin.command.output import print_parts
+from thesis_pin.command.progress import Bar
+from thesis_pin.command.results import put, put_folder
+from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
+from thesis_pin.command.warned import warned
+from thesis_pin.errors import BadInput
+
+if TYPE_CHECKING:  # help has to be quick
+    from scout_pin.study.plan.request import PlanRequest
+    from scout_pin.study.plan.result import Plan
+    from scout_pin.study.servo import ServoGains
+
+_MILLI, _PART, _DEGREE = 1e-3, 1e-2, math.pi / 180
+_UNITS = {
+    "step_length": _MILLI,
+    "step_time": 1.0,
+    "walking_speed": _MILLI,
+    "foot_spacing": _MILLI,
+    "lift": _MILLI,
+    "margin": _MILLI,
+    "torque_reserve": _PART,
+    "speed_reserve": _PART,
+    "line_reserve": _PART,
+    "pitch": _DEGREE,
+    "roll": _DEGREE,
+    "yaw": _DEGREE,
+    "knee": _DEGREE,
+    "friction": 1.0,
+}
+"""Numbers of a request, and what one is on the command line."""
+
+_NAMES = {"walking_speed": "speed"}
+"""Fields of a request that are called otherwise there."""
+
+_SAID = (
+    *("specification", "inertia", *_UNITS, "height", "no_servo_line", "objective", "fastest"),
+    *("branch", "steps", "samples"),
+)
+"""Options that decide what is planned."""
+
+_USUAL = {"inertia": "physical", "steps": 10, "samples": 801}
+"""What needn't be said of them."""
+
+
+def plan(arguments: argparse.Namespace) -> ExitCode:
+    """Plan a walk; write it only if its reports find every limit kept."""
+    request, tables = _request(arguments), _tables(arguments)
+    made, page, content = dict[str, bytes](), b"", b""
+    with Bar("planning a walk") as bar:
+        from scout_pin.study.plan.document import document, files
+        from scout_pin.study.plan.planning import plan_gait
+        from thesis_pin.report.writers import json_bytes
+
+        with warned():
+            robot = load(arguments.specification, inertia=arguments.inertia)
+            found = plan_gait(
+                robot, request, steps=arguments.steps, samples=arguments.samples, progress=bar
+            )
+        if arguments.json:
+            content = json_bytes(document(found))
+        if found.met:
+            try:
+                if arguments.out:
+                    made = files(found, _command(arguments), rate=tables[0], gains=tables[1])
+                    made |= _drawn(found)
+                page = _page(found) if arguments.html else b""
+            except Exception:  # a figure or the page: the data are written all the same
+                _written(arguments, made, content)
+                raise
+    _written(arguments, made, content)
+    if page:
+        put(arguments.html, page)
+    if free(arguments):
+        print_parts(found.verdict())
+    if found.interrupted:
+        say("scout-pin: interrupted; this is the best so far")
+        return ExitCode.INTERRUPTED
+    return ExitCode.DONE if found.met else ExitCode.NO
+
+
+def _request(arguments: argparse.Namespace) -> PlanRequest:
+    """What the arguments ask for.
+
+    Raises:
+        BadInput: They contradict each other, or ask for what can't be meant.
+    """
+    from scout_pin.study.plan.planning import LEAST_SAMPLES
+    from scout_pin.study.plan.request import PlanRequest
+
+    if arguments.samples < LEAST_SAMPLES:
+        raise BadInput(
+            f"--samples is {arguments.samples}", allowed=f"at least {LEAST_SAMPLES}, to judge by"
+        )
+    objective = arguments.objective
+    if arguments.fastest:
+        if objective not in (None, "fastest"):
+            raise BadInput(
+                f"--fastest means nothing beside --objective {objective}",
+                remedy="Leave one of them out",
+            )
+        objective = "fastest"
+    _refuse_other_units(arguments)
+    asked: dict[str, Any] = {
+        _NAMES.get(name, name): getattr(arguments, name) * unit
+        for name, unit in _UNITS.items()
+        if getattr(arguments, name) is not None
+    }
+    if arguments.height is not None:
+        asked["height"] = tuple(value * _MILLI for value in arguments.height)
+    if objective is not None:
+        asked["objective"] = objective.replace("-", "_")
+    return PlanRequest(branch=arguments.branch, servo_line=not arguments.no_servo_line, **asked)
+
+
+_LEAST = {
+    "margin": (0.1, "mm", "10"),
+    "walking_speed": (1.0, "mm/s", "100"),
+    "torque_reserve": (1.0, "percent", "10"),
+    "speed_reserve": (1.0, "percent", "10"),
+    "line_reserve": (1.0, "percent", "10"),
+}
+"""Values above zero that are taken for metres or shares written by mistake, and how a usual one
+is written."""
+
+
+def _refuse_other_units(arguments: argparse.Namespace) -> None:
+    """Refuse what would be a wrong walk without a word.
+
+    Raises:
+        BadInput: A number is so small that another unit is meant.
+    """
+    for name, (least, unit, usual) in _LEAST.items():
+        value = getattr(arguments, name)
+        if value is not None and 0 < value < least:
+            raise BadInput(
+                f"--{name.replace('_', '-')} is {value:g} {unit}",
+                allowed=f"0 or at least {least:g} {unit}"
+                if name != "walking_speed"
+                else f"at least {least:g} {unit}",
+                remedy=f"Write it in {unit}, as {usual}",
+            )
+
+
+def _tables(arguments: argparse.Namespace) -> tuple[float, ServoGains]:
+    """The servos' rate and gains."""
+    from scout_pin.study.plan.tables import RATE
+    from scout_pin.study.servo import ServoGains
+
+    given = {
+        name: getattr(arguments, f"servo_{name}")
+        for name in ("stiffness", "damping")
+        if getattr(arguments, f"servo_{name}") is not None
+    }
+    return (RATE if arguments.servo_rate is None else arguments.servo_rate), ServoGains(**given)
+
+
+def _command(arguments: argparse.Namespace) -> str:
+    """The command line but for where results go; another reader's words make the same walk."""
+    words = ["scout-pin", "plan"]
+    for name in _SAID:
+        value = getattr(arguments, name)
+        if value is None or value is False or value == _USUAL.get(name):
+            continue
+        flag = f"--{name.replace('_', '-')}"
+        if value is True:
+            words.append(flag)
+        elif isinstance(value, list):
+            words += [flag, *(f"{one:g}" for one in value)]
+        elif isinstance(value, str):
+            words.append(f"{flag}={shlex.quote(value)}")  # signs of a branch begin with one
+        else:
+            words += [flag, f"{value:g}"]
+    return " ".join(words)
+
+
+def _drawn(found: Plan) -> dict[str, bytes]:
+    from scout_pin.report.drawn.figures import figures
+
+    return {} if found.walk is None else figures(found.walk.report)
+
+
+def _page(found: Plan) -> bytes:
+    from scout_pin.report.drawn.page import gait_page
+
+    return b"" if found.walk is None else gait_page(found.walk.report)
+
+
+def _written(arguments: argparse.Namespace, made: dict[str, bytes], content: bytes) -> None:
+    """Write what there is; a plan that isn't met leaves its folder as it was."""
+    if made:
+        put_folder(arguments.out, made)
+    if content:
+        put(arguments.json, content)

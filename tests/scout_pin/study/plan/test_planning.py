@@ -1,0 +1,192 @@
+"""Walks from rest to rest: what their reports say, what is written, what stands in the way."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import scout_pin
+from scout_pin.motion.files import load_gait
+from scout_pin.study.plan.cycles.shortfall import Binding, Shortfall
+from scout_pin.study.plan.document import document, files
+from scout_pin.study.plan.planning import plan_gait
+from scout_pin.study.plan.request import PlanRequest
+from scout_pin.study.plan.result import Plan
+from thesis_pin.errors import BadInput
+from thesis_pin.report.writers import json_bytes
+
+from ...conftest import EXAMPLES
+from .steps import states
+
+STEPS = 3
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return plan_gait(scout_pin.load(), PlanRequest(margin=0.008), steps=STEPS)
+
+
+def test_a_walk_is_judged_by_reports_at_800_samples(plan):
+    assert plan.met
+    walk = plan.walk
+    assert len(walk.report.joints.time) >= 800
+    assert walk.report.within_limits
+    assert walk.report.margin.min() >= 0.8 * 0.008
+    shares = walk.report.actuators.peak_torque / plan.cycle.robot.stall_torque
+    assert shares.max() <= 0.9 * 1.01
+    assert walk.report.servo_use.max() <= 0.9 * 1.01  # a tenth of the line is left
+
+
+def test_a_walk_begins_and_ends_at_rest_with_its_feet_side_by_side(plan):
+    gait = plan.walk.gait
+    assert plan.walk.report.ends.kind == "rests"
+    length = plan.cycle.pace.step_length
+    for t, y in ((gait.start, 0.0), (gait.end, STEPS * length)):
+        found = states(gait, t)
+        np.testing.assert_allclose(found[1:, 1, 0], y, atol=1e-12)
+        np.testing.assert_allclose(found[..., 1], 0.0, atol=1e-8)
+        np.testing.assert_allclose(found[..., 2], 0.0, atol=1e-6)
+
+
+def test_a_walk_goes_on_over_its_joins(plan):
+    gait = plan.walk.gait
+    start, step = plan.start.course.duration, plan.cycle.pace.step_time
+    for t in (start, start + (STEPS - 1) * step):
+        for order, allowed in enumerate((1e-11, 1e-8, 1e-6)):
+            gap = states(gait, t)[..., order] - states(gait, np.nextafter(t, 0.0))[..., order]
+            assert np.abs(gap).max() < allowed
+    assert not gait.rate_jumps()
+
+
+def test_steps_of_the_walk_are_the_cycle(plan):
+    gait, cycle = plan.walk.gait, plan.gait
+    start, step = plan.start.course.duration, plan.cycle.pace.step_time
+    # The right foot goes first; where it lands the cycle's second step begins.
+    for t in np.linspace(0.01, step - 0.01, 7):
+        mine, its = states(gait, start + t), states(cycle, cycle.start + step + t)
+        gap = mine - its
+        gap[:, 1, 0] -= gap[0, 1, 0]
+        np.testing.assert_allclose(gap, 0.0, atol=1e-8)
+
+
+def test_files_read_back_give_the_same_report(plan, tmp_path):
+    made = files(plan, "scout-pin plan --steps 3")
+    assert {"walk.toml", "cycle.toml", "joints.csv", "commands.csv", "plan.json"} <= set(made)
+    for name, report in (("walk.toml", plan.walk.report), ("cycle.toml", None)):
+        (tmp_path / name).write_bytes(made[name])
+        assert made[name].startswith(b"# Made by: scout-pin plan --steps 3\n")
+        found = scout_pin.gait_report(plan.cycle.robot, load_gait(tmp_path / name), samples=801)
+        if report is None:
+            assert found.ends.kind == "cycles"
+            assert found.margin.min() == pytest.approx(plan.judged.margin, abs=1e-9)
+        else:
+            np.testing.assert_allclose(found.dynamics.torque, report.dynamics.torque, atol=1e-9)
+            np.testing.assert_allclose(found.margin, report.margin, atol=1e-9)
+
+
+def test_a_walk_of_one_step_needs_no_cycle(plan):
+    found = plan_gait(scout_pin.load(), PlanRequest(margin=0.008), steps=1)
+    assert found.met
+    assert [p.support for p in found.walk.gait.phases] == [
+        "double",
+        "left",
+        "double",
+        "right",
+        "double",
+    ]
+
+
+def test_a_lopsided_biped_walks_too():
+    robot = scout_pin.load(EXAMPLES / "lopsided.toml")
+    found = plan_gait(robot, steps=2)
+    assert found.met
+    assert found.walk.report.within_limits
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"margin": 0.0075}, "margin of 7.50 mm"),
+        ({"torque": 0.92}, "of its stall torque"),
+        ({"speed": 0.95}, "of its no-load speed"),
+        ({"line": 0.92}, "of its torque-speed line"),
+        ({"walks": False}, "its report says"),
+    ],
+)
+def test_what_a_report_finds_passed_is_not_written_as_good(plan, change, said):
+    walk = replace(plan.walk, judged=replace(plan.walk.judged, **change))
+    bad = replace(plan, walk=walk)
+    assert not bad.met
+    assert any(said in why for why in bad.failures())
+    with pytest.raises(BadInput, match="isn't met"):
+        files(bad)
+
+
+def test_what_stands_in_the_way_is_named_with_what_could_be_met(plan):
+    cycle = plan.cycle
+    worst = replace(cycle.worst[0], kind="knee", subject="left", value=1.03, limit=0.985)
+    nearest = {"step_length": cycle.request.changed(step_length=0.0912, step_time=0.8)}
+    short = Shortfall((Binding(True, worst),), nearest)
+    found = Plan(replace(cycle, shortfall=short), STEPS)
+    assert not found.met
+    text = " ".join(found.verdict())
+    assert "the knees' reach (left" in text
+    assert "beyond the reach of a straight leg" in text
+    assert "a step of 91.2 mm" in text
+    said = document(found)
+    assert (said["met"], said["walk"]) == (False, None)
+    assert said["shortfall"]["nearest"]["step_length"]["step_length"] == 0.0912
+    assert json_bytes(said)
+
+
+def test_an_interrupted_search_keeps_the_best_so_far():
+    calls = []
+
+    def impatient(done, total):
+        calls.append((done, total))
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+
+    request = PlanRequest(objective="largest_margin")
+    found = plan_gait(scout_pin.load(), request, steps=1, progress=impatient)
+    assert found.interrupted
+    assert found.met
+    assert "interrupted" in " ".join(found.verdict())
+
+
+def test_an_interrupt_before_there_is_anything_stays_one(monkeypatch):
+    from scout_pin.study.plan.cycles.search import Search
+
+    def first(self, request):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Search, "first", first)
+    with pytest.raises(KeyboardInterrupt):
+        plan_gait(scout_pin.load())
+
+
+def test_progress_only_grows_and_ends_at_the_whole():
+    calls = []
+    plan_gait(scout_pin.load(), steps=1, progress=lambda done, total: calls.append((done, total)))
+    done = [one / total for one, total in calls]
+    assert done == sorted(done)
+    assert calls[-1][0] == calls[-1][1]
+
+
+@pytest.mark.parametrize(
+    ("asked", "steps", "samples", "said"),
+    [
+        ({}, 0, 801, "steps"),
+        ({}, 201, 801, "at most 200"),
+        ({}, 3, 799, "samples"),
+        ({"foot_spacing": 0.05}, 3, 801, "overlap"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(asked, steps, samples, said):
+    with pytest.raises(BadInput, match=said):
+        plan_gait(scout_pin.load(), PlanRequest(**asked), steps=steps, samples=samples)
+
+
+def test_a_request_of_another_kind_is_refused():
+    with pytest.raises(BadInput, match="PlanRequest"):
+        plan_gait(scout_pin.load(), {"step_length": 0.03})
