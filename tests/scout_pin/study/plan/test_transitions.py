@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scout_pin.study.plan.cycle import plan_cycle
 
 import scout_pin
 from scout_pin.study.plan import transitions
 from scout_pin.study.plan.course import start_course, stop_course
+from scout_pin.study.plan.cycle import plan_cycle
 from scout_pin.study.plan.limits import Limits
 from scout_pin.study.plan.transitions import (
     Grid,
