@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from scout_pin.kinematics.geometry import LegGeometry
+from thesis_pin.numeric.elementwise import cosine_sine
 from thesis_pin.numeric.rotations import transform
 
 
@@ -43,30 +44,28 @@ def leg_frames(leg: LegGeometry, theta: np.ndarray) -> LegFrames:
         theta: Joint angles [rad], shape ``(n, 6)``.
     """
     gamma = np.ascontiguousarray((theta + leg.beta).T)
+    gamma[3] += gamma[2]
+    gamma[4] += gamma[3]
+    (c1, c2, c3, c34, c345, c6), (s1, s2, s3, s34, s345, s6) = cosine_sine(gamma)
     count = gamma.shape[1]
-    sum_3 = gamma[2]
-    sum_4 = sum_3 + gamma[3]
-    sum_5 = sum_4 + gamma[4]
-    c1, c2, c3, c34, c345, c6 = np.cos([gamma[0], gamma[1], sum_3, sum_4, sum_5, gamma[5]])
-    s1, s2, s3, s34, s345, s6 = np.sin([gamma[0], gamma[1], sum_3, sum_4, sum_5, gamma[5]])
-    zero = np.zeros(count)
-    i3 = np.stack([c1 * c2, s1 * c2, -s2])
-    j3 = np.stack([-s1, c1, zero])
-    e = np.stack([c1 * s2, s1 * s2, c2])
-    a = c345 * i3 + s345 * j3
-    b = c345 * j3 - s345 * i3
-    axes = np.empty((6, 3, count))
+    # Written where they belong: for a few poses stacking them takes as long as all the rest.
+    axes, points, foot_link, i3 = (np.empty((*of, 3, count)) for of in ((6,), (6,), (3,), ()))
+    _, j3, e, _, _, a = axes
+    i3[0], i3[1], i3[2] = c1 * c2, s1 * c2, -s2
     axes[0] = [[0.0], [0.0], [1.0]]
-    axes[1], axes[2:5], axes[5] = j3, e, a
-    points = np.empty((6, 3, count))
+    j3[0], j3[1], j3[2] = -s1, c1, 0.0
+    e[0], e[1], e[2] = c1 * s2, s1 * s2, c2
+    axes[3:5] = e
+    a[:] = c345 * i3 + s345 * j3
+    b = c345 * j3 - s345 * i3
     points[0] = [[leg.x_0], [0.0], [0.0]]
     points[1] = [[leg.x_0], [0.0], [-leg.z_1]]
     points[2] = points[1] + leg.x_2 * i3
     points[3] = points[2] + leg.x_3 * (c3 * i3 + s3 * j3)
     points[4] = points[3] + leg.x_4 * (c34 * i3 + s34 * j3)
     points[5] = points[4] + leg.x_5 * a
-    j11, k11 = c6 * b + s6 * e, c6 * e - s6 * b
-    return LegFrames(axes, points, np.stack([a, j11, k11]), points[5] + leg.y_6 * j11)
+    foot_link[0], foot_link[1], foot_link[2] = a, c6 * b + s6 * e, c6 * e - s6 * b
+    return LegFrames(axes, points, foot_link, points[5] + leg.y_6 * foot_link[1])
 
 
 def leg_forward_kinematics(leg: LegGeometry, theta: ArrayLike) -> np.ndarray:

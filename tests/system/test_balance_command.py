@@ -69,6 +69,24 @@ def test_a_file_s_root_stays_where_it_is_put_and_the_floor_below_it_is_told(capf
     assert "mm off the floor while it bears load" in " ".join(out.split())
 
 
+def test_a_pose_beyond_a_joint_s_range_is_held_as_it_is_and_that_is_said(capfd, tmp_path):
+    pose = tmp_path / "pose.toml"
+    pose.write_text("format = 1\n[joints]\nleg_left_4_joint = 3.0\n")  # of 2.618 at most
+    code, out, _ = balance(["example:talos_reduced_box", "--pose", pose, "--json", "-"], capfd)
+    document = json.loads(out)
+    q = dict(zip(document["joints"][1:], document["q"][0][7:], strict=True))
+    assert (code, q["leg_left_4_joint"]) == (0, 3.0)
+    assert {name for name, value in q.items() if value} == {"leg_left_4_joint"}
+    said = "Joint leg_left_4_joint leaves its range by 0.382 rad."
+    assert said in document["summary"]["verdict"]
+
+
+def test_an_unknown_pose_is_answered_with_those_of_the_srdf_too(capfd):
+    code, _, err = balance(["example:solo12", "--pose", "stading"], capfd)
+    assert code == 2
+    assert "unknown pose 'stading'; allowed: standing, " in " ".join(err.split())
+
+
 def test_what_has_no_feet_says_what_to_name(capfd):
     code, _, err = balance(["example:panda"], capfd)
     assert code == 2

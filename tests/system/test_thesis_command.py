@@ -275,6 +275,27 @@ def test_a_workspace_without_a_reachable_cell_is_answered_by_no(capfd):
     assert json.loads(out)["summary"]["reachable"] == 0
 
 
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (("--along", "x", "0", "200", "--at", "z", "350"), "x, z reach 350 m: if these are mill"),
+        (("--along", "x_mm", "0", "200", "--at", "z_cm", "35"), ""),
+    ],
+)
+def test_an_axis_in_metres_that_must_be_millimetres_is_doubted(capfd, words, says):
+    code, _, err = workspace(capfd, BAR, LOOPS, "--frame", "left_tip", *words, "--points", 3)
+    assert code == (1 if says else 0)
+    assert says in " ".join(err.split())
+    assert bool(err) == bool(says)
+
+
+def test_what_is_an_axis_and_stands_still_is_named(capfd):
+    words = ("--frame", "left_tip", "--along", "x", "0", "0.2", "--at", "x", "0")
+    code, _, err = workspace(capfd, BAR, LOOPS, *words)
+    assert code == 2
+    assert "x is given twice" in err
+
+
 def test_motors_without_ranges_have_to_be_named(capfd):
     code, out, err = workspace(capfd, "example:panda")
     assert (code, out) == (2, "")

@@ -39,6 +39,11 @@ def simulation():
     return scout_pin.simulate_gait(report, Conditions(time_step=2e-3))
 
 
+def replay():
+    """Appendix B open loop, until it is lost."""
+    return pollard_pin.simulate_path(trajectory_report())
+
+
 def trajectory_report():
     return pollard_pin.trajectory_report(pollard_pin.load(), pollard_pin.appendix_b(), samples=21)
 
@@ -90,6 +95,7 @@ MAKERS = {
     "Plan": lambda: scout_pin.plan_gait(scout_pin.load(), steps=1),
     "PlanRequest": lambda: scout_pin.PlanRequest(speed=0.05, margin=0.004),
     "Simulation": simulation,
+    "Simulation of a path": replay,
     "ToolPath": pollard_pin.appendix_b,
     "ToolPath of segments": lambda: pollard_pin.load_path(ROOT / "examples" / "spray_arch.toml"),
     "ToolMotion": lambda: pollard_pin.appendix_b().sample(9),

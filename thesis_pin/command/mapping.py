@@ -23,6 +23,8 @@ from thesis_pin.loops.workspace.mapped import evaluate_workspace
 from thesis_pin.numeric.checks import shown
 from thesis_pin.report.workspace import document as written
 from thesis_pin.report.writers import csv_bytes, json_bytes
+from thesis_pin.tables.doubts import doubted
+from thesis_pin.tables.table import Column
 
 Array = NDArray[np.float64]
 
@@ -70,18 +72,27 @@ def _grid(
     """The axes that the arguments name, and what stands still; the motors' ranges without any."""
     units = units_of(robot, arguments.frame)
     along: dict[str, Array] = {}
-    for name, low, high in arguments.along:
+    plain: list[Column] = []  # what is written in metres or radians
+    for name, *ends in arguments.along:
         own, factor = unit_of(name, units)
-        start, end = (quantity("--along", text) * factor for text in (low, high))
+        start, end = (quantity("--along", text) * factor for text in ends)
         if not start < end:
-            raise BadInput(f"--along {name} goes from {low} to {high}", allowed="ascending values")
+            raise BadInput(
+                f"--along {name} goes from {ends[0]} to {ends[1]}", allowed="ascending values"
+            )
         if own in along:
             raise BadInput(f"--along is given twice for {shown(own)}")
         along[own] = np.linspace(start, end, arguments.points)
+        if factor == 1.0:
+            plain.append(Column(own, along[own], heading=own))
     at: dict[str, float] = {}
     for name, text in arguments.at:
         own, factor = unit_of(name, units)
         if own in at:
             raise BadInput(f"--at is given twice for {shown(own)}")
         at[own] = quantity("--at", text) * factor
+        if factor == 1.0:
+            plain.append(Column(own, np.array([at[own]]), heading=own))
+    lengths, angles = ([one for one in plain if units[one.name] == u] for u in ("m", "rad"))
+    doubted("--along, --at", lengths, angles)
     return along or ranges_of(robot, arguments.points), at

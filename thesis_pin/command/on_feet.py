@@ -19,7 +19,7 @@ from thesis_pin.contacts.soles.foot import Foot
 from thesis_pin.contacts.soles.stated import stated_feet
 from thesis_pin.contacts.standing.references import preferred, reference_poses
 from thesis_pin.contacts.standing.told import headings_of, told_contacts
-from thesis_pin.errors import BadInput, ModelWarning
+from thesis_pin.errors import BadInput, ModelWarning, UnknownName
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.closing import close
@@ -87,7 +87,12 @@ def _pose(robot: ClosedRobot, arguments: argparse.Namespace) -> tuple[Array, lis
         said.append(f"The pose, which nobody named: {name}, of the SRDF beside the description.")
     if name in known and name not in robot.supplement.poses:
         return close(robot, known[name], precision=arguments.precision), said
-    found = assembly(robot, name, precision=arguments.precision)
+    try:
+        found = assembly(robot, name, precision=arguments.precision)
+    except UnknownName as error:
+        if error.kind != "pose":
+            raise
+        raise UnknownName("pose", name, [*known, *error.known], where=error.where) from None
     if not found.closed:
         raise BadInput(
             f"its loops don't close from {found.start}",

@@ -10,7 +10,8 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, LINK_NAMES
 from pollard_pin.study.simulate.conditions import Conditions
 from pollard_pin.study.simulate.measures import Measures
-from pollard_pin.study.simulate.replay import Prepared, Replay
+from pollard_pin.study.simulate.record import Replay
+from pollard_pin.study.simulate.replay import Prepared
 from pollard_pin.study.simulate.verdict import (
     NAMES,
     Criterion,
@@ -68,7 +69,8 @@ class Simulation:
     @property
     def reason(self) -> str | None:
         """Why the tool leaves its path in the first draw, where errors that grow explain it."""
-        return reason(self.draws[0], self.prepared.growth, self.replay.slope)
+        held = not self.conditions.open_loop
+        return reason(self.draws[0], self.prepared.growth, self.replay.slope, held)
 
     def doubts(self) -> list[str]:
         """What is to be asked before the numbers are believed: what the report asks."""
@@ -77,12 +79,12 @@ class Simulation:
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
         draws, duration = len(self.draws), self.report.path.duration
-        does = "does" if self.passed else "doesn't do"
-        among = f" in {draws} draws" if draws > 1 else ""
-        said = [
-            f"{'PASS' if self.passed else 'FAIL'}: the simulated robot {does} what its plan "
-            f"says{among}."
-        ]
+        lost = sum(not passes(one) for one in self.draws)
+        answer = (
+            "FAIL: the simulated robot doesn't do" if lost else "PASS: the simulated robot does"
+        )
+        among = f" in {lost or 'each'} of {draws} draws" if draws > 1 else ""
+        said = [f"{answer} what its plan says{among}.", *self._beyond()]
         why = [] if self.reason is None else [self.reason]
         if draws > 1:
             worst = max(range(draws), key=lambda k: self.draws[k].deviation[0])
@@ -90,6 +92,15 @@ class Simulation:
             return [*said, *draws_sentences(self.draws), *of_worst, *why]
         kept = [one.words for one in self.criteria if one.met]
         return [*said, *sentences(self.draws[0], duration), *why, *kept]
+
+    def _beyond(self) -> list[str]:
+        """Motors that the plan asks for more than they give: no robot does it."""
+        planned, limit = self.report.actuators.peak_torque, self.prepared.servo.limit
+        asked = [
+            f"{ACTUATOR_SYMBOLS[k]} for {planned[k]:.4g} of {limit[k]:g} N·m"
+            for k in np.flatnonzero(planned > limit)
+        ]
+        return [f"The plan asks more than the motors give: {', '.join(asked)}."] if asked else []
 
     def summary(self) -> dict[str, object]:
         """The verdict, criterion by criterion, peaks, growth of errors, draws in quantiles."""

@@ -76,6 +76,7 @@ def summary(simulation: Simulation) -> Iterator[Part]:
         f"{how(simulation)}",
         ("motor", *table.columns[2:]),
         [row[1:] for row in table.rows],
+        "Of the first draw." if len(simulation.draws) > 1 else "",
     )
     if len(simulation.draws) > 1:
         yield draws_table(simulation)

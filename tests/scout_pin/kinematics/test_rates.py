@@ -89,3 +89,48 @@ def test_rates_and_accelerations_are_pinocchios(biped, side, rng):
         regular = np.linalg.cond(jacobians) < 1e4
         assert regular.sum() > count / 2
         assert np.abs(found - expected)[regular].max() < 1e-10
+
+
+@pytest.mark.parametrize("torso_turns", [True, False])
+@pytest.mark.parametrize("foot_turns", [True, False])
+@pytest.mark.parametrize("side", SIDES)
+def test_the_foot_moves_as_asked_by_pinocchio_whichever_body_turns(
+    biped, side, foot_turns, torso_turns, rng
+):
+    """Torso and foot in any pose, each with an angular velocity and acceleration or without."""
+    model, data = biped.model, biped.model.createData()
+    leg, number, count = biped.legs[side], SIDES.index(side), 40
+    theta = rng.uniform(-0.5, 0.5, (count, 6))
+    theta[:, 3] += 1.0  # the knee well bent
+    turns = np.array([pin.exp3(one) for one in rng.normal(size=(count, 3))])
+    torso = BodyMotion(turns, *rng.normal(size=(5, count, 3)))
+    soles = leg_forward_kinematics(leg, theta)
+    place = np.einsum("nij,nj->ni", turns, soles[:, :3, 3]) + torso.position
+    foot = BodyMotion(turns @ soles[:, :3, :3], place, *rng.normal(size=(4, count, 3)))
+    for body, moves in ((torso, torso_turns), (foot, foot_turns)):
+        if not moves:
+            body.omega[:] = body.alpha[:] = 0.0
+    rate, second = leg_rates(leg, theta, foot, torso)
+    for k in range(count):
+        q, v, a = pin.neutral(model), np.zeros(18), np.zeros(18)
+        back = turns[k].T
+        q[:3], q[3:7] = torso.position[k], pin.Quaternion(turns[k]).coeffs()
+        v[:3], v[3:6] = back @ torso.velocity[k], back @ torso.omega[k]
+        a[:3] = back @ torso.acceleration[k] - np.cross(v[3:6], v[:3])
+        a[3:6] = back @ torso.alpha[k]
+        q[7 + 6 * number : 13 + 6 * number] = theta[k]
+        v[6 + 6 * number : 12 + 6 * number] = rate[k]
+        a[6 + 6 * number : 12 + 6 * number] = second[k]
+        pin.forwardKinematics(model, data, q, v, a)
+        pin.updateFramePlacements(model, data)
+        frame, axes = biped.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
+        velocity = pin.getFrameVelocity(model, data, frame, axes)
+        acceleration = pin.getFrameClassicalAcceleration(model, data, frame, axes)
+        scale = 1.0 + np.abs(rate[k]).max() ** 2
+        for found, expected in (
+            (velocity.linear, foot.velocity[k]),
+            (velocity.angular, foot.omega[k]),
+            (acceleration.linear, foot.acceleration[k]),
+            (acceleration.angular, foot.alpha[k]),
+        ):
+            np.testing.assert_allclose(found, expected, atol=1e-10 * scale)

@@ -79,8 +79,9 @@ def assembly(
 ) -> Assembly:
     """A closed configuration of a robot, inside the joints' ranges if there is one.
 
-    The search starts at the pose asked for; without one at the neutral pose and the
-    description's named ones, the least open first, then at guesses inside the ranges.
+    The search starts at the pose asked for, whose joints may be outside their ranges; without
+    one at the neutral pose and the description's named ones, the least open first, then at
+    guesses inside the ranges.
 
     Args:
         robot: The robot.
@@ -93,6 +94,8 @@ def assembly(
     """
     best: Assembly | None = None
     starts = list(_starts(robot, pose))
+    # What somebody put outside its range stays there, and is said.
+    told = set() if pose is None else set(outside(robot, starts[0][1]))
     nearest: list[tuple[float, str, Array]] = []
     data = robot.model.createData()
     for start, q in starts:
@@ -103,7 +106,7 @@ def assembly(
             continue
         closed = settled.q
         found = Assembly(closed, True, start, gaps(robot, closed), outside(robot, closed))
-        if not found.outside:
+        if told.issuperset(found.outside):
             return found
         if best is None or max(found.outside.values()) < max(best.outside.values()):
             best = found
@@ -154,8 +157,9 @@ def _starts(robot: ClosedRobot, pose: str | None) -> Iterator[tuple[str, Array]]
 
 
 def _shifted(robot: ClosedRobot, q: Array, spread: float, generator: np.random.Generator) -> Array:
-    """A random configuration about another, inside the joints' ranges."""
+    """A random configuration about another, inside the joints' ranges; its root stays."""
     step = generator.uniform(-spread, spread, robot.model.nv)
+    step[robot.base] = 0.0
     return in_range(robot, np.asarray(pin.integrate(robot.model, q, step)))
 
 

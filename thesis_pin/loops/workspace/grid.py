@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -116,8 +117,11 @@ def grid_of(
             raise BadInput(f"the values of {name} don't ascend", allowed="ascending values")
         axes.append(Axis(joints.get(name, name), units[name], values))
     found = Grid(tuple(axes), held, frame)
-    if len(set(found.names)) < len(found.names):
-        raise BadInput(f"some of {', '.join(found.names)} is given twice")
+    for name, times in Counter(found.names).items():
+        if times > 1:
+            raise BadInput(
+                f"{name} is given twice", allowed="along an axis or at a value, by one name"
+            )
     if not 1 <= len(axes) <= MOST_AXES or not 2 <= np.prod(found.shape, dtype=float) <= MOST_CELLS:
         raise BadInput(
             f"a grid of {' × '.join(map(str, found.shape)) or 'no'} cells",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thesis_pin.loops.forces.judging import DOUBTFUL
+from thesis_pin.loops.joints import singles
 from thesis_pin.report.torque.numbers import TorqueNumbers
 
 UNEXPLAINED = 1e-6
@@ -82,8 +83,10 @@ def _efforts(report: TorqueNumbers) -> list[str]:
 
 
 def _ranges(report: TorqueNumbers) -> list[str]:
+    kinds = singles(report.robot.model)
     return [
-        f"Joint {name} leaves its range by {excess:.3g}." for name, excess in report.outside.items()
+        f"Joint {name} leaves its range by {excess:.3g} {kinds[name].unit}."
+        for name, excess in report.outside.items()
     ]
 
 

@@ -114,16 +114,18 @@ def sentences(space: Workspace) -> Iterator[str]:
     for state in (LIMIT, OTHER, CUT_OFF):
         number = int((space.state == state).sum())
         if number and (state != CUT_OFF or int((space.state == OPEN).sum()) == 0):
-            yield f"{number} cells: {MEANINGS[state]}."
+            yield f"{number} {'cell' if number == 1 else 'cells'}: {MEANINGS[state]}."
     if space.still:
         stay = "it stays" if len(space.still) == 1 else "they stay"
         yield f"Nothing leads {', '.join(space.still)}: {stay} at the pose."
     if space.rooted:
         yield "The root is held: places and turns are seen from it."
     if space.seams:
+        one = "A pair of neighbours is"
+        pairs = one if space.seams == 1 else f"{space.seams} pairs of neighbours are"
         yield (
-            f"{space.seams} pairs of neighbours are closed in two ways: the map winds around a "
-            "singular place, and which way led to a cell decides its assembly."
+            f"{pairs} closed in two ways: the map winds around a singular place, and which way led "
+            "to a cell decides its assembly."
         )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from scout_pin.study.plan.cycles.problem import Descending
+from scout_pin.study.plan.cycles.descending import Descending
 from scout_pin.study.plan.cycles.search import Candidate, Search
 from scout_pin.study.plan.newton import descend
 from thesis_pin.errors import ThesisPinError

@@ -17,9 +17,11 @@ from scout_pin.motion.gait import BODIES
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.course import swing_curves
 from scout_pin.study.plan.request import GAP, PlanRequest
+from thesis_pin.errors import BadInput
 from thesis_pin.numeric.interpolation import constant, join
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.numeric.trajectory import BodyMotion
+from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -98,8 +100,21 @@ class Steps:
 
     @classmethod
     def of(cls, robot: Scout, request: PlanRequest) -> Steps:
-        """The feet of a request; where it doesn't say how far apart, the soles leave a gap."""
-        spacing = request.foot_spacing or least_spacing(robot) + GAP
+        """The feet of a request; where it doesn't say how far apart, the soles leave a gap.
+
+        Raises:
+            BadInput: The soles would touch.
+        """
+        least = least_spacing(robot)
+        spacing = request.foot_spacing or least + GAP
+        if spacing < least + TOLERANCES.sole_gap:
+            raise BadInput(
+                f"the soles touch where the feet are {spacing * 1e3:.4g} mm apart",
+                where="foot_spacing",
+                allowed=f"more than {least * 1e3:.4g} mm",
+                remedy=f"Ask for {(least + GAP) * 1e3:.4g} mm, which leaves {GAP * 1e3:g} mm "
+                "between them, or leave it out",
+            )
         return cls((-spacing / 2, spacing / 2), request.lift)
 
     def feet(self, moments: Moments, pace: Pace) -> tuple[BodyMotion, BodyMotion]:

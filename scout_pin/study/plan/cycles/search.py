@@ -7,13 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scout_pin.kinematics.branches import taken_branches
 from scout_pin.model import Scout
-from scout_pin.specification import SIDES
+from scout_pin.study.plan.cycles.descending import Descending
 from scout_pin.study.plan.cycles.feet import Moments, Pace, Steps
-from scout_pin.study.plan.cycles.problem import CycleProblem, Descending, Unknowns, bounds
+from scout_pin.study.plan.cycles.problem import (
+    CycleProblem,
+    Unknowns,
+    bounds,
+    inside_pace,
+)
 from scout_pin.study.plan.cycles.splines import Cyclic
-from scout_pin.study.plan.cycles.starts import SHARE, STARTS, Build, starts
+from scout_pin.study.plan.cycles.starts import SHARE, STARTS, Build, standing_branches, starts
 from scout_pin.study.plan.cycles.symmetry import mirrored
 from scout_pin.study.plan.limits import KINDS, Limits, Worst, worsts
 from scout_pin.study.plan.newton import Descent, descend
@@ -21,7 +25,7 @@ from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.samples import Sampler
 from scout_pin.study.plan.sampling.reach import STRAIGHT
 from scout_pin.study.plan.sampling.sloped import Sloped
-from thesis_pin.errors import BadInput, SingularPose, ThesisPinError, Unreachable
+from thesis_pin.errors import BadInput, SingularPose, ThesisPinError
 
 BACK_OFF = 0.01
 """Share of each limit that searches leave, so that it is kept between their samples too."""
@@ -34,6 +38,7 @@ _ENOUGH = 2e-4  # cost of which no more than a third of the back-off is used up
 _ROUNDS = 4  # of adding samples where the check finds more
 _ADDED = 12
 _TRIED = 30  # steps of a first attempt
+_STUCK, _SLOW = 0.1, 0.02  # gain of five of them below which they end
 _LONGER = 90  # and of the best ones'
 _HOPELESS = 3  # starts, none of which gets near
 FAR = 0.5
@@ -112,7 +117,7 @@ class Search:
         free = request.free_length
         return CycleProblem(
             self.sampler,
-            self.steps,
+            Steps.of(self.sampler.robot, request),
             self.cyclic,
             Moments.even(self.cyclic.steps, _DOUBLE, _SINGLE),
             Limits.of(self.sampler.robot, request),
@@ -150,7 +155,7 @@ class Search:
         for left in reversed(range(_ROUNDS)):
             descent = self._descended(problem, known, length, most)
             steps += descent.iterations
-            known = problem.unpacked(descent.x, length)
+            known = inside_pace(problem.unpacked(descent.x, length))
             excess = problem.checked(known, CHECKED)
             found = Candidate(request, problem, known, excess, steps)
             counted = [one.value.max(axis=1) for kind, one in excess.items() if kind in held]
@@ -168,7 +173,8 @@ class Search:
         self, problem: CycleProblem, known: Unknowns, length: float, most: int
     ) -> Descent:
         descending = Descending(problem, length)
-        return descend(descending, problem.packed(known), most=most, enough=_ENOUGH)
+        start, slow = problem.packed(known), _STUCK if most <= _TRIED else _SLOW
+        return descend(descending, start, most=most, slow=slow, enough=_ENOUGH)
 
     def first(self, request: PlanRequest) -> Candidate:
         """A cycle that keeps a request's limits, else the one that passes them least."""
@@ -214,33 +220,3 @@ class Search:
 
 ATTEMPTS = STARTS + 2
 """Descents that :meth:`Search.first` makes at most."""
-
-
-def standing_branches(
-    robot: Scout, build: Build, steps: Steps, request: PlanRequest
-) -> tuple[int, int]:
-    """The branches on which the legs stand side by side, knees bent a little.
-
-    Raises:
-        BadInput: The legs don't reach that far.
-    """
-    torso = np.eye(4)
-    torso[:3, 3] = sum(steps.across) / 2, build.forward, 0.95 * build.height
-    feet = [np.eye(4), np.eye(4)]
-    for foot, across in zip(feet, steps.across, strict=True):
-        foot[0, 3] = across
-    try:
-        theta = robot.inverse_kinematics(torso, feet[0], feet[1], branch=request.branch)
-    except Unreachable as error:
-        raise BadInput(
-            f"the feet can't stand {(steps.across[1] - steps.across[0]) * 1e3:.4g} mm apart: "
-            f"{error.what}",
-            where="foot_spacing",
-            allowed="places that the legs reach",
-            remedy="Ask for another foot_spacing, or for another branch",
-        ) from None
-    left, right = (
-        int(taken_branches(robot.legs[side], theta[None, 6 * k : 6 * k + 6])[0])
-        for k, side in enumerate(SIDES)
-    )
-    return left, right

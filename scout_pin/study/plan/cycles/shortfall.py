@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from scout_pin.study.plan.cycles.feet import least_spacing
 from scout_pin.study.plan.cycles.problem import Unknowns
 from scout_pin.study.plan.cycles.search import FAR, Candidate, Search
 from scout_pin.study.plan.cycles.starts import SHARE, starts
 from scout_pin.study.plan.limits import KINDS, Worst
-from scout_pin.study.plan.request import PlanRequest
+from scout_pin.study.plan.request import GAP, PlanRequest
 from thesis_pin.errors import ThesisPinError
 
 _SHARES = (0.5, 0.25, 0.1)  # of a length, speed or margin that are tried
@@ -17,7 +18,7 @@ _HALVINGS = 4
 _REACH = frozenset({"knee", "lower", "upper", "posture"})
 _BINDING = 0.02  # how near to a limit a compromise presses against it
 
-ALTERNATIVES = 6 + 3 * (1 + _HALVINGS)
+ALTERNATIVES = 6 + 4 * (1 + _HALVINGS)
 """Descents at most, or so."""
 
 
@@ -62,7 +63,7 @@ def shortfall(search: Search, request: PlanRequest, found: Candidate) -> Shortfa
         search, request, found, most=1 if far else len(KINDS)
     )
     nearest = {}
-    for name, change in _changes(request):
+    for name, change in _changes(search, request):
         if (met := _nearest(search, found, change)) is not None:
             nearest[name] = met
     return Shortfall(tuple(binding), nearest)
@@ -96,7 +97,9 @@ def _unreached(search: Search, request: PlanRequest, found: Candidate) -> list[B
     return [Binding(False, one) for one in passed]
 
 
-def _changes(request: PlanRequest) -> list[tuple[str, Callable[[float], PlanRequest]]]:
+def _changes(
+    search: Search, request: PlanRequest
+) -> list[tuple[str, Callable[[float], PlanRequest]]]:
     """What may be changed of a request: its name, and how to a share of it."""
     length = request.first_length
     time = length / request.walking_speed
@@ -111,6 +114,14 @@ def _changes(request: PlanRequest) -> list[tuple[str, Callable[[float], PlanRequ
     if request.margin > 0.0:
         margin = request.margin
         found.append(("margin", lambda share: request.changed(margin=share * margin)))
+    given, usual = request.foot_spacing, least_spacing(search.sampler.robot) + GAP
+    if given is not None and given > usual:
+        found.append(
+            (
+                "foot_spacing",
+                lambda share: request.changed(foot_spacing=usual + share * (given - usual)),
+            )
+        )
     return found
 
 

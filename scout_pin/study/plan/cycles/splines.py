@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from math import comb, factorial
 
 import numpy as np
 
@@ -48,18 +49,19 @@ class Cyclic:
         Returns:
             Shape ``(n, 3, 6, size)``.
         """
+        count = KNOTS * CYCLE
         span = np.floor(u * KNOTS)
         powers = (u * KNOTS - span)[:, None] ** np.arange(DEGREE, -1, -1)
-        pieces, result = _pieces(), np.zeros((len(u), 3, 6, self.size))
-        rows = np.arange(len(u))
+        pieces, whole = _pieces(), np.zeros((len(u), 3, count))
+        rows = np.arange(len(u))[:, None]
+        numbers = (span.astype(int)[:, None] - np.arange(DEGREE + 1)) % count
         for order in range(3):
             values = powers[:, order:] @ _derived(pieces, order).T * float(KNOTS) ** order
-            for back in range(DEGREE + 1):
-                number = span.astype(int) - back
-                turns, index = np.divmod(number, self.size)
-                signs = np.where(turns[:, None] % 2 == 1, self._signs, 1.0)
-                result[rows, order, :, index] += values[:, back, None] * signs
-        return result
+            whole[rows, order, numbers] = values
+        if self.steps == CYCLE:
+            return np.repeat(whole[:, :, None], 6, axis=2)
+        first, second = whole[:, :, None, :KNOTS], whole[:, :, None, KNOTS:]
+        return np.asarray(first + self._signs[:, None] * second)
 
     @property
     def _signs(self) -> np.ndarray:
@@ -104,15 +106,20 @@ class Cyclic:
 
 @cache
 def _pieces() -> np.ndarray:
-    """Pieces of the uniform quintic B-spline, the last one first, highest power first, ``(6, 6)``.
+    """Pieces of the uniform quintic B-spline, one a row, highest power first, ``(6, 6)``.
 
-    Row p is the piece that counts p knots after the spline began.
+    Row p is the piece that counts p knots after the spline began: Σ (−1)ᵏ C(6, k) (x − k)⁵ / 5!
+    over the knots k that lie behind. SciPy's makes the same, but its import takes longer than a
+    plan.
     """
-    from scipy.interpolate import BSpline, PPoly
-
-    whole = PPoly.from_spline(BSpline.basis_element(np.arange(DEGREE + 2), extrapolate=False))
-    inner = (whole.x[1:] > whole.x[:-1]) & (whole.x[:-1] >= 0.0) & (whole.x[:-1] <= DEGREE)
-    return np.ascontiguousarray(whole.c[:, inner].T)
+    rows = np.zeros((DEGREE + 1, DEGREE + 1))
+    for piece in range(DEGREE + 1):
+        for k in range(piece + 1):
+            weight = (-1) ** k * comb(DEGREE + 1, k) / factorial(DEGREE)
+            rows[piece] += weight * np.array(
+                [comb(DEGREE, n) * float(piece - k) ** n for n in range(DEGREE + 1)]
+            )
+    return rows
 
 
 def _derived(pieces: np.ndarray, order: int) -> np.ndarray:

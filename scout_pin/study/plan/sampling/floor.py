@@ -93,11 +93,11 @@ def contacts(
             value[some] = np.take_along_axis(beyond, near, axis=1)
             if slope is not None and wrench.slope is not None:
                 slope[some] = (contact.facets[near] * unit) @ wrench.slope[some, k]
-    for sample in np.flatnonzero(double & (dynamics.double_violation > 0.0)).tolist():
-        missing, by = _missing(soles, feet, sample, wrench.part(slice(sample, sample + 1)))
-        size = weight * soles[0].length
-        value[sample, 0] = missing / size
-        if slope is not None:
+    size, missing = weight * soles[0].length, double & (dynamics.double_violation > 0.0)
+    value[missing, 0] = dynamics.double_violation[missing] / size
+    if slope is not None:
+        for sample in np.flatnonzero(missing).tolist():
+            by = _missing(soles, feet, sample, wrench.part(slice(sample, sample + 1)))
             slope[sample, 0] = by / size
     return Sloped(value, slope)
 
@@ -113,8 +113,8 @@ def _missing(
     feet: tuple[BodyMotion, BodyMotion],
     sample: int,
     wrench: Sloped,
-) -> tuple[float, np.ndarray]:
-    """The least wrench that two soles can't supply together [N·m, forces scaled], and its slope.
+) -> np.ndarray:
+    """Slope of the least wrench that two soles can't supply together, ``(18,)``.
 
     The distance of a cone grows along the vector that leads to it. Soles that softened legs move
     against each other are taken to stay.
@@ -133,9 +133,9 @@ def _missing(
     rest, _ = beyond_cone(np.concatenate(rays).T, total)
     size = float(np.linalg.norm(rest))
     if wrench.slope is None or size == 0.0:
-        return size, np.zeros(18)
+        return np.zeros(18)
     slope = wrench.slope[0, 0] + second @ wrench.slope[0, 1]
-    return size, (rest * unit) @ slope / size
+    return np.asarray((rest * unit) @ slope / size)
 
 
 def _to_world(rotation: np.ndarray, position: np.ndarray) -> np.ndarray:

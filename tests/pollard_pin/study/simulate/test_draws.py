@@ -72,6 +72,7 @@ def test_draws_that_fail_are_counted_and_the_worst_is_told(short_report, held):
     assert not done.passed
     said = done.verdict()
     assert said[0].startswith("FAIL")
+    assert said[0].endswith(f" in {sum(lost)} of 4 draws.")
     assert f"{4 - sum(lost)} of 4 draws keep all that is asked." in said
     assert f"{sum(lost)} of 4 fail by how far the tool is off its path." in said
     worst = int(np.argmax([one.deviation[0] for one in done.draws]))

@@ -5,7 +5,7 @@ import pytest
 
 import scout_pin
 from scout_pin.study.plan.cycle import plan_cycle, with_friction
-from scout_pin.study.plan.cycles import aims, search
+from scout_pin.study.plan.cycles import aims, search, shortfall
 from scout_pin.study.plan.cycles.splines import KNOTS
 from scout_pin.study.plan.request import PlanRequest
 from thesis_pin.errors import BadInput
@@ -134,6 +134,16 @@ def test_friction_of_the_robot_itself_changes_nothing(scout):
     np.testing.assert_array_equal(other.model.inertias[3].inertia, scout.model.inertias[3].inertia)
 
 
+@pytest.fixture
+def briefly(monkeypatch):
+    """Searches that give up sooner."""
+    monkeypatch.setattr(search, "_TRIED", 15)
+    monkeypatch.setattr(search, "_LONGER", 15)
+    monkeypatch.setattr(search, "_HOPELESS", 1)
+    monkeypatch.setattr(shortfall, "_HALVINGS", 1)
+
+
+@pytest.mark.usefixtures("briefly")
 def test_too_large_a_margin_is_answered_by_what_binds_and_what_can_be_met(scout):
     request = PlanRequest(margin=0.05)  # the soles are 75 mm wide
     told = []
@@ -153,6 +163,7 @@ def test_too_large_a_margin_is_answered_by_what_binds_and_what_can_be_met(scout)
     assert told[-1][0] == told[-1][1]
 
 
+@pytest.mark.usefixtures("briefly")
 def test_steps_that_no_leg_reaches_are_answered_by_the_knees(scout):
     plan = plan_cycle(scout, PlanRequest(step_length=0.3, step_time=2.0, height=(0.215, 0.235)))
     assert not plan.met
@@ -164,7 +175,7 @@ def test_steps_that_no_leg_reaches_are_answered_by_the_knees(scout):
 
 @pytest.mark.parametrize("objective", ["fastest", "least_torque", "largest_margin"])
 def test_an_objective_betters_what_keeps_the_limits(scout, default, objective, monkeypatch):
-    monkeypatch.setattr(aims, "STEPS", 6)
+    monkeypatch.setattr(aims, "STEPS", 4)
     plan = plan_cycle(scout, PlanRequest(objective=objective))
     assert plan.met
     better = plan.candidate.request
@@ -177,6 +188,16 @@ def test_an_objective_betters_what_keeps_the_limits(scout, default, objective, m
     use = np.abs(report.dynamics.torque).max() / scout.stall_torque[0]
     assert use <= 1.0 - better.torque_reserve
     assert plan.speed == pytest.approx(better.walking_speed)
+
+
+@pytest.mark.usefixtures("briefly")
+def test_feet_too_far_apart_are_answered_by_how_far_they_may_be(scout):
+    plan = plan_cycle(scout, PlanRequest(foot_spacing=0.2))
+    assert not plan.met
+    assert 0.0 < plan.pace.share < 1.0, "whatever the search came to is a cycle"
+    nearest = plan.shortfall.nearest["foot_spacing"]
+    assert 0.0684 < nearest.foot_spacing < 0.2
+    judged(plan_cycle(scout, nearest))
 
 
 def test_interrupted_it_keeps_the_best_so_far(scout):
@@ -206,9 +227,9 @@ def test_what_cannot_be_stood_is_refused_by_name(scout, scout_thesis):
 
 
 def test_a_check_that_finds_more_adds_samples(scout, monkeypatch):
-    monkeypatch.setattr(search, "_SINGLE", 6)
-    monkeypatch.setattr(search, "_DOUBLE", 3)
+    monkeypatch.setattr(search, "_SINGLE", 12)
+    monkeypatch.setattr(search, "_DOUBLE", 4)
     plan = plan_cycle(scout)
     assert plan.met
-    assert len(plan.candidate.problem.moments.step) > 9
+    assert len(plan.candidate.problem.moments.step) > 16
     judged(plan)

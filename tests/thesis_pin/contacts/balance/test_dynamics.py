@@ -152,7 +152,7 @@ def as_mjcf(model):
     )
 
 
-@pytest.mark.parametrize("name", ["anymal", "solo12"])
+@pytest.mark.parametrize("name", ["anymal", "solo12", "talos", "g1"])
 def test_mujoco_with_the_forces_for_contacts_moves_as_it_was_asked(name):
     robot, feet, _ = standing(name)
     model = robot.model

@@ -86,6 +86,45 @@ def test_forward_dynamics_through_loops_and_contacts_returns_the_accelerations()
         assert np.allclose(back, a, rtol=0, atol=1e-8 * max(1.0, np.abs(a).max()))
 
 
+def test_pinocchio_s_constrained_dynamics_through_loops_returns_the_accelerations():
+    """Loops as its constraints, contact forces and torques as generalized forces."""
+    robot, feet, q = tripod()
+    model, rng = robot.model, np.random.default_rng(7)
+    constraints = pin.StdVec_RigidConstraintModel()
+    for loop in robot.loops:
+        one, two = (model.frames[frame] for frame in loop.ids)
+        constraints.append(
+            pin.RigidConstraintModel(
+                pin.ContactType.CONTACT_3D,
+                model,
+                one.parentJoint,
+                one.placement,
+                two.parentJoint,
+                two.placement,
+                pin.ReferenceFrame.LOCAL,
+            )
+        )
+    workings = pin.StdVec_RigidConstraintData()
+    for constraint in constraints:
+        workings.append(constraint.createData())
+    data = model.createData()
+    pin.initConstraintDynamics(model, data, constraints, workings)
+    settings = pin.ProximalSettings(1e-13, 1e-6, 1000)  # flat linkages have dependent equations
+    for _ in range(4):
+        v, a = closed_motion(robot, q, rng)
+        found = foot_dynamics(robot, feet, q, v, a)
+        tau = np.zeros(model.nv)
+        tau[robot.actuated] = found.torque[0]
+        for k, foot in enumerate(feet):
+            frame = model.getFrameId(foot.frame)
+            jacobian = pin.computeFrameJacobian(
+                model, data, q, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+            )
+            tau += jacobian.T @ found.wrench[0, k]
+        moved = pin.constraintDynamics(model, data, q, v, tau, constraints, workings, settings)
+        assert np.allclose(moved, a, rtol=0, atol=1e-8 * max(1.0, np.abs(a).max()))
+
+
 def test_forces_are_the_weight_and_torques_the_least_another_formulation_finds():
     robot, feet, q = tripod()
     found = foot_dynamics(robot, feet, q)

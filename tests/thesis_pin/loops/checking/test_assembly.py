@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from thesis_pin.loops.checking.assembly import GUESSES, assembly
@@ -104,6 +105,29 @@ def test_a_pose_that_is_closed_already_is_preferred_to_one_that_is_not():
     found = assembly(four_bar(0.3, poses={"as drawn": pose}))
     assert found.start == "pose as drawn"
     np.testing.assert_allclose(found.q, closed, atol=1e-9)
+
+
+@pytest.mark.parametrize("angle", [3.0, 4.0])
+def test_a_joint_that_a_pose_puts_outside_its_range_stays_there_and_is_told(angle, tmp_path):
+    """And nothing else is moved: neither the other joints nor a root that flies freely."""
+    text = '<robot name="arm"><link name="ground"/>' + bar("a", 1.0) + bar("b", 1.0)
+    text += pin_joint("first", "ground", "a", 0) + pin_joint("second", "a", "b", 1) + "</robot>"
+    robot = ClosedRobot(text, root_joint=pin.JointModelFreeFlyer())
+    pose = tmp_path / "pose.toml"
+    pose.write_text(f"format = 1\n[joints]\nfirst = 0.5\nsecond = {angle}\n")
+    found = assembly(robot, str(pose))
+    np.testing.assert_allclose(found.q, [0, 0, 0, 0, 0, 0, 1, 0.5, angle], atol=1e-15)
+    beyond = max(angle - 3.2, 0.0)
+    assert found.outside == ({"second": pytest.approx(beyond)} if beyond else {})
+
+
+def test_a_root_that_flies_freely_is_not_moved_to_close_a_loop():
+    # Straight: a stretched linkage doesn't know which way to bend, so the search starts beside.
+    bars = four_bar(0.5)
+    robot = ClosedRobot(bars.description, root_joint=pin.JointModelFreeFlyer())
+    found = assembly(robot, "neutral")
+    assert found.closed
+    np.testing.assert_array_equal(found.q[:7], robot.q0[:7])
 
 
 def test_a_tree_is_closed_where_it_stands():

@@ -87,9 +87,10 @@ def test_texts_are_aligned_by_their_own_length(align, upright):
     left, bottom, right, top = covered(image)
     start, end, base = (bottom, top, right) if upright else (left, right, bottom)
     at = 100.0 if upright else 140.0
-    assert start == pytest.approx(at - align * length, abs=2.5)
-    assert end == pytest.approx(at + (1 - align) * length, abs=2.5)
-    assert base == pytest.approx(140.0 if upright else 100.0, abs=0.6)
+    # Letters on whole pixels are a little narrower or wider, and moved.
+    assert start == pytest.approx(at - align * length, abs=4.0)
+    assert end == pytest.approx(at + (1 - align) * length, abs=4.0)
+    assert base == pytest.approx(140.0 if upright else 100.0, abs=1.5)
     assert "<!-- HMMMH -->" in text
 
 

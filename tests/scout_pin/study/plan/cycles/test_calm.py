@@ -5,7 +5,7 @@ import pytest
 
 import scout_pin
 from scout_pin.study.plan.cycles import calm
-from scout_pin.study.plan.cycles.problem import Descending
+from scout_pin.study.plan.cycles.descending import Descending
 from scout_pin.study.plan.cycles.search import Search
 from scout_pin.study.plan.request import PlanRequest
 
@@ -30,7 +30,7 @@ def test_a_calm_cycle_keeps_its_limits_with_half_the_rates(search, found):
         search.sampler.robot, calmer.request, calmer, None, False, 0
     )
     report = scout_pin.gait_report(scout_pin.load(), plan.gait, samples=801)
-    rates = report.joints.qd / scout_pin.load().no_load_speed
+    rates = report.joints.v / scout_pin.load().no_load_speed
     assert np.sqrt(np.mean(rates**2)) == pytest.approx(calm.effort(calmer), rel=0.05)
 
 

@@ -6,6 +6,7 @@ import pytest
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.cycles.feet import Moments, Pace, Steps, least_spacing, phases
 from scout_pin.study.plan.request import GAP, PlanRequest
+from thesis_pin.errors import BadInput
 
 PACE = Pace(step_length=0.03, step_time=0.8, share=0.25)
 STEPS = Steps((-0.034, 0.034), 0.02)
@@ -63,3 +64,9 @@ def test_feet_leave_a_gap_between_the_soles_unless_told_how_far_apart(scout, lop
         soles = [np.array(robot.specification.leg(side).sole)[:, 0] for side in SIDES]
         assert right + soles[1].min() - left - soles[0].max() == pytest.approx(GAP)
         assert Steps.of(robot, PlanRequest(foot_spacing=0.2)).across == (-0.1, 0.1)
+
+
+def test_soles_that_would_touch_are_refused(scout):
+    with pytest.raises(BadInput, match=r"touch.*56\.36 mm"):
+        Steps.of(scout, PlanRequest(foot_spacing=0.0563))
+    assert Steps.of(scout, PlanRequest(foot_spacing=0.0566)).across[1] == 0.0283
