@@ -229,7 +229,7 @@ def test_what_cannot_be_stood_is_refused_by_name(scout, scout_thesis):
 def test_a_check_that_finds_more_adds_samples(scout, monkeypatch):
     monkeypatch.setattr(search, "_SINGLE", 12)
     monkeypatch.setattr(search, "_DOUBLE", 4)
-    plan = plan_cycle(scout)
-    assert plan.met
-    assert len(plan.candidate.problem.moments.step) > 16
-    judged(plan)
+    found = search.Search(scout, PlanRequest(), lambda: None).first(PlanRequest())
+    assert found.kept
+    assert len(found.problem.moments.step) > 16
+    judged(plan_cycle(scout))
