@@ -17,11 +17,15 @@ from scout_pin.study.plan.samples import Sampler
 from scout_pin.study.plan.sampling.sloped import Sloped
 
 _UNITS = TORSO_UNITS[:, None]  # of coefficients
-_SHARE_UNIT, _LENGTH_UNIT = 0.1, 0.01
-_SHARES = (0.1, 0.6)
-_SHORTEST = 0.003  # step [m], where it is free
-_NUDGE = 1e-6  # of the unknowns of the pace, whose slopes are differences
-_WEIGHT = 3.0
+SHARE_UNIT, LENGTH_UNIT = 0.1, 0.01
+"""Units of the share of double support, and of a step's length [m]."""
+
+SHARES = (0.1, 0.6)
+"""Least and greatest share of a step in which both feet stand: servos take some 20 ms to take
+over a load."""
+
+SHORTEST = 0.003
+"""Length of a step, where it is free [m]."""
 
 
 @dataclass(frozen=True)
@@ -76,17 +80,17 @@ class CycleProblem:
 
     def packed(self, known: Unknowns) -> np.ndarray:
         """Unknowns as a vector, in units in which they are alike."""
-        pace = [known.share / _SHARE_UNIT]
+        pace = [known.share / SHARE_UNIT]
         if self.free_length:
-            pace.append(known.step_length / _LENGTH_UNIT)
+            pace.append(known.step_length / LENGTH_UNIT)
         return np.concatenate([(known.coefficients / _UNITS).ravel(), pace])
 
     def unpacked(self, x: np.ndarray, like: float) -> Unknowns:
         """The other way round; ``like`` is the length of a step where it isn't free [m]."""
         size = 6 * self.cyclic.size
-        length = x[size + 1] * _LENGTH_UNIT if self.free_length else like
+        length = x[size + 1] * LENGTH_UNIT if self.free_length else like
         coefficients = x[:size].reshape(6, -1) * _UNITS
-        return Unknowns(coefficients, float(x[size]) * _SHARE_UNIT, float(length))
+        return Unknowns(coefficients, float(x[size]) * SHARE_UNIT, float(length))
 
     def pace(self, known: Unknowns) -> Pace:
         """When and how far the feet go."""
@@ -152,112 +156,13 @@ class CycleProblem:
         return over, np.broadcast_to(np.array([-1.0, 1.0])[:, None, None], over.shape)
 
 
-@dataclass(frozen=True)
-class Descending:
-    """A cycle's problem for :func:`~scout_pin.study.plan.newton.descend`.
-
-    Attributes:
-        problem: The problem.
-        step_length: Length of a step where it isn't free [m].
-    """
-
-    problem: CycleProblem
-    step_length: float
-
-    def residuals(self, x: np.ndarray, *, slopes: bool) -> tuple[np.ndarray, np.ndarray | None]:
-        """What is beyond the limits, and its slopes."""
-        problem = self.problem
-        known = problem.unpacked(x, self.step_length)
-        rest, of = self._bounds(x, known)
-        # A pace that can't be has no samples: they are taken at the nearest that can.
-        inside = inside_pace(known)
-        excess = problem.excess(inside, slopes=slopes)
-        values = [rest]
-        active = {
-            kind: np.nonzero(one.value > -problem.back_off)
-            for kind, one in excess.items()
-            if kind in problem.held
-        }
-        values += [excess[k].value[rows] + problem.back_off for k, rows in active.items()]
-        residual = _WEIGHT * np.concatenate(values)
-        if not slopes:
-            return residual, None
-        jets = np.concatenate([_rows(excess[kind], rows) for kind, rows in active.items()])
-        samples = np.concatenate([rows[0] for rows in active.values()])
-        matrix = np.concatenate([of, self._by_unknowns(inside, jets, samples)])
-        matrix[len(of) :, 6 * problem.cyclic.size :] = self._by_pace(inside, excess, active)
-        return residual, _WEIGHT * matrix
-
-    def _by_unknowns(self, known: Unknowns, jets: np.ndarray, samples: np.ndarray) -> np.ndarray:
-        """Slopes by jets ``(m, 18)`` at some samples → slopes by all unknowns."""
-        problem = self.problem
-        pace, count = problem.pace(known), problem.cyclic.size
-        scale = pace.step_time ** -np.arange(3.0)[:, None]
-        basis = problem.cyclic.basis(problem.moments.times(pace.share))
-        found = np.zeros((len(samples), 6 * count + 1 + problem.free_length))
-        slopes = jets.reshape(-1, 3, 6) * scale
-        product = np.einsum("mdc,mdck->mck", slopes, basis[samples]) * _UNITS
-        found[:, : 6 * count] = product.reshape(-1, 6 * count)
-        return found
-
-    def _by_pace(
-        self,
-        known: Unknowns,
-        excess: dict[str, Sloped],
-        active: dict[str, tuple[np.ndarray, ...]],
-    ) -> np.ndarray:
-        """Slopes by the share of double support, and the length of a step if it is free."""
-        moved = [(replace(known, share=known.share + _NUDGE * _SHARE_UNIT))]
-        if self.problem.free_length:
-            more = known.step_length + _NUDGE * _LENGTH_UNIT
-            moved.append(replace(known, step_length=more))
-        columns = []
-        for one in moved:
-            there = self.problem.excess(one)
-            changes = [
-                (there[kind].value[rows] - excess[kind].value[rows]) / _NUDGE
-                for kind, rows in active.items()
-            ]
-            columns.append(np.concatenate(changes))
-        return np.stack(columns, axis=1)
-
-    def _bounds(self, x: np.ndarray, known: Unknowns) -> tuple[np.ndarray, np.ndarray]:
-        """What passes the bounds of posture and pace, and its slopes."""
-        over, signs = self.problem.posture(known)
-        where = np.argwhere((over > 0.0) & ("posture" in self.problem.held))
-        size = self.problem.cyclic.size
-        values = over[tuple(where.T)].tolist()
-        columns = (where[:, 1] * size + where[:, 2]).tolist()
-        slopes = signs[tuple(where.T)].tolist()
-        last = 6 * size
-        low, high = (one / _SHARE_UNIT for one in _SHARES)
-        limits = [(last, low, -1.0), (last, high, 1.0)]
-        if self.problem.free_length:
-            limits.append((last + 1, _SHORTEST / _LENGTH_UNIT, -1.0))
-        for column, limit, sign in limits:
-            if (beyond := sign * (x[column] - limit)) > 0.0:
-                values.append(float(beyond))
-                columns.append(column)
-                slopes.append(sign)
-        matrix = np.zeros((len(values), len(x)))
-        matrix[np.arange(len(values)), columns] = slopes
-        return np.array(values), matrix
-
-
 def inside_pace(known: Unknowns) -> Unknowns:
     """The nearest whose pace has samples: a search may try others on its way."""
     return replace(
         known,
         share=float(np.clip(known.share, 0.02, 0.8)),
-        step_length=max(known.step_length, _SHORTEST / 2),
+        step_length=max(known.step_length, SHORTEST / 2),
     )
-
-
-def _rows(excess: Sloped, rows: tuple[np.ndarray, ...]) -> np.ndarray:
-    """Slopes of some entries, ``(m, 18)``."""
-    if excess.slope is None:
-        return np.zeros((len(rows[0]), 18))
-    return np.asarray(excess.slope[rows])
 
 
 def bounds(request: PlanRequest, neutral_height: float) -> np.ndarray:

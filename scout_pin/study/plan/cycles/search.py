@@ -7,19 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scout_pin.kinematics.branches import taken_branches
 from scout_pin.model import Scout
-from scout_pin.specification import SIDES
+from scout_pin.study.plan.cycles.descending import Descending
 from scout_pin.study.plan.cycles.feet import Moments, Pace, Steps
 from scout_pin.study.plan.cycles.problem import (
     CycleProblem,
-    Descending,
     Unknowns,
     bounds,
     inside_pace,
 )
 from scout_pin.study.plan.cycles.splines import Cyclic
-from scout_pin.study.plan.cycles.starts import SHARE, STARTS, Build, starts
+from scout_pin.study.plan.cycles.starts import SHARE, STARTS, Build, standing_branches, starts
 from scout_pin.study.plan.cycles.symmetry import mirrored
 from scout_pin.study.plan.limits import KINDS, Limits, Worst, worsts
 from scout_pin.study.plan.newton import Descent, descend
@@ -27,7 +25,7 @@ from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.samples import Sampler
 from scout_pin.study.plan.sampling.reach import STRAIGHT
 from scout_pin.study.plan.sampling.sloped import Sloped
-from thesis_pin.errors import BadInput, SingularPose, ThesisPinError, Unreachable
+from thesis_pin.errors import BadInput, SingularPose, ThesisPinError
 
 BACK_OFF = 0.01
 """Share of each limit that searches leave, so that it is kept between their samples too."""
@@ -222,33 +220,3 @@ class Search:
 
 ATTEMPTS = STARTS + 2
 """Descents that :meth:`Search.first` makes at most."""
-
-
-def standing_branches(
-    robot: Scout, build: Build, steps: Steps, request: PlanRequest
-) -> tuple[int, int]:
-    """The branches on which the legs stand side by side, knees bent a little.
-
-    Raises:
-        BadInput: The legs don't reach that far.
-    """
-    torso = np.eye(4)
-    torso[:3, 3] = sum(steps.across) / 2, build.forward, 0.95 * build.height
-    feet = [np.eye(4), np.eye(4)]
-    for foot, across in zip(feet, steps.across, strict=True):
-        foot[0, 3] = across
-    try:
-        theta = robot.inverse_kinematics(torso, feet[0], feet[1], branch=request.branch)
-    except Unreachable as error:
-        raise BadInput(
-            f"the feet can't stand {(steps.across[1] - steps.across[0]) * 1e3:.4g} mm apart: "
-            f"{error.what}",
-            where="foot_spacing",
-            allowed="places that the legs reach",
-            remedy="Ask for another foot_spacing, or for another branch",
-        ) from None
-    left, right = (
-        int(taken_branches(robot.legs[side], theta[None, 6 * k : 6 * k + 6])[0])
-        for k, side in enumerate(SIDES)
-    )
-    return left, right

@@ -9,10 +9,13 @@ from itertools import product
 import numpy as np
 import pinocchio as pin
 
+from scout_pin.kinematics.branches import taken_branches
 from scout_pin.model import Scout
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.cycles.feet import Steps
 from scout_pin.study.plan.cycles.splines import KNOTS, Cyclic
+from scout_pin.study.plan.request import PlanRequest
+from thesis_pin.errors import BadInput, Unreachable
 
 _GUESSES = ((6.0, 20.0, -12.0), (10.0, 30.0, -20.0), (3.0, 12.0, -6.0), (12.0, 40.0, -30.0))
 """Roll either way [°], sway and lowering [mm] of a torso :data:`_HIGH` above the floor. Lowered by
@@ -61,3 +64,33 @@ def starts(build: Build, steps: Steps, cyclic: Cyclic, step_length: float) -> It
         wanted[:, 2] = build.height + lower * 1e-3 * size
         wanted[:, 4] = sign * np.radians(roll) * sway
         yield cyclic.fitted(wanted)
+
+
+def standing_branches(
+    robot: Scout, build: Build, steps: Steps, request: PlanRequest
+) -> tuple[int, int]:
+    """The branches on which the legs stand side by side, knees bent a little.
+
+    Raises:
+        BadInput: The legs don't reach that far.
+    """
+    torso = np.eye(4)
+    torso[:3, 3] = sum(steps.across) / 2, build.forward, 0.95 * build.height
+    feet = [np.eye(4), np.eye(4)]
+    for foot, across in zip(feet, steps.across, strict=True):
+        foot[0, 3] = across
+    try:
+        theta = robot.inverse_kinematics(torso, feet[0], feet[1], branch=request.branch)
+    except Unreachable as error:
+        raise BadInput(
+            f"the feet can't stand {(steps.across[1] - steps.across[0]) * 1e3:.4g} mm apart: "
+            f"{error.what}",
+            where="foot_spacing",
+            allowed="places that the legs reach",
+            remedy="Ask for another foot_spacing, or for another branch",
+        ) from None
+    left, right = (
+        int(taken_branches(robot.legs[side], theta[None, 6 * k : 6 * k + 6])[0])
+        for k, side in enumerate(SIDES)
+    )
+    return left, right

@@ -5,8 +5,9 @@ import pytest
 
 from scout_pin.kinematics.branches import taken_branches
 from scout_pin.specification import SIDES
+from scout_pin.study.plan.cycles.descending import Descending
 from scout_pin.study.plan.cycles.feet import Moments, Steps
-from scout_pin.study.plan.cycles.problem import CycleProblem, Descending, Unknowns, bounds
+from scout_pin.study.plan.cycles.problem import CycleProblem, Unknowns, bounds
 from scout_pin.study.plan.cycles.splines import Cyclic
 from scout_pin.study.plan.cycles.starts import Build, starts
 from scout_pin.study.plan.limits import Limits
