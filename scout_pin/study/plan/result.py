@@ -104,8 +104,10 @@ class Plan:
         for one in shortfall.binding:
             if one.alone:
                 yield f"all other limits could be kept but for {passed_words(one.worst)}"
+            elif one.worst.excess > 0.0:
+                yield f"what was found passes {passed_words(one.worst)}"
             else:
-                yield f"what was found is at odds with {passed_words(one.worst)}"
+                yield f"what was found presses against {passed_words(one.worst)}"
 
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
