@@ -44,7 +44,7 @@ class Descending:
         known = problem.unpacked(x, self.step_length)
         rest, of = self._bounds(x, known)
         # A pace that can't be has no samples: they are taken at the nearest that can.
-        inside = inside_pace(known)
+        inside = inside_pace(known, problem.free_length)
         excess = problem.excess(inside, slopes=slopes)
         values = [rest]
         active = {
