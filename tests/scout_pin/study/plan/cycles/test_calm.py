@@ -54,3 +54,14 @@ def test_slopes_of_the_rates_are_those_of_finite_differences(search, found):
         )
         wanted = (ahead - behind) / 2e-6
         np.testing.assert_allclose(slopes[-count:, column], wanted, atol=2e-4)
+
+
+@pytest.mark.parametrize("pace", [{"speed": 0.0375, "step_time": 0.8}, {"speed": 0.1}])
+def test_the_length_of_a_step_stays_as_it_was_found(pace):
+    request = PlanRequest(**pace)
+    search = Search(scout_pin.load(), request, lambda: None)
+    found = search.first(request)
+    calmer = calm.calmed(search, found)
+    assert calm.effort(calmer) < calm.effort(found)
+    assert calmer.known.step_length == found.known.step_length
+    assert calmer.request == request  # what may still be changed of it may be
