@@ -15,7 +15,8 @@ from pollard_pin.specification import LINK_NAMES, Link, ReplacedInertia, Specifi
 from pollard_pin.study.simulate.conditions import Conditions
 from pollard_pin.study.simulate.engines import engine_name
 from pollard_pin.study.simulate.measures import Measures, measures
-from pollard_pin.study.simulate.replay import Prepared, Replay, prepare, replay
+from pollard_pin.study.simulate.record import Replay
+from pollard_pin.study.simulate.replay import Prepared, prepare, replay
 from pollard_pin.study.simulate.result import Simulation
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import function, instance

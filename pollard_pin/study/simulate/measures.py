@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pollard_pin.study.simulate.replay import Replay
+from pollard_pin.study.simulate.record import Replay
 
 
 @dataclass(frozen=True)

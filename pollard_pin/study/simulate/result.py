@@ -10,7 +10,8 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, LINK_NAMES
 from pollard_pin.study.simulate.conditions import Conditions
 from pollard_pin.study.simulate.measures import Measures
-from pollard_pin.study.simulate.replay import Prepared, Replay
+from pollard_pin.study.simulate.record import Replay
+from pollard_pin.study.simulate.replay import Prepared
 from pollard_pin.study.simulate.verdict import (
     NAMES,
     Criterion,
@@ -68,7 +69,8 @@ class Simulation:
     @property
     def reason(self) -> str | None:
         """Why the tool leaves its path in the first draw, where errors that grow explain it."""
-        return reason(self.draws[0], self.prepared.growth, self.replay.slope)
+        held = not self.conditions.open_loop
+        return reason(self.draws[0], self.prepared.growth, self.replay.slope, held)
 
     def doubts(self) -> list[str]:
         """What is to be asked before the numbers are believed: what the report asks."""
@@ -95,7 +97,7 @@ class Simulation:
         """Motors that the plan asks for more than they give: no robot does it."""
         planned, limit = self.report.actuators.peak_torque, self.prepared.servo.limit
         asked = [
-            f"{ACTUATOR_SYMBOLS[k]} for {planned[k]:.3g} of {limit[k]:g} N·m"
+            f"{ACTUATOR_SYMBOLS[k]} for {planned[k]:.4g} of {limit[k]:g} N·m"
             for k in np.flatnonzero(planned > limit)
         ]
         return [f"The plan asks more than the motors give: {', '.join(asked)}."] if asked else []

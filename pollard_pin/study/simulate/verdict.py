@@ -68,20 +68,24 @@ def sentences(found: Measures, duration: float) -> list[str]:
     return [*ending, *(one.words for one in criteria(found) if not one.met)]
 
 
-def reason(found: Measures, grown: Growth, slope: float | None) -> str | None:
+def reason(found: Measures, grown: Growth, slope: float | None, held: bool) -> str | None:
     """Why the tool leaves its path, where errors that grow explain it; else None.
+
+    Where a motor is at its limit that is the reason, and the growth another one.
 
     Args:
         found: The replay.
         grown: Growth of errors along its plan.
         slope: Rate at which its deviation was seen to grow [1/s].
+        held: Whether there are servos.
     """
-    if found.left is None or grown.factor[-1] < np.log(_UNSTABLE):
+    if found.left is None or found.saturated.any() or grown.factor[-1] < np.log(_UNSTABLE):
         return None
     each = grown.time[-1] / grown.factor[-1]
     text = (
-        "The reason: nothing corrects errors, and this motion lets them grow, as a pendulum on its "
-        f"head does; by the linearised mechanism by a factor of e each {each:.3f} s, by "
+        f"The reason: {'these servos are too soft' if held else 'nothing is there'} to correct "
+        "errors, and this motion lets them grow, as a pendulum on its head does; by the linearised "
+        f"mechanism by a factor of e each {each:.3f} s, by "
         f"10^{grown.factor[-1] / np.log(10):.0f} over the path"
     )
     if slope is not None:
@@ -92,7 +96,8 @@ def reason(found: Measures, grown: Growth, slope: float | None) -> str | None:
             f". Even the rounding of numbers of 16 digits becomes a millimetre in {horizon:.1f} s, "
             "so that no engine follows longer than that"
         )
-    return f"{text}. Servos end it: give their stiffness."
+    end = "Stiffer ones end it." if held else "Servos end it: give their stiffness."
+    return f"{text}. {end}"
 
 
 def draws_sentences(every: Sequence[Measures]) -> Iterator[str]:

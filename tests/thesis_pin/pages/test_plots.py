@@ -4,9 +4,11 @@ import json
 
 import numpy as np
 import plotly.graph_objects
+from pictured import shapes_of
 
 from thesis_pin.pages.plots import MARGINS, figure
 from thesis_pin.report.curves import Area, Band, Curve, Limit, Plot, both_signs
+from thesis_pin.report.figures import panels
 
 TIME = np.linspace(0.0, 2.0, 5)
 SQUARE = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]])
@@ -62,3 +64,14 @@ def test_a_plane_has_one_scale_and_closed_areas():
 def test_margins_are_those_the_page_places_its_cursor_by():
     margin = read(Plot("t", "", "y", [Curve("c", TIME, "#000000")], TIME)).layout.margin
     assert {side: margin[side] for side in MARGINS} == MARGINS
+
+
+def test_a_heavier_curve_is_as_much_thicker_on_a_page_as_in_a_figure():
+    y = np.zeros(3)
+    lines = [Curve("light", y, "#000000"), Curve("heavy", y, "#000000", weight=2.0)]
+    plot = Plot("Two", "", "y", lines, np.arange(3.0))
+    light, heavy = (trace["line"]["width"] for trace in figure(plot)["data"])
+    assert heavy == 2.0 * light
+    drawn = shapes_of(panels([[plot]], 4, 3), "curve")
+    widths = [shape.look.width for shape in drawn]
+    assert widths[1] == 2.0 * widths[0]

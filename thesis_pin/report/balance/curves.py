@@ -34,6 +34,7 @@ def ground(report: BalanceReport) -> Plot:
     for rows, polygon in found.support_polygons:
         if len(polygon) > 1 and np.isin(middles, rows).any():
             areas.append(Area("support polygon", polygon, GREEN, filled=len(polygon) > 2))
+    areas.sort(key=lambda area: not area.filled)  # a legend shows the first
     for k, foot in enumerate(found.feet):
         standing = np.flatnonzero(found.support[:, k])
         if foot.kind == "sole" and standing.size:

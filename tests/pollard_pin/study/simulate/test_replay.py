@@ -145,3 +145,28 @@ def test_rotors_and_unequal_chains_are_simulated_too(short_report, held, engine)
     done = simulate_path(report, held(engine=engine))
     assert done.passed, done.verdict()
     assert done.replay.relative_energy_error < 1e-7
+
+
+@BOTH
+def test_a_plan_that_no_motor_carries_is_told_from_its_first_instants(engine):
+    """Appendix B in 0.3 s: a thousand newton metres; one engine gives up, the other is lost."""
+    robot = pollard_pin.load()
+    path = pollard_pin.appendix_b(robot.specification, duration=0.3)
+    report = pollard_pin.trajectory_report(robot, path, samples=101)
+    done = simulate_path(report, Conditions(engine=engine))
+    assert not done.passed
+    assert done.replay.ended[0] < 0.02
+    assert done.replay.ended[1]
+    assert done.reason is None  # it is the motors
+    assert done.verdict()[1].startswith("The plan asks more than the motors give: θ21 for 1")
+    assert len(done.replay.time) == len(done.replay.deviation) >= 1
+    assert done.replay.deviation[0] == 0
+
+
+def test_servos_too_soft_are_told_so(default_report):
+    done = simulate_path(default_report, Conditions(stiffness=(0.5, 0.5, 0.5, 0.1, 0.1, 0.01)))
+    assert not done.passed
+    assert done.reason.startswith("The reason: these servos are too soft to correct errors")
+    assert done.reason.endswith("Stiffer ones end it.")
+    growth = done.prepared.growth
+    assert 0 < growth.factor[-1] / growth.time[-1] < 7.0

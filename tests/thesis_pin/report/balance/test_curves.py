@@ -3,8 +3,11 @@
 import numpy as np
 from standing_robots import standing
 
+from thesis_pin.contacts.balance.dynamics import foot_dynamics
 from thesis_pin.contacts.soles.outlines import area
+from thesis_pin.contacts.standing.placing import stand
 from thesis_pin.report.balance.curves import _stances, ground
+from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.balance.making import balance_report
 
 
@@ -41,3 +44,15 @@ def test_what_two_points_span_is_a_line():
     robot, feet, pose = standing("bolt")
     (line,) = ground(balance_report(robot, pose=pose, feet=feet)).areas
     assert (line.name, len(line.corners), line.filled) == ("support polygon", 2, False)
+
+
+def test_polygons_come_before_lines_so_that_a_legend_shows_one():
+    robot, feet, pose = standing("anymal")
+    on = np.ones((21, 4), dtype=bool)
+    on[:10, 1:3] = False
+    q = np.repeat(stand(robot, feet, pose).q[None], 21, axis=0)
+    still = np.zeros((21, robot.model.nv))
+    found = foot_dynamics(robot, feet, q, still, still, support=on)
+    report = balance_report(robot, pose=pose, feet=feet)
+    drawn = ground(BalanceReport(report.motors, found, False)).areas
+    assert [one.filled for one in drawn] == [True, False]
