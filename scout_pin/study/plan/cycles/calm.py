@@ -2,9 +2,12 @@
 
 Limits alone leave a torso free to fidget. Here the joints' rates count beside the limits, less and
 less, and after each search for both the limits alone are pressed again: a few short steps.
+A step's length stays as it was found: longer ones turn joints less and jolt servos more.
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 
@@ -35,15 +38,18 @@ def calmed(search: Search, found: Candidate) -> Candidate:
     for weight in EFFORTS:
         search.tick()
         length = found.known.step_length
-        descending = Descending(search.problem(found.request), length, weight)
+        paced = found.request
+        if paced.free_length:
+            paced = paced.changed(step_length=length)
+        descending = Descending(search.problem(paced), length, weight)
         try:
             start = descending.problem.packed(found.known)
             there = descend(descending, start, most=_MOST)
             known = descending.problem.unpacked(there.x, length)
             search.iterations += there.iterations
-            calm = search.solved(found.request, known)
+            calm = search.solved(paced, known)
         except (ThesisPinError, ArithmeticError):
             continue
         if calm.kept and effort(calm) < effort(found):
-            return search.noted(calm)
+            return search.noted(replace(calm, request=found.request))
     return found

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import scout_pin
+from scout_pin.study.plan.cycle import CyclePlan
 from scout_pin.study.plan.cycles import calm
 from scout_pin.study.plan.cycles.descending import Descending
 from scout_pin.study.plan.cycles.search import Search
@@ -26,9 +27,7 @@ def test_a_calm_cycle_keeps_its_limits_with_half_the_rates(search, found):
     assert calmer.kept
     assert calm.effort(calmer) < 0.5 * calm.effort(found)
     # The rates themselves, by the report that knows nothing of how the cycle came about.
-    plan = scout_pin.study.plan.cycle.CyclePlan(
-        search.sampler.robot, calmer.request, calmer, None, False, 0
-    )
+    plan = CyclePlan(search.sampler.robot, calmer.request, calmer, None, False, 0)
     report = scout_pin.gait_report(scout_pin.load(), plan.gait, samples=801)
     rates = report.joints.v / scout_pin.load().no_load_speed
     assert np.sqrt(np.mean(rates**2)) == pytest.approx(calm.effort(calmer), rel=0.05)
@@ -54,3 +53,14 @@ def test_slopes_of_the_rates_are_those_of_finite_differences(search, found):
         )
         wanted = (ahead - behind) / 2e-6
         np.testing.assert_allclose(slopes[-count:, column], wanted, atol=2e-4)
+
+
+@pytest.mark.parametrize("pace", [{"speed": 0.0375, "step_time": 0.8}, {"speed": 0.1}])
+def test_the_length_of_a_step_stays_as_it_was_found(pace):
+    request = PlanRequest(**pace)
+    search = Search(scout_pin.load(), request, lambda: None)
+    found = search.first(request)
+    calmer = calm.calmed(search, found)
+    assert calm.effort(calmer) < calm.effort(found)
+    assert calmer.known.step_length == found.known.step_length
+    assert calmer.request == request  # what may still be changed of it may be
