@@ -169,6 +169,9 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             off, and play of good ball joints.
         replay_energy: How far work and change of energy may differ, relative to the work
             exchanged [-]: engines of order four do a hundred times better.
+        plan_share: What a report may find of a limit beyond what a plan was to keep, relative [-]:
+            plans are checked at other instants than their reports are.
+        plan_margin: The same of the margin [m].
         walked_share, walked_place: How far a simulated walk's distance may be off the planned one,
             relative to it [-], and that of what is to stay in place [m].
         walked_heading: The same of its heading at the end [rad].
@@ -268,6 +271,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     replay_lost: float = 0.05
     replay_opening: float = 1e-6
     replay_energy: float = 1e-6
+    plan_share: float = 0.01
+    plan_margin: float = 2e-4
     walked_share: float = 0.05
     walked_place: float = 2e-3
     walked_heading: float = 0.0873  # 5°

@@ -69,7 +69,7 @@ def which_walk(words: Words, branch: Callable[..., None]) -> None:
     words.add_argument("--fastest", action="store_true", help="the same as --objective fastest")
     words.add_argument(
         "--steps",
-        type=count("--steps", 1, 200),
+        type=count("--steps", 1, 100),
         default=10,
         metavar="N",
         help="steps of the walk from rest to rest, the foot behind drawn up last (default: 10)",

@@ -63,3 +63,25 @@ def test_a_ghost_that_coincides_with_its_robot_gives_way_to_it(browser, ghost_fi
     both = browser.still()
     browser.run("player.toggle('ghost')")
     assert differing(both, browser.still()) < 200
+
+
+def test_a_simulation_s_page_has_its_plan_as_a_ghost(browser, folder, artefacts):
+    pytest.importorskip("mujoco", reason="MuJoCo isn't installed")
+    from pollard_pin.study.simulate.page import simulation_page
+
+    robot = pollard_pin.load()
+    report = pollard_pin.trajectory_report(
+        robot, pollard_pin.appendix_b(robot.specification), samples=241
+    )
+    file = folder / "simulation.html"
+    file.write_bytes(simulation_page(pollard_pin.simulate_path(report)))
+    browser.open(file.as_uri(), 390, 844, mobile=True)
+    browser.until("window.player && player.framesDrawn > 0")
+    browser.run("player.pause(); player.time = player.duration")
+    browser.run("document.querySelector('canvas').focus({ preventScroll: false })")
+    there = browser.still(artefacts / "simulation_390.png")
+    browser.press("g")
+    assert browser.run("player.groups.get('ghost').object.visible") is False
+    assert differing(there, browser.still()) > 100
+    assert browser.complaints() == []
+    assert browser.requests() == [file.as_uri()]

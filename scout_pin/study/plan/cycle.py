@@ -23,6 +23,7 @@ from scout_pin.kinematics.branches import BRANCHES
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.study.plan.cycles.aims import STEPS, improved
+from scout_pin.study.plan.cycles.calm import EFFORTS, calmed
 from scout_pin.study.plan.cycles.feet import Pace, phases
 from scout_pin.study.plan.cycles.search import ATTEMPTS, Candidate, Search
 from scout_pin.study.plan.cycles.shortfall import ALTERNATIVES, Shortfall, shortfall
@@ -107,8 +108,9 @@ def plan_cycle(
 
     The torso's six coordinates are quintic B-splines; the double support's share is free, and
     the step's length where the request leaves it open. Damped Gauss–Newton presses what passes
-    a limit below it, from several starts; what it finds is checked at 1004 samples of both
-    steps. Whatever it is, it is a local answer: a request that isn't met may be met otherwise.
+    a limit below it, from several starts; what it finds is calmed, so that joints turn no more
+    than they need to, and checked at 1004 samples of both steps. Whatever it is, it is a local
+    answer: a request that isn't met may be met otherwise.
 
     Args:
         robot: The biped, with a free-flyer root.
@@ -127,7 +129,7 @@ def plan_cycle(
     instance("request", request, PlanRequest, "PlanRequest()")
     function("progress", progress, "progress(done, total)")
     robot = with_friction(robot, request.friction)
-    total = ATTEMPTS + (STEPS if request.objective != "limits" else ALTERNATIVES)
+    total = ATTEMPTS + (STEPS + 2 * len(EFFORTS) if request.objective != "limits" else ALTERNATIVES)
     done = [0]
 
     def tick() -> None:
@@ -140,8 +142,10 @@ def plan_cycle(
         found = search.first(request)
         if not found.kept:
             why = shortfall(search, request, found)
-        elif request.objective != "limits":
-            found = improved(search, found, request.objective)
+        else:
+            found = calmed(search, found)
+            if request.objective != "limits":
+                found = improved(search, found, request.objective)
     except KeyboardInterrupt:
         if search.latest is None:
             raise

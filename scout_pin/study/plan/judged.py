@@ -10,12 +10,7 @@ import numpy as np
 from scout_pin.report.document import GaitReport
 from scout_pin.specification import JOINT_NAMES
 from scout_pin.study.plan.request import PlanRequest
-
-LOOSE = 0.01
-"""By how much a report may find a limit passed that a plan keeps, relative."""
-
-LOOSE_MARGIN = 0.2e-3
-"""The same of the margin [m]."""
+from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -72,7 +67,7 @@ class Judged:
         """
         if not self.walks:
             yield "its report says: " + " ".join(self.said).rstrip(".")
-        if self.margin < margin - LOOSE_MARGIN:
+        if self.margin < margin - TOLERANCES.plan_margin:
             yield (
                 f"the report finds a margin of {self.margin * 1e3:.2f} mm "
                 f"(limit {margin * 1e3:g} mm)"
@@ -84,7 +79,7 @@ class Judged:
         ):
             counts = request.servo_line or what != "torque-speed line"
             # A servo that passes its whole line doesn't carry the gait, by however little.
-            beyond = share > min(most + LOOSE, 1.0)
+            beyond = share > min(most + TOLERANCES.plan_share, 1.0)
             if counts and beyond:
                 yield f"the report finds {joint} at {share:.1%} of its {what} (limit {most:.1%})"
 

@@ -91,6 +91,10 @@ class Limits:
             result["line"] = found.line(robot).less(self.line)
         return result
 
+    def rates(self, robot: Scout, excess: dict[str, Sloped]) -> Sloped:
+        """The joints' rates, relative to no-load speed, of what :meth:`excess` found."""
+        return excess["speed"].less(-self.rate / robot.no_load_speed)
+
 
 KINDS = {
     "margin": "the margin of the zero-moment point",

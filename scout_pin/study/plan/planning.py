@@ -23,8 +23,11 @@ from thesis_pin.numeric.workers import silent
 LEAST_SAMPLES = 800
 """Samples at which a plan is judged at least."""
 
-MOST_STEPS = 200
-"""Steps of a walk at most: a longer one is its cycle, repeated."""
+MOST_STEPS = 100
+"""Steps of a walk at most, so that its file can be read: a longer one is its cycle, repeated."""
+
+A_STEP = 80
+"""Samples of each step of a walk at which it is judged at least."""
 
 FIRST = "right"
 """The foot that goes first, as in the thesis's gait."""
@@ -49,7 +52,7 @@ def plan_gait(
         robot: The biped, with a free-flyer root.
         request: What is asked for; None for the default.
         steps: Steps of the walk, each a step's length ahead; then the foot behind is drawn up.
-        samples: Evenly spaced samples at which each report judges.
+        samples: Evenly spaced samples at which each report judges; of a long walk more.
         progress: Called with what is done and the whole.
 
     Returns:
@@ -94,7 +97,8 @@ def plan_gait(
     if not (start.kept and stop.kept):
         return Plan(cycle, steps, start, stop, judged)
     gait = walk(cycle, start, stop, steps)
-    report = gait_report(cycle.robot, gait, samples=samples)
+    often = max(samples, A_STEP * (steps + 2))
+    report = gait_report(cycle.robot, gait, samples=often)
     progress(told[1], told[1])
     margin = min(cycle.request.margin, start.margin, stop.margin)
     return Plan(cycle, steps, start, stop, judged, Walk(gait, report, Judged.of(report), margin))

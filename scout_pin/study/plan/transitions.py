@@ -6,6 +6,7 @@ away from it is planned as the cycle is: with the same limits, the same evaluati
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -14,6 +15,7 @@ import numpy as np
 from scout_pin.motion.gait import Gait
 from scout_pin.study.plan.course import Course
 from scout_pin.study.plan.cycle import CyclePlan
+from scout_pin.study.plan.cycles.calm import EFFORTS
 from scout_pin.study.plan.footing import Footing
 from scout_pin.study.plan.limits import LENGTH, Limits, Worst, worsts
 from scout_pin.study.plan.newton import descend
@@ -99,7 +101,7 @@ def plan_transition(
         found = _planned(cycle, limits, make(slower * max(cycle.pace.step_time, QUICKEST)))
         tick()
         if found.kept:
-            return found
+            return _calmed(cycle, limits, found)
         tried.append(found)
     tried.sort(key=lambda one: one.most)
     fewer = Limits.of(cycle.robot, request.changed(margin=LESS_MARGIN * request.margin))
@@ -107,20 +109,38 @@ def plan_transition(
         found = _planned(cycle, fewer, one.course)
         tick()
         if found.kept:
-            return found
+            return _calmed(cycle, fewer, found)
     return tried[0]
 
 
-def _planned(cycle: CyclePlan, limits: Limits, course: Course) -> Transition:
+def _calmed(cycle: CyclePlan, limits: Limits, found: Transition) -> Transition:
+    """The same with joints that turn no more than they need to, where that is found."""
+    for effort in EFFORTS:
+        calm = _planned(cycle, limits, found.course, found.free, effort)
+        if calm.kept:
+            return replace(calm, iterations=found.iterations + calm.iterations)
+    return found
+
+
+def _planned(
+    cycle: CyclePlan,
+    limits: Limits,
+    course: Course,
+    guess: np.ndarray | None = None,
+    effort: float = 0.0,
+) -> Transition:
     """Plan one course: a search, and again with samples where the check finds more."""
     sampler, bounds = cycle.candidate.problem.sampler, cycle.candidate.problem.bounds
     t, support = spaced(course, SAMPLES)
     check = Grid.of(sampler, course, *spaced(course, CHECKED))
-    x = (course.guess / _UNITS).ravel()
+    x = ((course.guess if guess is None else guess) / _UNITS).ravel()
     iterations, found = 0, list[Transition]()
     for _ in range(_ROUNDS):
         problem = TransitionProblem(sampler, limits, bounds, Grid.of(sampler, course, t, support))
-        descent = descend(problem, x, enough=_ENOUGH)
+        descent = descend(replace(problem, effort=effort), x, enough=_ENOUGH)
+        if effort:
+            iterations, effort = iterations + descent.iterations, 0.0
+            descent = descend(problem, descent.x, enough=_ENOUGH)
         x, iterations = descent.x, iterations + descent.iterations
         free = problem.free(x)
         there = sampler(check.jets(free), check.footing, slopes=False)
@@ -199,12 +219,14 @@ class TransitionProblem:
         limits: The limits.
         bounds: Least and greatest coefficients of the curves [m], [rad], ``(2, 6)``.
         grid: Where limits are held.
+        effort: What the joints' rates count beside the limits.
     """
 
     sampler: Sampler
     limits: Limits
     bounds: np.ndarray
     grid: Grid
+    effort: float = 0.0
 
     def free(self, x: np.ndarray) -> np.ndarray:
         """What is free of the torso's curves, ``(intervals, 6)``."""
@@ -216,15 +238,25 @@ class TransitionProblem:
         found = self.sampler(self.grid.jets(free), self.grid.footing, slopes=slopes)
         rest, of = self._posture(free)
         values, rows = [rest], [of]
-        for one in self.limits.excess(self.sampler.robot, found).values():
+        excess = self.limits.excess(self.sampler.robot, found)
+        for one in excess.values():
             beyond = one.value > -_BACK_OFF
             values.append(one.value[beyond] + _BACK_OFF)
             if one.slope is not None:
                 rows.append(self.grid.by_free(np.nonzero(beyond)[0], one.slope[beyond]))
-        residual = _WEIGHT * np.concatenate(values)
+        weight = np.full(sum(map(len, values)), _WEIGHT)
+        if self.effort:
+            rates = self.limits.rates(self.sampler.robot, excess)
+            values.append(rates.value.ravel())
+            each = self.effort / math.sqrt(len(rates.value))
+            weight = np.concatenate([weight, np.full(rates.value.size, each)])
+            if rates.slope is not None:
+                samples = np.repeat(np.arange(len(rates.value)), rates.value.shape[1])
+                rows.append(self.grid.by_free(samples, rates.slope.reshape(len(samples), -1)))
+        residual = weight * np.concatenate(values)
         if not slopes:
             return residual, None
-        return residual, _WEIGHT * np.concatenate(rows) * np.tile(_UNITS, len(free))
+        return residual, weight[:, None] * np.concatenate(rows) * np.tile(_UNITS, len(free))
 
     def _posture(self, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coefficients beyond the bounds: curves are in the hull of theirs."""

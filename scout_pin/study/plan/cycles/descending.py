@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,10 +31,12 @@ class Descending:
     Attributes:
         problem: The problem.
         step_length: Length of a step where it isn't free [m].
+        effort: What the joints' rates count beside the limits.
     """
 
     problem: CycleProblem
     step_length: float
+    effort: float = 0.0
 
     def residuals(self, x: np.ndarray, *, slopes: bool) -> tuple[np.ndarray, np.ndarray | None]:
         """What is beyond the limits, and its slopes."""
@@ -41,7 +44,7 @@ class Descending:
         known = problem.unpacked(x, self.step_length)
         rest, of = self._bounds(x, known)
         # A pace that can't be has no samples: they are taken at the nearest that can.
-        inside = inside_pace(known)
+        inside = inside_pace(known, problem.free_length)
         excess = problem.excess(inside, slopes=slopes)
         values = [rest]
         active = {
@@ -50,14 +53,21 @@ class Descending:
             if kind in problem.held
         }
         values += [excess[k].value[rows] + problem.back_off for k, rows in active.items()]
-        residual = _WEIGHT * np.concatenate(values)
+        weight = np.full(sum(map(len, values)), _WEIGHT)
+        if self.effort:
+            rates = problem.limits.rates(problem.robot, excess)
+            active["rates"], excess = np.nonzero(rates.value >= 0.0), excess | {"rates": rates}
+            values.append(rates.value[active["rates"]])
+            each = self.effort / math.sqrt(len(rates.value))
+            weight = np.concatenate([weight, np.full(len(values[-1]), each)])
+        residual = weight * np.concatenate(values)
         if not slopes:
             return residual, None
         jets = np.concatenate([_rows(excess[kind], rows) for kind, rows in active.items()])
         samples = np.concatenate([rows[0] for rows in active.values()])
         matrix = np.concatenate([of, self._by_unknowns(inside, jets, samples)])
         matrix[len(of) :, 6 * problem.cyclic.size :] = self._by_pace(inside, excess, active)
-        return residual, _WEIGHT * matrix
+        return residual, weight[:, None] * matrix
 
     def _by_unknowns(self, known: Unknowns, jets: np.ndarray, samples: np.ndarray) -> np.ndarray:
         """Slopes by jets ``(m, 18)`` at some samples → slopes by all unknowns."""
@@ -85,6 +95,8 @@ class Descending:
         columns = []
         for one in moved:
             there = self.problem.excess(one)
+            if "rates" in active:
+                there["rates"] = self.problem.limits.rates(self.problem.robot, there)
             changes = [
                 (there[kind].value[rows] - excess[kind].value[rows]) / _NUDGE
                 for kind, rows in active.items()

@@ -156,13 +156,15 @@ class CycleProblem:
         return over, np.broadcast_to(np.array([-1.0, 1.0])[:, None, None], over.shape)
 
 
-def inside_pace(known: Unknowns) -> Unknowns:
-    """The nearest whose pace has samples: a search may try others on its way."""
-    return replace(
-        known,
-        share=float(np.clip(known.share, 0.02, 0.8)),
-        step_length=max(known.step_length, SHORTEST / 2),
-    )
+def inside_pace(known: Unknowns, free_length: bool) -> Unknowns:
+    """The nearest whose pace has samples: a search may try others on its way.
+
+    Args:
+        known: What was tried.
+        free_length: Whether its step's length was tried too; one that was asked for stays.
+    """
+    length = max(known.step_length, SHORTEST / 2) if free_length else known.step_length
+    return replace(known, share=float(np.clip(known.share, 0.02, 0.8)), step_length=length)
 
 
 def bounds(request: PlanRequest, neutral_height: float) -> np.ndarray:

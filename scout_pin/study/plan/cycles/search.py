@@ -155,7 +155,7 @@ class Search:
         for left in reversed(range(_ROUNDS)):
             descent = self._descended(problem, known, length, most)
             steps += descent.iterations
-            known = inside_pace(problem.unpacked(descent.x, length))
+            known = inside_pace(problem.unpacked(descent.x, length), problem.free_length)
             excess = problem.checked(known, CHECKED)
             found = Candidate(request, problem, known, excess, steps)
             counted = [one.value.max(axis=1) for kind, one in excess.items() if kind in held]

@@ -7,12 +7,15 @@ import pytest
 
 import scout_pin
 from scout_pin.motion.files import load_gait
+from scout_pin.study.plan import planning
 from scout_pin.study.plan.cycles.shortfall import Binding, Shortfall
 from scout_pin.study.plan.document import document, files
-from scout_pin.study.plan.planning import plan_gait
+from scout_pin.study.plan.planning import MOST_STEPS, plan_gait, walk
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.result import Plan
+from scout_pin.study.plan.writing import exact_toml
 from thesis_pin.errors import BadInput
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.report.writers import json_bytes
 
 from ...conftest import EXAMPLES
@@ -82,6 +85,34 @@ def test_files_read_back_give_the_same_report(plan, tmp_path):
         else:
             np.testing.assert_allclose(found.dynamics.torque, report.dynamics.torque, atol=1e-9)
             np.testing.assert_allclose(found.margin, report.margin, atol=1e-9)
+
+
+def test_the_longest_walk_can_be_read_back(plan, tmp_path):
+    gait = walk(plan.cycle, plan.start, plan.stop, 99)  # odd, as the stop was planned
+    text = exact_toml(gait)
+    assert len(text) * MOST_STEPS / 99 < LIMITS.toml_bytes
+    (tmp_path / "long.toml").write_text(text, encoding="utf-8")
+    assert load_gait(tmp_path / "long.toml").phases == gait.phases
+
+
+def test_a_long_walk_is_judged_as_finely_as_a_short_one(plan, monkeypatch):
+    asked = []
+
+    def report(robot, gait, samples):
+        asked.append((gait.cycle, samples))
+        return plan.walk.report
+
+    monkeypatch.setattr(planning, "gait_report", report)
+    monkeypatch.setattr(planning, "plan_cycle", lambda *_, **__: plan.cycle)
+    plan_gait(scout_pin.load(), steps=21)
+    assert asked == [(True, 801), (False, 80 * 23)]
+
+
+def test_a_short_step_is_as_short_as_asked():
+    found = plan_gait(scout_pin.load(), PlanRequest(step_length=0.0005), steps=1)
+    assert found.met
+    assert found.cycle.pace.step_length == 0.0005
+    assert states(found.walk.gait, found.walk.gait.end)[1, 1, 0] == pytest.approx(0.0005)
 
 
 def test_a_walk_of_one_step_needs_no_cycle(plan):
@@ -177,7 +208,7 @@ def test_progress_only_grows_and_ends_at_the_whole():
     ("asked", "steps", "samples", "said"),
     [
         ({}, 0, 801, "steps"),
-        ({}, 201, 801, "at most 200"),
+        ({}, 101, 801, "at most 100"),
         ({}, 3, 799, "samples"),
         ({"foot_spacing": 0.05}, 3, 801, "overlap"),
     ],
