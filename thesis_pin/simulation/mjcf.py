@@ -211,19 +211,20 @@ def _joint(tree: pin.Model, number_: int, limits: bool) -> str:
 
 def _inertial(tree: pin.Model, joint: int) -> str:
     inertia = tree.inertias[joint]
-    tensor = np.array(inertia.inertia)
-    if inertia.mass < REAL_BODY or np.linalg.eigvalsh(tensor)[0] < REAL_BODY:
+    # By its principal axes: older engines find them to 1e-6 only.
+    moments, axes = np.linalg.eigh(np.array(inertia.inertia))
+    if inertia.mass < REAL_BODY or moments[0] < REAL_BODY:
         raise ModelError(
-            f"its mass is {inertia.mass:g} kg and its least moment of inertia "
-            f"{np.linalg.eigvalsh(tensor)[0]:g} kg·m²",
+            f"its mass is {inertia.mass:g} kg and its least moment of inertia {moments[0]:g} kg·m²",
             where=f"body {body_name(tree, joint)!r}",
             allowed="what moves in the engine has both",
             remedy="Give it what it weighs",
         )
-    entries = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    axes[:, 2] *= np.sign(np.linalg.det(axes))
+    x, y, z, w = quaternions(axes)
     return (
         f'<inertial pos="{numbers(inertia.lever)}" mass="{number(inertia.mass)}" '
-        f'fullinertia="{numbers(entries)}"/>'
+        f'quat="{numbers((w, x, y, z))}" diaginertia="{numbers(moments)}"/>'
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,10 +14,6 @@ from scout_pin.study.simulate.planned import Planned
 from scout_pin.study.simulate.world import engine, walking_tree
 from thesis_pin.numeric.workers import silent
 from thesis_pin.simulation.engine import Engine
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 @dataclass(frozen=True)
@@ -82,7 +79,7 @@ def walk(
         record.q,
         record.v,
         record.torque,
-        _placements(seen[:, :24], tree, robot),
+        _placements(seen[:, :24], robot),
         seen[:, 24:26].T,
         seen[:, 26] > 0,
         servos.peak,
@@ -149,7 +146,7 @@ class _Floor:
         return found
 
 
-def _placements(seen: np.ndarray, tree: object, robot: Scout) -> np.ndarray:
+def _placements(seen: np.ndarray, robot: Scout) -> np.ndarray:
     """Places of the soles from those of the feet: ``(n, 24)`` → ``(2, n, 4, 4)``."""
     found = np.zeros((2, len(seen), 4, 4))
     found[..., 3, 3] = 1.0

@@ -6,7 +6,7 @@ plane can touch; where one sole could touch the other, both are plates of that o
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 import pinocchio as pin
@@ -22,9 +22,6 @@ from thesis_pin.numeric.rotations import quaternions
 from thesis_pin.simulation.engine import Engine
 from thesis_pin.simulation.mjcf import Drive, World, mjcf
 from thesis_pin.tolerances import GRAVITY
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 FLOOR_TIME = 5e-3
 """Time [s] in which a contact of the engine gives way and comes back."""

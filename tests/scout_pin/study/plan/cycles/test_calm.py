@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import scout_pin
+from scout_pin.study.plan.cycle import CyclePlan
 from scout_pin.study.plan.cycles import calm
 from scout_pin.study.plan.cycles.descending import Descending
 from scout_pin.study.plan.cycles.search import Search
@@ -26,9 +27,7 @@ def test_a_calm_cycle_keeps_its_limits_with_half_the_rates(search, found):
     assert calmer.kept
     assert calm.effort(calmer) < 0.5 * calm.effort(found)
     # The rates themselves, by the report that knows nothing of how the cycle came about.
-    plan = scout_pin.study.plan.cycle.CyclePlan(
-        search.sampler.robot, calmer.request, calmer, None, False, 0
-    )
+    plan = CyclePlan(search.sampler.robot, calmer.request, calmer, None, False, 0)
     report = scout_pin.gait_report(scout_pin.load(), plan.gait, samples=801)
     rates = report.joints.v / scout_pin.load().no_load_speed
     assert np.sqrt(np.mean(rates**2)) == pytest.approx(calm.effort(calmer), rel=0.05)
