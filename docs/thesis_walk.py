@@ -12,14 +12,14 @@ import numpy as np
 
 import scout_pin
 from scout_pin.motion.contact import Phase
-from scout_pin.study.plan.clamped import Clamped
-from scout_pin.study.plan.course import Course, swing_curves
 from scout_pin.study.plan.limits import Limits
 from scout_pin.study.plan.newton import descend
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.samples import Sampler
-from scout_pin.study.plan.transitions import Grid, TransitionProblem, spaced
-from scout_pin.study.plan.walk import chained
+from scout_pin.study.plan.walks.clamped import Clamped
+from scout_pin.study.plan.walks.course import Course, swing_curves
+from scout_pin.study.plan.walks.transitions import Grid, TransitionProblem, spaced
+from scout_pin.study.plan.walks.walk import chained
 from thesis_pin.numeric.interpolation import constant, join
 
 LENGTH, ASIDE, LIFT, SWING = 52.26e-3, 44.54e-3, 30e-3, 2.0

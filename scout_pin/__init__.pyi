@@ -37,7 +37,7 @@ from .study.simulate.draws import simulate_gait as simulate_gait
 # Only Scout
 from .study.plan.planning import plan_gait as plan_gait
 from .study.plan.request import PlanRequest as PlanRequest
-from .study.plan.result import Plan as Plan
+from .study.plan.results.result import Plan as Plan
 from .kinematics.rates import leg_rates as leg_rates
 from .model import Contact as Contact
 from .dynamics.impact import touchdown_impact as touchdown_impact

@@ -18,7 +18,7 @@ from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # help has to be quick
     from scout_pin.study.plan.request import PlanRequest
-    from scout_pin.study.plan.result import Plan
+    from scout_pin.study.plan.results.result import Plan
     from scout_pin.study.servo import ServoGains
 
 _MILLI, _PART, _DEGREE = 1e-3, 1e-2, math.pi / 180
@@ -58,8 +58,8 @@ def plan(arguments: argparse.Namespace) -> ExitCode:
     request, tables = _request(arguments), _tables(arguments)
     made, page, content = dict[str, bytes](), b"", b""
     with Bar("planning a walk") as bar:
-        from scout_pin.study.plan.document import document, files
         from scout_pin.study.plan.planning import plan_gait
+        from scout_pin.study.plan.results.document import document, files
         from thesis_pin.report.writers import json_bytes
 
         with warned():
@@ -154,7 +154,7 @@ def _refuse_other_units(arguments: argparse.Namespace) -> None:
 
 def _tables(arguments: argparse.Namespace) -> tuple[float, ServoGains]:
     """The servos' rate and gains."""
-    from scout_pin.study.plan.tables import RATE
+    from scout_pin.study.plan.results.tables import RATE
     from scout_pin.study.servo import ServoGains
 
     given = {

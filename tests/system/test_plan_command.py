@@ -11,7 +11,7 @@ from commands import run
 import scout_pin
 from scout_pin.motion.files import load_gait
 from scout_pin.study.plan import planning
-from scout_pin.study.plan.result import Plan
+from scout_pin.study.plan.results.result import Plan
 
 PLAN = "scout-pin plan"
 WORDS = ["plan", "--steps", "1", "--margin", "8"]

@@ -9,14 +9,14 @@ from scout_pin.dynamics.inverse import walking
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
 from scout_pin.report.document import gait_report
-from scout_pin.study.plan.course import start_course, stop_course
 from scout_pin.study.plan.cycle import CyclePlan, plan_cycle
 from scout_pin.study.plan.cycles.feet import least_spacing
-from scout_pin.study.plan.judged import Judged
 from scout_pin.study.plan.request import PlanRequest
-from scout_pin.study.plan.result import Plan, Walk
-from scout_pin.study.plan.transitions import ATTEMPTS, Transition, plan_transition
-from scout_pin.study.plan.walk import chained, steps_of
+from scout_pin.study.plan.results.judged import Judged
+from scout_pin.study.plan.results.result import Plan, Walk
+from scout_pin.study.plan.walks.course import start_course, stop_course
+from scout_pin.study.plan.walks.transitions import ATTEMPTS, Transition, plan_transition
+from scout_pin.study.plan.walks.walk import chained, steps_of
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import function, instance, whole
 from thesis_pin.numeric.workers import silent

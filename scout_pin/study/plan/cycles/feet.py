@@ -15,8 +15,8 @@ from scout_pin.model import Scout
 from scout_pin.motion.contact import Phase, Support
 from scout_pin.motion.gait import BODIES
 from scout_pin.specification import SIDES
-from scout_pin.study.plan.course import swing_curves
 from scout_pin.study.plan.request import GAP, PlanRequest
+from scout_pin.study.plan.swing import swing_curves
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.interpolation import constant, join
 from thesis_pin.numeric.piecewise import Piecewise

@@ -14,10 +14,10 @@ import numpy as np
 from scout_pin.motion.contact import Phase, Support
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.specification import SIDES
-from scout_pin.study.plan.clamped import Clamped
-from scout_pin.study.plan.walk import Curves, Stretch, steps_of
+from scout_pin.study.plan.swing import swing_curves
+from scout_pin.study.plan.walks.clamped import Clamped
+from scout_pin.study.plan.walks.walk import Curves, Stretch, steps_of
 from thesis_pin.numeric.interpolation import constant, join
-from thesis_pin.numeric.piecewise import Piecewise
 
 _Y, _Z = 1, 2
 _OTHER: dict[str, Support] = {"left": "right", "right": "left"}
@@ -153,29 +153,6 @@ def _feet(
                 fixed[k] = join([*before, curve, *after])
         curves[f"{side}_foot"] = tuple(fixed)
     return curves
-
-
-def swing_curves(
-    off: float, lands: float, start: float, end: float, lift: float
-) -> tuple[Piecewise, Piecewise]:
-    """y and z of a foot in the air, at rest and without acceleration at both ends.
-
-    y = start + (end − start)(10s³ − 15s⁴ + 6s⁵), z = 64 lift s³(1 − s)³.
-
-    Args:
-        off: When it leaves the floor [s].
-        lands: When it lands [s].
-        start: Where along y it leaves the floor [m].
-        end: Where it lands [m].
-        lift: How high it goes [m].
-    """
-    span = lands - off
-    powers = span ** np.arange(6, -1, -1.0)
-    y = (end - start) * np.array([6.0, -15.0, 10.0, 0.0, 0.0, 0.0]) / powers[1:]
-    y[-1] = start
-    z = 64.0 * lift * np.array([-1.0, 3.0, -3.0, 1.0, 0.0, 0.0, 0.0]) / powers
-    knots = np.array([off, lands])
-    return Piecewise(y[:, None], knots), Piecewise(z[:, None], knots)
 
 
 def _jet(step: Stretch, t: float, forward: float) -> np.ndarray:

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from scout_pin.motion.gait import Gait
-from scout_pin.study.plan.course import Course
 from scout_pin.study.plan.cycle import CyclePlan
 from scout_pin.study.plan.cycles.calm import EFFORTS
 from scout_pin.study.plan.footing import Footing
@@ -21,6 +20,7 @@ from scout_pin.study.plan.limits import LENGTH, Limits, Worst, worsts
 from scout_pin.study.plan.newton import descend
 from scout_pin.study.plan.samples import Sampler
 from scout_pin.study.plan.sampling.sloped import Sloped
+from scout_pin.study.plan.walks.course import Course
 
 SAMPLES = 64
 """Samples of a start or stop at which its limits are kept."""

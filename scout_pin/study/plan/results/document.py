@@ -8,10 +8,10 @@ from dataclasses import replace
 
 from scout_pin.kinematics.branches import BRANCHES
 from scout_pin.study.plan.limits import KINDS, UNITS, Worst
-from scout_pin.study.plan.result import Plan, Walk
-from scout_pin.study.plan.tables import RATE, servo_tables
-from scout_pin.study.plan.transitions import Transition
-from scout_pin.study.plan.writing import exact_toml
+from scout_pin.study.plan.results.result import Plan, Walk
+from scout_pin.study.plan.results.tables import RATE, servo_tables
+from scout_pin.study.plan.results.writing import exact_toml
+from scout_pin.study.plan.walks.transitions import Transition
 from scout_pin.study.servo import ServoGains
 from thesis_pin.errors import BadInput
 from thesis_pin.report.branches import label

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from scout_pin.motion.gait import Gait
 from scout_pin.report.document import GaitReport
 from scout_pin.study.plan.cycle import CyclePlan
-from scout_pin.study.plan.judged import Judged
 from scout_pin.study.plan.request import PlanRequest
-from scout_pin.study.plan.telling import nearest_words, passed_words
-from scout_pin.study.plan.transitions import Transition
+from scout_pin.study.plan.results.judged import Judged
+from scout_pin.study.plan.results.telling import nearest_words, passed_words
+from scout_pin.study.plan.walks.transitions import Transition
 
 BINDS = -0.03
 """How near to its limit something is that binds a plan, relative."""

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from scout_pin.motion.contact import Phase, check_stance
-from scout_pin.study.plan.walk import Stretch, chained, cut, steps_of
+from scout_pin.study.plan.walks.walk import Stretch, chained, cut, steps_of
 
-from .steps import H, L, cycle, states
+from ..steps import H, L, cycle, states
 
 
 @pytest.mark.parametrize("first", ["left", "right"])

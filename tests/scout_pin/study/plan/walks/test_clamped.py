@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as some
 
-from scout_pin.study.plan.clamped import Clamped
+from scout_pin.study.plan.walks.clamped import Clamped
 
 numbers = some.floats(-3.0, 3.0)
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import scout_pin
-from scout_pin.study.plan import transitions
-from scout_pin.study.plan.course import start_course, stop_course
 from scout_pin.study.plan.cycle import plan_cycle
 from scout_pin.study.plan.limits import Limits
-from scout_pin.study.plan.transitions import (
+from scout_pin.study.plan.walks import transitions
+from scout_pin.study.plan.walks.course import start_course, stop_course
+from scout_pin.study.plan.walks.transitions import (
     Grid,
     TransitionProblem,
     plan_transition,

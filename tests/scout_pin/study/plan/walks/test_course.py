@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from scout_pin.motion.contact import check_stance
-from scout_pin.study.plan.course import start_course, stop_course, swing_curves
-from scout_pin.study.plan.walk import chained, steps_of
+from scout_pin.study.plan.walks.course import start_course, stop_course
+from scout_pin.study.plan.walks.walk import chained, steps_of
 
-from .steps import DOUBLE, H, L, W, cycle, states
+from ..steps import DOUBLE, H, L, W, cycle, states
 
 
 def walk(foot, count, shift=0.5, settle=0.7):
@@ -63,16 +63,3 @@ def test_phases_are_weight_over_step_and_step_weight_settled():
         times = [p.end - p.start for p in (*start.phases, *stop.phases)]
         np.testing.assert_allclose(times, [0.5, H - DOUBLE, DOUBLE, H - DOUBLE, 0.7])
         assert (start.foot, stop.foot) == (foot, other[foot])
-
-
-def test_a_swing_is_at_rest_and_without_acceleration_at_both_ends_and_as_high_as_asked():
-    y, z = swing_curves(0.3, 0.8, -0.02, 0.05, 0.013)
-    for curve, first, last in ((y, -0.02, 0.05), (z, 0.0, 0.0)):
-        assert curve(0.3) == first
-        assert curve(0.8) == pytest.approx(last, abs=1e-15)
-        for order in (1, 2):
-            assert np.abs(curve([0.3, 0.8], order)).max() < 1e-11
-    t = np.linspace(0.3, 0.8, 1001)
-    assert z(t).max() == pytest.approx(0.013, rel=1e-12)
-    assert z(t).min() > -1e-15
-    assert (np.diff(y(t)) > -1e-15).all()

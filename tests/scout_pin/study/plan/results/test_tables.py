@@ -9,11 +9,11 @@ import pytest
 import scout_pin
 from scout_pin.motion.files import load_gait
 from scout_pin.specification import JOINT_NAMES
-from scout_pin.study.plan.tables import servo_tables
+from scout_pin.study.plan.results.tables import servo_tables
 from scout_pin.study.servo import ServoGains
 from thesis_pin.errors import BadInput
 
-from ...conftest import EXAMPLES
+from ....conftest import EXAMPLES
 
 
 def columns(content):
