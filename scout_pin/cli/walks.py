@@ -17,7 +17,7 @@ _STEPS = (
     ("--margin", "MM", False, "least distance of the ZMP inside the support (default: 10)"),
     ("--torque-reserve", "%", False, "of the stall torque that isn't used (default: 10)"),
     ("--speed-reserve", "%", False, "of the no-load speed that isn't used (default: 10)"),
-    ("--line-reserve", "%", False, "of the torque-speed line (default: 10; of the fastest: 0)"),
+    ("--line-reserve", "%", False, "of the torque-speed line (default: 10; of the fastest: 5)"),
     ("--pitch", "DEG", True, "how far the torso may pitch either way (default: 15)"),
     ("--roll", "DEG", True, "how far it may roll (default: 15)"),
     ("--yaw", "DEG", True, "how far it may yaw (default: 12)"),

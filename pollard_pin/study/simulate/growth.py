@@ -26,6 +26,7 @@ _ROUNDING = 1e-16
 """What every number of an engine is uncertain by [rad]: half a unit in its last place."""
 
 
+_LEAST, _MOST = 1e-6, 1e6  # sizes of a growth that is carried on as it is
 _DEAD = 1e-300
 """What is left of errors that die within a step between two looks is taken as that much."""
 
@@ -88,7 +89,7 @@ def growth(robot: Pollard, joints: JointTrajectory, torque: np.ndarray, servo: S
         if now < _DEAD:
             now, grown = _DEAD, _DEAD * np.eye(12)
         factor.append(size + float(np.log(now)))
-        if now > 1e6 or now < 1e-6:  # else it would overflow after some hundred e-foldings
+        if not _LEAST < now < _MOST:  # else it would overflow after some hundred e-foldings
             size, grown = size + float(np.log(now)), grown / now
     return Growth(time, modes.real.max(axis=1), np.array(factor), float(np.abs(modes).max()))
 

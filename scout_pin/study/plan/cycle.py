@@ -143,9 +143,9 @@ def plan_cycle(
         if not found.kept:
             why = shortfall(search, request, found)
         else:
-            found = calmed(search, found)
             if request.objective != "limits":
                 found = improved(search, found, request.objective)
+            found = calmed(search, found)
     except KeyboardInterrupt:
         if search.latest is None:
             raise

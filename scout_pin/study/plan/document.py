@@ -116,7 +116,7 @@ def files(
         )
     gait, report = plan.walk.gait, plan.walk.report
     head = _header(command, plan.verdict())
-    cycle = replace(plan.gait, name="cycle")
+    cycle = replace(plan.gait, name="cycle", source=gait.source)
     return {
         "walk.toml": exact_toml(gait, head).encode(),
         "cycle.toml": exact_toml(cycle, head).encode(),

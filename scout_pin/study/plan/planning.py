@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from scout_pin.dynamics.inverse import walking
 from scout_pin.model import Scout
@@ -148,8 +149,14 @@ def walk(cycle: CyclePlan, start: Transition, stop: Transition, steps: int) -> G
     end = end.moved(
         between.end - end.start, between.foot(last, between.end) - end.foot(last, end.start)
     )
-    name = cycle.robot.specification.name
-    gait = chained("walk", f"planned for {name}", [first, between, end])
-    return Gait(
-        gait.name, gait.source, gait.time_unit, gait.curves, gait.phases, branch=cycle.gait.branch
+    gait = chained("walk", origin(cycle), [first, between, end])
+    return replace(gait, branch=cycle.gait.branch)
+
+
+def origin(cycle: CyclePlan) -> str:
+    """Where a planned gait comes from, in words."""
+    pace, name = cycle.pace, cycle.robot.specification.name
+    return (
+        f"planned for {name}: {pace.step_length * 1e3:.4g} mm a step of {pace.step_time:.4g} s, "
+        f"margin {cycle.request.margin * 1e3:.3g} mm"
     )

@@ -28,6 +28,9 @@ are off by a degree bring them nearer by some millimetres."""
 LINE_RESERVE = 0.1
 """Share of the servos' torque-speed line that isn't used, where nobody says."""
 
+FASTEST_LINE_RESERVE = 0.05
+"""The same of the fastest walk, whose rotors may need some more."""
+
 _RIGHT_ANGLE = math.pi / 2
 
 
@@ -50,7 +53,7 @@ class PlanRequest:
         servo_line: Whether the servos' torque-speed line |τ|/τ_stall + |θ̇|/ω_no-load ≤ 1 is kept
             too.
         line_reserve: Share of that line that isn't used; None for 10 %, of the fastest walk for
-            none. Rotors and gears that the specification says nothing of need some of it.
+            5 %. Rotors and gears that the specification says nothing of need some of it.
         pitch, roll, yaw: How far the torso may turn either way [rad].
         height: Least and greatest height of the torso's origin [m]; None for 80 to 100 % of that
             in the neutral pose.
@@ -107,7 +110,7 @@ class PlanRequest:
             raise BadInput(f"servo_line is {shown(self.servo_line)}", allowed="True or False")
         choice("objective", self.objective, OBJECTIVES)
         if self.line_reserve is None:
-            usual = 0.0 if self.objective == "fastest" else LINE_RESERVE
+            usual = FASTEST_LINE_RESERVE if self.objective == "fastest" else LINE_RESERVE
             object.__setattr__(self, "line_reserve", usual)
         real("line_reserve", self.line_reserve, low=0.0, high=0.95)
         branch_words(self.branch)

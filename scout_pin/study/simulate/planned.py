@@ -180,7 +180,7 @@ def _stances(report: GaitReport, side: str) -> list[tuple[float, float]]:
         if phase.support not in (side, "double") or phase.end <= phase.start:
             continue
         start, end = ((one - gait.start) * unit for one in (phase.start, phase.end))
-        if found and start <= found[-1][1] + 1e-9:
+        if found and start <= found[-1][1]:
             found[-1] = (found[-1][0], end)
         else:
             found.append((start, end))

@@ -22,6 +22,7 @@ _NOTHING = 1e-300
 """A size that leaves no room for parts of it."""
 
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
+_ROUND = 1e-6  # of a step: so near to whole digits it has them
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _LARGE, _SMALL = 6, -5
 """Powers of ten from which on a factor beside the axis spares the labels their zeros."""
@@ -91,4 +92,4 @@ def _digits(step: float) -> int:
     """How many digits behind the point tell multiples of a round step apart, and say them."""
     digits = max(0, -math.floor(math.log10(step) + 1e-9))  # of 0.99…, which is 1, none
     whole = step * 10.0**digits
-    return digits if abs(whole - round(whole)) < 1e-6 * whole else digits + 1  # 2.5
+    return digits if abs(whole - round(whole)) < _ROUND * whole else digits + 1  # 2.5

@@ -1,7 +1,8 @@
 """From a cycle that keeps its limits to the best of its kind: one limit is tightened step by step.
 
 Each step begins where the last one ended, so that a few iterations do; a step that fails is
-halved. What is found is a local optimum.
+halved. Where no step helps any more all starts are tried once for a small one: another valley may
+go on. What is found is a local optimum.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ STEPS = 40
 
 _FIRST = 0.12  # what is tried first, relative
 _FINE = 0.004  # and when it is given up
+_ANEW = 0.02  # what all starts are tried for
+_OFTEN = 2  # and how often
 _FASTER, _SLOWER = 1.4, 0.5
 _MOST = 30  # steps of Gauss–Newton a descent
 
@@ -64,8 +67,14 @@ def improved(search: Search, found: Candidate, objective: str) -> Candidate:
         found: A cycle that keeps its limits.
         objective: One of :data:`AIMS`.
     """
-    aim, share, tried = AIMS[objective], _FIRST, 0
-    while share > _FINE and tried < STEPS:
+    aim, share, tried, anew = AIMS[objective], _FIRST, 0, 0
+    while tried < STEPS:
+        if share <= _FINE:
+            anew += 1
+            there = _elsewhere(search, found, aim) if anew <= _OFTEN else None
+            if there is None:
+                break
+            found, share = search.noted(there), _ANEW
         tried += 1
         request = aim.tightened(found.request, share)
         try:
@@ -78,3 +87,7 @@ def improved(search: Search, found: Candidate, objective: str) -> Candidate:
         else:
             share *= _SLOWER
     return found
+
+
+def _elsewhere(search: Search, found: Candidate, aim: Aim) -> Candidate | None:
+    return search.elsewhere(aim.tightened(found.request, _ANEW), found.known.step_length)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -179,13 +179,7 @@ class Search:
     def first(self, request: PlanRequest) -> Candidate:
         """A cycle that keeps a request's limits, else the one that passes them least."""
         tried: list[Candidate] = []
-        length = request.first_length
-        for coefficients in starts(self.build, self.steps, self.cyclic, length):
-            try:
-                found = self.solved(request, Unknowns(coefficients, SHARE, length))
-            except (ThesisPinError, ArithmeticError):
-                self.tick()
-                continue
+        for found in self._started(request):
             if self._better(found):
                 return found
             tried.append(found)
@@ -205,6 +199,19 @@ class Search:
                 return found
             tried.append(found)
         return min(tried, key=lambda one: one.most)
+
+    def elsewhere(self, request: PlanRequest, length: float) -> Candidate | None:
+        """A cycle that keeps a request's limits, from any start; None if none leads to one."""
+        return next((found for found in self._started(request, length) if found.kept), None)
+
+    def _started(self, request: PlanRequest, length: float | None = None) -> Iterator[Candidate]:
+        """What each start leads to; a step's length to begin with, if it is known better."""
+        length = request.first_length if length is None else length
+        for coefficients in starts(self.build, self.steps, self.cyclic, length):
+            try:
+                yield self.solved(request, Unknowns(coefficients, SHARE, length))
+            except (ThesisPinError, ArithmeticError):
+                self.tick()
 
     def noted(self, found: Candidate) -> Candidate:
         """The same, kept for whoever interrupts."""

@@ -51,6 +51,17 @@ def test_a_walk_begins_and_ends_at_rest_with_its_feet_side_by_side(plan):
         np.testing.assert_allclose(found[..., 2], 0.0, atol=1e-6)
 
 
+def test_the_torso_keeps_its_posture_from_rest_to_rest(plan):
+    gait, request = plan.walk.gait, plan.request
+    t = np.linspace(gait.start, gait.end, 3001)
+    z, pitch, roll, yaw = (curve(t) for curve in gait.curves["torso"][2:])
+    for values, most in ((pitch, request.pitch), (roll, request.roll), (yaw, request.yaw)):
+        assert np.abs(values).max() <= most
+    neutral = -plan.cycle.robot.neutral_feet()["left"][2, 3]
+    assert z.min() >= 0.8 * neutral
+    assert z.max() <= neutral
+
+
 def test_a_walk_goes_on_over_its_joins(plan):
     gait = plan.walk.gait
     start, step = plan.start.course.duration, plan.cycle.pace.step_time

@@ -65,9 +65,9 @@ def test_a_request_is_json_and_comes_back():
 def test_a_tenth_of_the_torque_speed_line_is_left_and_nothing_of_the_fastest():
     assert PlanRequest().line_reserve == 0.1
     fastest = PlanRequest(objective="fastest")
-    assert fastest.line_reserve == 0.0
+    assert fastest.line_reserve == 0.05
     # What it is doesn't change with the objective of a later step of the search.
-    assert fastest.changed(objective="limits").line_reserve == 0.0
+    assert fastest.changed(objective="limits").line_reserve == 0.05
     assert PlanRequest(objective="fastest", line_reserve=0.2).line_reserve == 0.2
     with pytest.raises(BadInput, match="line_reserve"):
         PlanRequest(line_reserve=1.0)

@@ -49,7 +49,7 @@ def test_what_two_points_span_is_a_line():
 def test_polygons_come_before_lines_so_that_a_legend_shows_one():
     robot, feet, pose = standing("anymal")
     on = np.ones((21, 4), dtype=bool)
-    on[:10, 1:3] = False
+    on[:10, [0, 3]] = False
     q = np.repeat(stand(robot, feet, pose).q[None], 21, axis=0)
     still = np.zeros((21, robot.model.nv))
     found = foot_dynamics(robot, feet, q, still, still, support=on)
