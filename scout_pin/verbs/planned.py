@@ -176,12 +176,17 @@ def _command(arguments: argparse.Namespace) -> str:
         if value is True:
             words.append(flag)
         elif isinstance(value, list):
-            words += [flag, *(f"{one:g}" for one in value)]
+            words += [flag, *map(_digits, value)]
         elif isinstance(value, str):
             words.append(f"{flag}={shlex.quote(value)}")  # signs of a branch begin with one
         else:
-            words += [flag, f"{value:g}"]
+            words += [flag, _digits(value)]
     return " ".join(words)
+
+
+def _digits(value: float) -> str:
+    """A number as it was given, to its last digit."""
+    return repr(value).removesuffix(".0")
 
 
 def _drawn(found: Plan) -> dict[str, bytes]:

@@ -95,7 +95,7 @@ def test_every_option_reaches_the_request(plan, monkeypatch, capfd):
 
 def test_the_command_in_the_head_asks_for_the_same(plan, monkeypatch, tmp_path, capfd):
     asked = instead(monkeypatch, plan)
-    words = "--margin 4 --height 190 230 --fastest --branch=+++ --steps 7"
+    words = "--margin 4.1234567 --height 190 230.0000003 --fastest --branch=+++ --steps 7"
     for number in (1, 2):
         out = tmp_path / str(number)
         code, _, err = run(PLAN, ["plan", *shlex.split(words), "--out", str(out)], capfd)

@@ -75,7 +75,10 @@ def standing_branches(
         BadInput: The legs don't reach that far.
     """
     torso = np.eye(4)
-    torso[:3, 3] = sum(steps.across) / 2, build.forward, 0.95 * build.height
+    height = 0.95 * build.height
+    if request.height is not None:
+        height = float(np.clip(height, *request.height))
+    torso[:3, 3] = sum(steps.across) / 2, build.forward, height
     feet = [np.eye(4), np.eye(4)]
     for foot, across in zip(feet, steps.across, strict=True):
         foot[0, 3] = across
@@ -83,11 +86,11 @@ def standing_branches(
         theta = robot.inverse_kinematics(torso, feet[0], feet[1], branch=request.branch)
     except Unreachable as error:
         raise BadInput(
-            f"the feet can't stand {(steps.across[1] - steps.across[0]) * 1e3:.4g} mm apart: "
-            f"{error.what}",
-            where="foot_spacing",
+            f"the feet can't stand {(steps.across[1] - steps.across[0]) * 1e3:.4g} mm apart, "
+            f"{height * 1e3:.4g} mm below the torso's origin: {error.what}",
+            where="foot_spacing, height",
             allowed="places that the legs reach",
-            remedy="Ask for another foot_spacing, or for another branch",
+            remedy="Ask for another foot_spacing or height, or for another branch",
         ) from None
     left, right = (
         int(taken_branches(robot.legs[side], theta[None, 6 * k : 6 * k + 6])[0])

@@ -13,6 +13,7 @@ _FIELDS = {
     "step_time": ("a step of {:.4g} s", 1.0),
     "speed": ("a speed of {:.4g} mm/s", 1e3),
     "margin": ("a margin of {:.3g} mm", 1e3),
+    "foot_spacing": ("feet {:.4g} mm apart", 1e3),
 }
 
 
@@ -31,9 +32,8 @@ def nearest_words(request: PlanRequest, nearest: Mapping[str, PlanRequest]) -> l
     """Requests that can be met, each by what it changes."""
     words = []
     for name, other in nearest.items():
-        text, scale = _FIELDS.get(name, (f"{name} {{:.4g}}", 1.0))
-        value = getattr(other, name)
-        words.append(text.format(float(value) * scale))
+        text, scale = _FIELDS[name]
+        words.append(text.format(float(getattr(other, name)) * scale))
     return words
 
 

@@ -226,6 +226,13 @@ def test_what_cannot_be_stood_is_refused_by_name(scout, scout_thesis):
         plan_cycle(scout, {"margin": 0.01})
 
 
+def test_knees_that_bend_backward_only_high_up_may_be_asked_for_there(scout):
+    with pytest.raises(BadInput, match=r"222\.7 mm below the torso's origin: .* or height"):
+        plan_cycle(scout, PlanRequest(branch="backward"))
+    request = PlanRequest(branch="backward", height=(0.246, 0.256), margin=0.001, torque_reserve=0)
+    judged(plan_cycle(scout, request))
+
+
 def test_a_check_that_finds_more_adds_samples(scout, monkeypatch):
     monkeypatch.setattr(search, "_SINGLE", 12)
     monkeypatch.setattr(search, "_DOUBLE", 4)

@@ -167,14 +167,17 @@ def test_what_a_report_finds_passed_is_not_written_as_good(plan, change, said):
 def test_what_stands_in_the_way_is_named_with_what_could_be_met(plan):
     cycle = plan.cycle
     worst = replace(cycle.worst[0], kind="knee", subject="left", value=1.03, limit=0.985)
-    nearest = {"step_length": cycle.request.changed(step_length=0.0912, step_time=0.8)}
+    nearest = {
+        "step_length": cycle.request.changed(step_length=0.0912, step_time=0.8),
+        "foot_spacing": cycle.request.changed(foot_spacing=0.088),
+    }
     short = Shortfall((Binding(True, worst),), nearest)
     found = Plan(replace(cycle, shortfall=short), STEPS)
     assert not found.met
     text = " ".join(found.verdict())
     assert "the knees' reach (left" in text
     assert "beyond the reach of a straight leg" in text
-    assert "a step of 91.2 mm" in text
+    assert "a step of 91.2 mm or with feet 88 mm apart." in text
     said = document(found)
     assert (said["met"], said["walk"]) == (False, None)
     assert said["shortfall"]["nearest"]["step_length"]["step_length"] == 0.0912
