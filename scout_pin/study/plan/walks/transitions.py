@@ -46,6 +46,7 @@ _UNITS = np.array([LENGTH, LENGTH, LENGTH, 0.1, 0.1, 0.1])  # [m], [rad] that co
 _WEIGHT = 3.0  # of an excess beside a unit of the unknowns
 _ASIDE = 1e-9  # from the instant of a change, so that who stands is clear; of a duration
 _HOPELESS = 0.2  # excess that more samples don't mend
+_CALMING = 12  # steps with the rates: more gain little
 _ROUNDS = 5  # of adding samples where the check finds more
 _ADDED = 12  # samples a round
 
@@ -91,11 +92,16 @@ def plan_transition(
         tick: Called after each one that was tried.
 
     Returns:
-        The first that keeps the request's limits; else with :data:`LESS_MARGIN` of the margin;
-        else the one that passes them least.
+        The first that is as good as the cycle of an objective; else keeps the request's limits;
+        else with :data:`LESS_MARGIN` of the margin; else the one that passes them least.
     """
     request = cycle.request
-    limits = Limits.of(cycle.robot, request)
+    limits, best = (Limits.of(cycle.robot, one) for one in (request, cycle.candidate.request))
+    if best.margin > limits.margin or (best.torque < limits.torque).any():
+        found = _planned(cycle, best, make(max(cycle.pace.step_time, QUICKEST)))
+        tick()
+        if found.kept:
+            return found
     tried: list[Transition] = []
     for slower in SLOWER:
         found = _planned(cycle, limits, make(slower * max(cycle.pace.step_time, QUICKEST)))
@@ -137,10 +143,11 @@ def _planned(
     iterations, found = 0, list[Transition]()
     for _ in range(_ROUNDS):
         problem = TransitionProblem(sampler, limits, bounds, Grid.of(sampler, course, t, support))
-        descent = descend(replace(problem, effort=effort), x, enough=_ENOUGH)
         if effort:
+            descent = descend(replace(problem, effort=effort), x, most=_CALMING)
             iterations, effort = iterations + descent.iterations, 0.0
-            descent = descend(problem, descent.x, enough=_ENOUGH)
+            x = descent.x
+        descent = descend(problem, x, enough=_ENOUGH)
         x, iterations = descent.x, iterations + descent.iterations
         free = problem.free(x)
         there = sampler(check.jets(free), check.footing, slopes=False)

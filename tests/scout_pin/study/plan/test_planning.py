@@ -235,3 +235,12 @@ def test_what_cannot_be_meant_is_refused(asked, steps, samples, said):
 def test_a_request_of_another_kind_is_refused():
     with pytest.raises(BadInput, match="PlanRequest"):
         plan_gait(scout_pin.load(), {"step_length": 0.03})
+
+
+def test_a_walk_is_as_good_as_the_cycle_of_its_objective(scout):
+    request = PlanRequest(objective="largest_margin")
+    plan = plan_gait(scout, request, steps=1)
+    assert plan.met
+    best = plan.cycle.candidate.request.margin
+    assert best > 2 * request.margin
+    assert plan.walk.report.margin.min() >= 0.99 * best
