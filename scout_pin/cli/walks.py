@@ -54,7 +54,7 @@ def which_walk(words: Words, branch: Callable[..., None]) -> None:
         "--friction",
         type=number("--friction", positive=True),
         metavar="NUMBER",
-        help="coefficient between sole and floor, 0.01 to 10 (default: the specification's)",
+        help="coefficient between sole and floor, at least 1e-6 (default: the specification's)",
     )
     words.add_argument(
         "--no-servo-line",

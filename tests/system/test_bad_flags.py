@@ -33,7 +33,7 @@ def test_hopeless_values_are_refused_before_anything_is_written(
         code, out, err = run(name, [*example(name), *outputs, f"{flag}={value}"], capfd)
         allowed = (2, 3) if flag in OUTPUTS else (2,)
         assert code in allowed, (what, out, err)
-        assert err.count("error:") == 1, (what, err)
+        assert err.count(": error: ") == 1, (what, err)
         assert len(err) < 3000, what
         assert out == "", what
         assert set(tmp_path.iterdir()) == before, what

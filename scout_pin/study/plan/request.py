@@ -105,7 +105,7 @@ class PlanRequest:
             real(name, getattr(self, name), low=1e-4, high=1.5, unit="rad")
         real("knee", self.knee, low=math.radians(1.0), high=math.radians(80.0), unit="rad")
         if self.friction is not None:
-            real("friction", self.friction, low=0.01, high=10.0)
+            real("friction", self.friction, low=1e-6)
         if not isinstance(self.servo_line, bool | np.bool_):
             raise BadInput(f"servo_line is {shown(self.servo_line)}", allowed="True or False")
         choice("objective", self.objective, OBJECTIVES)

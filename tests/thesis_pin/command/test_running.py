@@ -160,9 +160,11 @@ def test_the_documents_list_every_code():
 
 
 HOLDS_MESHES = """
-import sys, time
+import signal, sys, time
 import scout_pin
 from thesis_pin.command.running import tidy_end
+
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # ignored below nohup, and inherited
 
 with tidy_end():
     robot = scout_pin.load()
