@@ -136,6 +136,8 @@ def test_a_motor_that_is_too_weak_is_named_and_fails(short_report, held, engine)
     one = criterion(done, "saturation")
     assert not one.met
     assert one.words.startswith("θ21 is at its largest torque")
+    at_limit = np.abs(done.replay.torque[:, 0]) >= effort[0] * (1 - 1e-12)
+    assert done.replay.saturated[0] == pytest.approx(at_limit.mean(), abs=0.02)
     assert done.replay.saturated[0] > 0.01
     assert done.verdict()[1].startswith("The plan asks more than the motors give: θ21 for ")
     assert np.abs(done.replay.torque[:, 0]).max() == pytest.approx(effort[0])
