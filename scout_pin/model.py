@@ -18,11 +18,10 @@ from scout_pin.kinematics import choosing, following, forward, one_sample
 from scout_pin.kinematics import inverse as kinematics
 from scout_pin.kinematics.branches import Numbers, allowed_branches
 from scout_pin.kinematics.geometry import LegGeometry
-from scout_pin.specification import CONES_PATH, JOINT_NAMES, SIDES, Specification
+from scout_pin.specification import JOINT_NAMES, SIDES, Specification
 from scout_pin.urdf import meshes, urdf
 from thesis_pin.contacts.cones import Contact as Contact
 from thesis_pin.contacts.feet import sole_corners
-from thesis_pin.contacts.known import contacts_of
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.loading import LoadedRobot, frame_id, joint_id, model_folder
 from thesis_pin.model.mechanism.inertia import Reading
@@ -135,7 +134,7 @@ class Scout(LoadedRobot):
         """What the floor can do to each sole, left then right."""
         friction = self.specification.assumptions.floor_friction.coefficient
         soles = [np.array(self.specification.leg(side).sole) for side in SIDES]
-        left, right = contacts_of(soles, friction, CONES_PATH)
+        left, right = (Contact.from_outline(sole, friction) for sole in soles)
         return left, right
 
     @property

@@ -41,9 +41,6 @@ from thesis_pin.sizing.actuator import Actuator
 SCOUT_PATH = Path(__file__).parent / "specifications" / "scout.toml"
 """The thesis's robot."""
 
-CONES_PATH = SCOUT_PATH.with_name("scout.cones.json")
-"""What the floor can do to its soles; see :mod:`thesis_pin.contacts.known`."""
-
 NEW_PATH = SCOUT_PATH.with_name("new.toml")
 """A commented one to begin with."""
 

@@ -60,16 +60,12 @@ class Contact:
     facets: np.ndarray
 
     @classmethod
-    def from_outline(
-        cls, outline: np.ndarray, friction: float, *, facets: np.ndarray | None = None
-    ) -> Contact:
+    def from_outline(cls, outline: np.ndarray, friction: float) -> Contact:
         """Contact of a sole.
 
         Args:
             outline: Corners [m], shape ``(n, 2)``.
             friction: Friction coefficient.
-            facets: Its :attr:`facets`, if they are known from an earlier time; they take some
-                milliseconds to find.
         """
         outline = corners("outline", outline)
         friction = real("friction", friction, low=1e-6)
@@ -82,8 +78,7 @@ class Contact:
         forces = np.tile(edges, (len(edge), 1))
         moments = np.cross(np.repeat(edge, FRICTION_EDGES, axis=0), forces)
         rays = np.concatenate([forces * length, moments], axis=1)
-        if facets is None:
-            facets = cone_facets(hull, tilts, length, rays)
+        facets = cone_facets(hull, tilts, length, rays)
         return cls(outline, hull, friction, length, rays, facets)
 
     def scale(self, wrench: np.ndarray) -> np.ndarray:

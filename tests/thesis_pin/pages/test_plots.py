@@ -1,10 +1,8 @@
 """Plots become figures that plotly accepts, with every number in them."""
 
-import json
-
 import numpy as np
-import plotly.graph_objects
 from pictured import shapes_of
+from plotted import read
 
 from thesis_pin.pages.plots import MARGINS, figure
 from thesis_pin.report.curves import Area, Band, Curve, Limit, Plot, both_signs
@@ -12,11 +10,6 @@ from thesis_pin.report.figures import panels
 
 TIME = np.linspace(0.0, 2.0, 5)
 SQUARE = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [0.0, 1.0]])
-
-
-def read(plot):
-    """A plot as plotly itself reads it from the page."""
-    return plotly.graph_objects.Figure(json.loads(json.dumps(figure(plot), allow_nan=False)))
 
 
 def test_curves_over_time_arrive_with_gaps_where_they_have_no_value():

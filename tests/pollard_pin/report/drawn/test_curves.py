@@ -1,15 +1,14 @@
 """A trajectory's plots show what the report says, in the units they name."""
 
 import numpy as np
-import plotly.graph_objects
 import pytest
+from plotted import assert_arrives
 
 import pollard_pin
 from pollard_pin.motion.curves import appendix_b
 from pollard_pin.report.drawn import curves
 from pollard_pin.report.drawn.figures import figures
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_SYMBOLS
-from thesis_pin.pages.plots import figure
 
 
 @pytest.fixture(scope="module")
@@ -27,9 +26,9 @@ def drawn(plots):
     return found
 
 
-def test_plots_are_figures_that_plotly_itself_accepts(report):
+def test_plotly_holds_every_curve_by_its_name_with_its_numbers(report):
     for plot in curves.plots(report):
-        plotly.graph_objects.Figure(figure(plot))
+        assert_arrives(plot)
 
 
 def test_each_row_of_motors_has_every_motor_once(report):

@@ -3,14 +3,13 @@
 from pathlib import Path
 
 import numpy as np
-import plotly.graph_objects
 import pytest
 import shapely
+from plotted import assert_arrives
 
 import scout_pin
 from scout_pin.report.drawn import curves
 from scout_pin.report.drawn.figures import figures
-from thesis_pin.pages.plots import figure
 
 WALK = Path(__file__).parents[4] / "examples" / "walk.toml"
 
@@ -25,9 +24,9 @@ def plots(report):
     return {plot.title: plot for plot in curves.plots(report)}
 
 
-def test_plots_are_figures_that_plotly_itself_accepts(plots):
+def test_plotly_holds_every_curve_by_its_name_with_its_numbers(plots):
     for plot in plots.values():
-        plotly.graph_objects.Figure(figure(plot))
+        assert_arrives(plot)
 
 
 def test_both_legs_have_every_joint_and_one_leg_its_own(report):
