@@ -23,8 +23,8 @@ def done(short_report, held):
 
 
 @pytest.fixture(scope="module")
-def lost(default_report):
-    return simulate_path(default_report)
+def lost(open_loop):
+    return open_loop("mujoco")
 
 
 def test_json_has_the_samples_and_the_answer(done):
