@@ -1,1 +1,1 @@
-"""A second engine: any Pinocchio tree as MJCF, stepped and recorded by MuJoCo."""
+"""A second engine: any Pinocchio tree as MJCF, stepped and recorded by MuJoCo; drawn errors."""

@@ -10,7 +10,8 @@ import numpy as np
 from pollard_pin.specification import six
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.arrays import finite_array
-from thesis_pin.numeric.checks import choice, real, whole
+from thesis_pin.numeric.checks import choice, real
+from thesis_pin.simulation.draws import check_errors
 
 EngineName = Literal["mujoco", "pinocchio"]
 ENGINES: tuple[str, ...] = get_args(EngineName)
@@ -69,20 +70,11 @@ class Conditions:
             )
         if self.time_step is not None:
             real("time_step", self.time_step, low=1e-6, high=0.05, unit="s")
-        real("mass_error", self.mass_error, low=0.0, high=0.3)
-        real("servo_zero_error", self.servo_zero_error, low=0.0, high=0.5, unit="rad")
-        for name, least, most in (("draws", 1, 10_000), ("seed", 0, 2**32 - 1), ("jobs", 1, 256)):
-            if whole(name, getattr(self, name), least) > most:
-                raise BadInput(f"{name} is {getattr(self, name)}", allowed=f"at most {most:,}")
+        check_errors(self, "replay")
         if self.servo_zero_error and self.stiffness is None:
             raise BadInput(
                 "a servo's zero matters only where there is a servo",
                 remedy="Give its stiffness too",
-            )
-        if self.draws > 1 and not (self.mass_error or self.servo_zero_error):
-            raise BadInput(
-                f"{self.draws} draws without an error are {self.draws} times the same replay",
-                remedy="Give a mass error or a servo-zero error",
             )
 
     @property

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import closing
 from dataclasses import replace
 from functools import partial
 
@@ -11,7 +10,13 @@ import numpy as np
 
 from pollard_pin.model import Pollard
 from pollard_pin.report.document import TrajectoryReport
-from pollard_pin.specification import LINK_NAMES, Link, ReplacedInertia, Specification
+from pollard_pin.specification import (
+    ACTUATOR_NAMES,
+    LINK_NAMES,
+    Link,
+    ReplacedInertia,
+    Specification,
+)
 from pollard_pin.study.simulate.conditions import Conditions
 from pollard_pin.study.simulate.engines import engine_name
 from pollard_pin.study.simulate.measures import Measures, measures
@@ -20,10 +25,8 @@ from pollard_pin.study.simulate.replay import Prepared, prepare, replay
 from pollard_pin.study.simulate.result import Simulation
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import function, instance
-from thesis_pin.numeric.workers import shared, silent
-
-_LIGHTEST = 0.1
-"""Least that is left of a body's mass, however rare the draw."""
+from thesis_pin.numeric.workers import silent
+from thesis_pin.simulation.draws import drawn, tried
 
 
 def simulate_path(
@@ -59,25 +62,9 @@ def simulate_path(
             allowed="six",
         )
     engine, prepared = engine_name(conditions.engine), prepare(report, conditions)
-    draws, jobs = conditions.draws, conditions.jobs
     steps = round(report.path.duration / prepared.time_step)
-    found: dict[int, Measures] = {}
-
-    def told(done: int, _: int) -> None:
-        progress(len(found) * steps + done, draws * steps)
-
-    first, found[0] = _draw(report, conditions, prepared, 0, told)
-    others = range(1, draws)
-    if jobs > 1 and len(others) > 1:
-        begin = partial(_begin, report, conditions, prepared)
-        with closing(shared(_try, others, min(jobs, len(others)), begin)) as results:
-            for draw, one in results:
-                found[draw] = one
-                told(0, steps)
-    else:
-        for draw in others:
-            found[draw] = _draw(report, conditions, prepared, draw, told)[1]
-    every = tuple(found[draw] for draw in range(draws))
+    one = partial(_draw, report, conditions, prepared)
+    first, every = tried(one, conditions, steps, progress)
     return Simulation(report, conditions, prepared, first, every, engine)
 
 
@@ -120,28 +107,13 @@ def _draw(
     conditions: Conditions,
     prepared: Prepared,
     number: int,
-    progress: Callable[[int, int], None] = silent,
+    progress: Callable[[int, int], None],
 ) -> tuple[Replay, Measures]:
-    """The replay of one drawn robot, which its seed and number alone determine."""
-    rng = np.random.default_rng([conditions.seed, number])
-    zero = conditions.servo_zero_error * rng.normal(size=6)
-    masses = rng.normal(size=len(LINK_NAMES))
-    scale = np.maximum(1 + conditions.mass_error * masses, _LIGHTEST)
+    """The replay of one drawn robot."""
+    zero, scale = drawn(conditions, number, len(ACTUATOR_NAMES), len(LINK_NAMES))
     robot = report.robot
     if (scale != 1).any():
         robot = Pollard(weighed(robot.specification, scale), robot.inertia)
     there = replace(prepared, servo=replace(prepared.servo, zero=zero))
     done = replay(report, conditions, there, robot, progress)
     return done, measures(done, scale, zero)
-
-
-_given: list[tuple[TrajectoryReport, Conditions, Prepared]] = []
-"""What a process that shares draws was given."""
-
-
-def _begin(report: TrajectoryReport, conditions: Conditions, prepared: Prepared) -> None:
-    _given[:] = [(report, conditions, prepared)]
-
-
-def _try(draw: int) -> tuple[int, Measures]:
-    return draw, _draw(*_given[0], draw)[1]

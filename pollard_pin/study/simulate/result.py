@@ -13,7 +13,6 @@ from pollard_pin.study.simulate.measures import Measures
 from pollard_pin.study.simulate.record import Replay
 from pollard_pin.study.simulate.replay import Prepared
 from pollard_pin.study.simulate.verdict import (
-    NAMES,
     Criterion,
     criteria,
     draws_sentences,
@@ -21,14 +20,12 @@ from pollard_pin.study.simulate.verdict import (
     reason,
     sentences,
 )
+from thesis_pin.simulation.tallies import tallied
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/simulation"
 VERSION = 1
-
-QUANTILES = (0.05, 0.5, 0.95)
-"""Of draws, in summaries."""
 
 
 @dataclass(frozen=True)
@@ -105,22 +102,12 @@ class Simulation:
     def summary(self) -> dict[str, object]:
         """The verdict, criterion by criterion, peaks, growth of errors, draws in quantiles."""
         first, grown, replay = self.draws[0], self.prepared.growth, self.replay
-        tries = [criteria(one) for one in self.draws]
         return {
             "passed": self.passed,
             "verdict": self.verdict(),
             "reason": self.reason,
             "criteria": [vars(one) for one in self.criteria],
-            "draws": len(self.draws),
-            "draws_passed": sum(all(one.met for one in each) for each in tries),
-            "kept": {
-                name: sum(one.met for each in tries for one in each if one.name == name)
-                for name in NAMES
-            },
-            "quantiles": {
-                "of": list(QUANTILES),
-                **{name: np.quantile(values, QUANTILES) for name, values in self.spread.items()},
-            },
+            **tallied([criteria(one) for one in self.draws], self.spread),
             "energy": {
                 "work": float(replay.work[-1].sum()),
                 "change": float(replay.energy[-1]),

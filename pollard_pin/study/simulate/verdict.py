@@ -11,10 +11,10 @@ import numpy as np
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from pollard_pin.study.simulate.growth import Growth
 from pollard_pin.study.simulate.measures import Measures
+from thesis_pin.simulation.tallies import lost_sentences, passed_sentence
 from thesis_pin.tolerances import TOLERANCES
 
 Name = Literal["deviation", "turn", "opening", "energy", "saturation"]
-NAMES: tuple[Name, ...] = ("deviation", "turn", "opening", "energy", "saturation")
 """What is asked of every replay."""
 
 _UNSTABLE = 1e3
@@ -26,7 +26,7 @@ class Criterion:
     """One thing that is asked of a replay.
 
     Attributes:
-        name: One of :data:`NAMES`.
+        name: What.
         value, limit: In ``unit``.
         unit: Of both; empty for shares.
         met: Whether it is as asked.
@@ -102,13 +102,9 @@ def reason(found: Measures, grown: Growth, slope: float | None, held: bool) -> s
 
 def draws_sentences(every: Sequence[Measures]) -> Iterator[str]:
     """How many of several robots do what was planned."""
-    tries = [{one.name: one.met for one in criteria(found)} for found in every]
-    passed = sum(all(one.values()) for one in tries)
-    yield f"{passed} of {len(tries)} draws keep all that is asked."
-    for name in NAMES:
-        lost = len(tries) - sum(one[name] for one in tries)
-        if lost:
-            yield f"{lost} of {len(tries)} fail by {_LOST[name]}."
+    tries = [criteria(found) for found in every]
+    yield passed_sentence(tries)
+    yield from lost_sentences(tries, _LOST)
     deviation = np.array([one.deviation[0] for one in every]) * 1e3
     yield (
         f"Their tools leave the path by {np.median(deviation):.3g} mm in the median, by "
@@ -116,7 +112,7 @@ def draws_sentences(every: Sequence[Measures]) -> Iterator[str]:
     )
 
 
-_LOST: dict[Name, str] = {
+_LOST: dict[str, str] = {
     "deviation": "how far the tool is off its path",
     "turn": "how far the tool is turned",
     "opening": "ball joints that open",

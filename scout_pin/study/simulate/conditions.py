@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from scout_pin.specification import LINK_NAMES, SIDES
+from scout_pin.specification import JOINT_NAMES, LINK_NAMES, SIDES
 from scout_pin.study.servo import ServoGains
-from thesis_pin.errors import BadInput
 from thesis_pin.numeric.arrays import vector
-from thesis_pin.numeric.checks import real, whole
+from thesis_pin.numeric.checks import real
+from thesis_pin.simulation.draws import check_errors, drawn
 
 SHORTEST, USUAL, LONGEST = 1e-5, 5e-4, 2e-3
 """Time steps [s] of the engine; contacts that give way in 5 ms need the longest."""
@@ -57,8 +57,7 @@ class Conditions:
 
     def __post_init__(self) -> None:
         """Refuse what can't be simulated."""
-        real("the servos' zero error", self.servo_zero_error, low=0.0, high=math.pi / 4, unit="rad")
-        real("the masses' error", self.mass_error, low=0.0, high=0.3)
+        check_errors(self, "walk")
         if self.friction is not None:
             real("the friction", self.friction, low=1e-6, high=1e3)
         for angle in vector("the floor's tilt", self.floor_tilt, 2).tolist():
@@ -67,19 +66,6 @@ class Conditions:
         if self.time_step is not None:
             low, high = SHORTEST, LONGEST
             real("the engine's time step", self.time_step, low=low, high=high, unit="s")
-        for name, least, most in (("draws", 1, 10_000), ("seed", 0, 2**32 - 1), ("jobs", 1, 256)):
-            if whole(name, getattr(self, name), least) > most:
-                raise BadInput(f"{name} is {getattr(self, name)}", allowed=f"at most {most:,}")
-        if self.draws > 1 and not self.random:
-            raise BadInput(
-                f"{self.draws} draws without an error are {self.draws} times the same walk",
-                remedy="Give a servo-zero error or a mass error",
-            )
-
-    @property
-    def random(self) -> bool:
-        """Whether draws differ."""
-        return self.servo_zero_error > 0 or self.mass_error > 0
 
     def errors(self, draw: int) -> tuple[np.ndarray, np.ndarray]:
         """Where the servos' zeros are [rad] ``(12,)``, and the bodies' masses in planned ones.
@@ -87,10 +73,7 @@ class Conditions:
         Args:
             draw: Number of the draw, from 0.
         """
-        rng = np.random.default_rng([self.seed, draw])
-        zeros, masses = rng.normal(size=12), rng.normal(size=BODIES)
-        # Nobody builds a body at a tenth of its mass, and no engine carries less than nothing.
-        return self.servo_zero_error * zeros, np.maximum(1.0 + self.mass_error * masses, 0.1)
+        return drawn(self, draw, len(JOINT_NAMES), BODIES)
 
     def document(self) -> dict[str, object]:
         """JSON-ready."""

@@ -12,15 +12,13 @@ from scout_pin.specification import JOINT_NAMES, SIDES
 from scout_pin.study.simulate.conditions import Conditions
 from scout_pin.study.simulate.measures import Measures, turns
 from scout_pin.study.simulate.planned import SETTLING, Planned
-from scout_pin.study.simulate.verdict import NAMES, criteria, draws_sentences, passes, sentences
+from scout_pin.study.simulate.verdict import criteria, draws_sentences, passes, sentences
 from scout_pin.study.simulate.walking import Walked
+from thesis_pin.simulation.tallies import tallied
 from thesis_pin.version import __version__
 
 MOST_WRITTEN = 4001
 """Instants in documents and tables."""
-
-QUANTILES = (0.05, 0.5, 0.95)
-"""Of draws, in summaries."""
 
 
 @dataclass(frozen=True)
@@ -112,21 +110,11 @@ class Simulation:
 
     def summary(self) -> dict[str, object]:
         """The verdict, criterion by criterion, and draws in quantiles."""
-        tries = [criteria(one) for one in self.draws]
         return {
             "passed": self.passed,
             "verdict": self.verdict(),
             "start": self.start,
-            "draws": len(self.draws),
-            "draws_passed": sum(all(one.met for one in each) for each in tries),
-            "kept": {
-                name: sum(one.met for each in tries for one in each if one.name == name)
-                for name in NAMES
-            },
-            "quantiles": {
-                "of": list(QUANTILES),
-                **{name: np.quantile(values, QUANTILES) for name, values in self.spread.items()},
-            },
+            **tallied([criteria(one) for one in self.draws], self.spread),
             "planned_distance": self.draws[0].planned_distance,
             "planned_peak_torque": self.planned_peak,
             "planned_line": self.plan.line,

@@ -9,6 +9,7 @@ import numpy as np
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from scout_pin.study.simulate.result import Simulation
 from scout_pin.study.simulate.verdict import criteria
+from thesis_pin.report.draws import draws_table as drawn_table
 from thesis_pin.report.tables import Part, Table
 
 
@@ -72,13 +73,7 @@ def draws_table(simulation: Simulation) -> Table:
         "saturated": ("%", 1e2),
         "peak_torque": ("N·m", 1.0),
     }
-    rows = []
-    for name, values in simulation.spread.items():
-        unit, factor = units[name]
-        levels = np.quantile(values, (0, 0.25, 0.5, 0.75, 1)) * factor
-        rows.append((f"{name.replace('_', ' ')} [{unit}]", *(f"{v:z.3f}" for v in levels)))
-    heads = ("of the draws", "least", "quarter", "half", "three quarters", "largest")
-    return Table(f"{len(simulation.draws)} robots with drawn errors", heads, rows)
+    return drawn_table(simulation.spread, units)
 
 
 def summary(simulation: Simulation) -> Iterator[Part]:

@@ -10,10 +10,10 @@ import numpy as np
 
 from scout_pin.specification import JOINT_NAMES
 from scout_pin.study.simulate.measures import Measures
+from thesis_pin.simulation.tallies import lost_sentences, passed_sentence
 from thesis_pin.tolerances import TOLERANCES
 
 Name = Literal["distance", "heading", "slip", "upright", "torque", "soles"]
-NAMES: tuple[Name, ...] = ("distance", "heading", "slip", "upright", "torque", "soles")
 """What is asked of every try."""
 
 
@@ -22,7 +22,7 @@ class Criterion:
     """One thing that is asked of a try.
 
     Attributes:
-        name: One of :data:`NAMES`.
+        name: What.
         met: Whether it is as asked.
         words: How it is, in a sentence, with amount and time.
     """
@@ -144,18 +144,14 @@ def passes(found: Measures) -> bool:
 
 def draws_sentences(all_found: Sequence[Measures]) -> Iterator[str]:
     """How many of several tries keep what is asked."""
-    tries = [{one.name: one.met for one in criteria(found)} for found in all_found]
-    passed = sum(all(one.values()) for one in tries)
-    yield f"{passed} of {len(tries)} draws keep all that is asked."
-    kept = sum(one["distance"] and one["heading"] for one in tries)
-    yield f"{kept} of {len(tries)} keep distance and heading."
-    for name in NAMES:
-        lost = len(tries) - sum(one[name] for one in tries)
-        if lost:
-            yield f"{lost} of {len(tries)} fail by {_LOST[name]}."
+    tries = [criteria(found) for found in all_found]
+    yield passed_sentence(tries)
+    led = [[one.met for one in each if one.name in ("distance", "heading")] for each in tries]
+    yield f"{sum(map(all, led))} of {len(tries)} keep distance and heading."
+    yield from lost_sentences(tries, _LOST)
 
 
-_LOST: dict[Name, str] = {
+_LOST: dict[str, str] = {
     "distance": "how far they come",
     "heading": "where they head",
     "slip": "feet that slip",

@@ -117,6 +117,27 @@ def test_joints_have_their_own_rotor_damping_and_friction():
     assert model.dof_frictionloss[0] == 0.05
 
 
+def test_joints_end_where_the_tree_says_unless_they_are_to_go_on():
+    tree = pendulum(lowerPositionLimit=-0.4, upperPositionLimit=0.9)
+    model = Engine(mjcf(tree), tree).model
+    assert model.jnt_limited.tolist() == [1]
+    np.testing.assert_array_equal(model.jnt_range, [[-0.4, 0.9]])
+    for text in (mjcf(tree, limits=False), mjcf(pendulum())):
+        assert Engine(text, tree).model.jnt_limited.tolist() == [0]
+
+
+def test_inverse_dynamics_leave_friction_and_stops_out():
+    tree = pendulum(
+        damping=0.04,
+        upperDryFrictionLimit=0.05,
+        lowerPositionLimit=-0.1,
+        upperPositionLimit=0.1,
+    )
+    q, v, a = np.array([0.3]), np.array([0.7]), np.array([2.0])  # beyond its stop
+    expected = pin.rnea(tree, tree.createData(), q, v, a)
+    np.testing.assert_allclose(Engine(mjcf(tree), tree).inverse(q, v, a), expected, rtol=1e-12)
+
+
 def test_a_joint_that_the_engine_does_not_have_is_refused_by_name():
     tree = pin.Model()
     joint = tree.addJoint(0, pin.JointModelPlanar(), pin.SE3.Identity(), "sledge")

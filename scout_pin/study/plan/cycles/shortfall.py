@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from scout_pin.study.plan.cycles.feet import least_spacing
-from scout_pin.study.plan.cycles.problem import Unknowns
+from scout_pin.study.plan.cycles.nearest import OFFERS, attempt, changes, nearest
 from scout_pin.study.plan.cycles.search import FAR, Candidate, Search
-from scout_pin.study.plan.cycles.starts import SHARE, starts
 from scout_pin.study.plan.limits import KINDS, Worst
-from scout_pin.study.plan.request import GAP, PlanRequest
-from thesis_pin.errors import ThesisPinError
+from scout_pin.study.plan.request import PlanRequest
 
-_SHARES = (0.5, 0.25, 0.1)  # of a length, speed or margin that are tried
-_HALVINGS = 4
 _REACH = frozenset({"knee", "lower", "upper", "posture"})
 _BINDING = 0.02  # how near to a limit a compromise presses against it
 
-ALTERNATIVES = 6 + 4 * (1 + _HALVINGS)
+ALTERNATIVES = 6 + OFFERS
 """Descents at most, or so."""
 
 
@@ -62,11 +56,8 @@ def shortfall(search: Search, request: PlanRequest, found: Candidate) -> Shortfa
     binding = (_unreached(search, request, found) if far else []) or _near(
         search, request, found, most=1 if far else len(KINDS)
     )
-    nearest = {}
-    for name, change in _changes(search, request):
-        if (met := _nearest(search, found, change)) is not None:
-            nearest[name] = met
-    return Shortfall(tuple(binding), nearest)
+    met = {one.name: nearest(search, request, found, one) for one in changes(search, request)}
+    return Shortfall(tuple(binding), {name: one for name, one in met.items() if one is not None})
 
 
 def _near(search: Search, request: PlanRequest, found: Candidate, most: int) -> list[Binding]:
@@ -79,7 +70,7 @@ def _near(search: Search, request: PlanRequest, found: Candidate, most: int) -> 
         if one.excess <= -_BINDING:
             continue
         others = frozenset(KINDS) - {one.kind}
-        there = _attempt(search, request, found, others) if k < most else None
+        there = attempt(search, request, found.known, others) if k < most else None
         if there is not None and there.keeps(others):
             passed = next(w for w in there.worsts() if w.kind == one.kind)
             binding.append(Binding(True, passed))
@@ -90,84 +81,8 @@ def _near(search: Search, request: PlanRequest, found: Candidate, most: int) -> 
 
 def _unreached(search: Search, request: PlanRequest, found: Candidate) -> list[Binding]:
     """By how much the legs don't reach even if nothing else counts; nothing if they do."""
-    reach = _attempt(search, request, found, _REACH)
+    reach = attempt(search, request, found.known, _REACH)
     if reach is None or reach.keeps(_REACH):
         return []
     passed = [one for one in reach.worsts() if one.kind in _REACH and one.excess > 0.0]
     return [Binding(False, one) for one in passed]
-
-
-def _changes(
-    search: Search, request: PlanRequest
-) -> list[tuple[str, Callable[[float], PlanRequest]]]:
-    """What may be changed of a request: its name, and how to a share of it."""
-    length = request.first_length
-    time = length / request.walking_speed
-    found: list[tuple[str, Callable[[float], PlanRequest]]] = []
-    if request.free_length:
-        speed = request.walking_speed
-        found.append(("speed", lambda share: request.changed(speed=share * speed)))
-    else:
-        fixed = request.changed(step_length=length, step_time=time, speed=None)
-        found.append(("step_length", lambda share: fixed.changed(step_length=share * length)))
-        found.append(("step_time", lambda share: fixed.changed(step_time=time / share)))
-    if request.margin > 0.0:
-        margin = request.margin
-        found.append(("margin", lambda share: request.changed(margin=share * margin)))
-    given, usual = request.foot_spacing, least_spacing(search.sampler.robot) + GAP
-    if given is not None and given > usual:
-        found.append(
-            (
-                "foot_spacing",
-                lambda share: request.changed(foot_spacing=usual + share * (given - usual)),
-            )
-        )
-    return found
-
-
-def _nearest(
-    search: Search, found: Candidate, change: Callable[[float], PlanRequest]
-) -> PlanRequest | None:
-    """The request that can be met with the largest share; None if none of them can."""
-    met, low, high = None, 0.0, 1.0
-    for share in _SHARES:
-        met = _fresh(search, change(share), found)
-        if met is not None:
-            low = share
-            break
-        high = share
-    if met is None:
-        return None
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        there = _attempt(search, change(middle), met)
-        if there is not None and there.kept:
-            met, low = there, middle
-        else:
-            high = middle
-    return met.request
-
-
-def _fresh(search: Search, request: PlanRequest, found: Candidate) -> Candidate | None:
-    """A cycle that keeps a request's limits, from what was found or from the first start."""
-    length = request.first_length
-    first = next(starts(search.build, search.steps, search.cyclic, length))
-    beginnings = [found.known, Unknowns(first, SHARE, length)]
-    for known in beginnings if found.most <= FAR else beginnings[1:]:
-        there = _attempt(search, request, replace(found, known=known))
-        if there is not None and there.kept:
-            return there
-    return None
-
-
-def _attempt(
-    search: Search,
-    request: PlanRequest,
-    start: Candidate,
-    held: frozenset[str] = frozenset(KINDS),
-) -> Candidate | None:
-    """What a descent leads to; None where nothing can be said."""
-    try:
-        return search.solved(request, start.known, held=held)
-    except (ThesisPinError, ArithmeticError):
-        return None

@@ -1,11 +1,13 @@
 """Planned cycles: the judge holds them against what was asked for."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import scout_pin
 from scout_pin.study.plan.cycle import plan_cycle, with_friction
-from scout_pin.study.plan.cycles import aims, search, shortfall
+from scout_pin.study.plan.cycles import aims, nearest, search
 from scout_pin.study.plan.cycles.splines import KNOTS
 from scout_pin.study.plan.request import PlanRequest
 from thesis_pin.errors import BadInput
@@ -140,7 +142,7 @@ def briefly(monkeypatch):
     monkeypatch.setattr(search, "_TRIED", 15)
     monkeypatch.setattr(search, "_LONGER", 15)
     monkeypatch.setattr(search, "_HOPELESS", 1)
-    monkeypatch.setattr(shortfall, "_HALVINGS", 1)
+    monkeypatch.setattr(nearest, "_CLIMBS", 2)
 
 
 @pytest.mark.usefixtures("briefly")
@@ -153,9 +155,10 @@ def test_too_large_a_margin_is_answered_by_what_binds_and_what_can_be_met(scout)
     assert first.worst.kind == "margin"
     assert first.alone
     assert 0.0 < first.worst.value < first.worst.limit == 0.05
-    nearest = plan.shortfall.nearest["margin"]
-    assert 0.01 < nearest.margin < 0.0373, "half a sole's width is the most there is"
-    again = plan_cycle(scout, nearest)
+    offer = plan.shortfall.nearest["margin"]
+    assert 0.01 < offer.margin < 0.0373, "half a sole's width is the most there is"
+    assert offer.margin == float(f"{offer.margin * 1e3:.3g}") * 1e-3, "to the bit as it is told"
+    again = plan_cycle(scout, offer)
     assert again.met
     judged(again)
     done = [one for one, _ in told]
@@ -195,9 +198,57 @@ def test_feet_too_far_apart_are_answered_by_how_far_they_may_be(scout):
     plan = plan_cycle(scout, PlanRequest(foot_spacing=0.2))
     assert not plan.met
     assert 0.0 < plan.pace.share < 1.0, "whatever the search came to is a cycle"
-    nearest = plan.shortfall.nearest["foot_spacing"]
-    assert 0.0684 < nearest.foot_spacing < 0.2
-    judged(plan_cycle(scout, nearest))
+    offer = plan.shortfall.nearest["foot_spacing"]
+    assert 0.0684 < offer.foot_spacing < 0.2
+    judged(plan_cycle(scout, offer))
+
+
+@pytest.mark.usefixtures("briefly")
+def test_the_fastest_walk_of_too_large_a_margin_is_answered_by_less_margin(scout):
+    plan = plan_cycle(scout, PlanRequest(objective="fastest", margin=0.05))
+    assert not plan.met
+    assert list(plan.shortfall.nearest) == ["margin"]
+    assert plan.shortfall.nearest["margin"].objective == "fastest"
+
+
+@pytest.mark.usefixtures("briefly")
+def test_what_is_offered_was_searched_as_if_asked_for(scout, monkeypatch):
+    from scout_pin.study.plan.cycles.search import Search
+
+    first, most = Search.first, 0.015
+
+    def forgetful(self, request):
+        found = first(self, request)
+        if request.margin <= most:
+            return found
+        worse = {kind: replace(one, value=one.value + 0.01) for kind, one in found.excess.items()}
+        return replace(found, excess={**found.excess, "margin": worse["margin"]})
+
+    monkeypatch.setattr(Search, "first", forgetful)
+    plan = plan_cycle(scout, PlanRequest(margin=0.05))
+    assert 0.005 <= plan.shortfall.nearest["margin"].margin <= most
+
+
+@pytest.mark.usefixtures("briefly")
+def test_interrupted_while_it_looks_for_what_could_be_met_it_keeps_what_was_asked(
+    scout, monkeypatch
+):
+    from scout_pin.study.plan.cycles.search import Search
+
+    first = Search.first
+
+    def stopped(self, request):
+        found = first(self, request)
+        if request.margin != 0.05:
+            assert found.kept
+            raise KeyboardInterrupt
+        return found
+
+    monkeypatch.setattr(Search, "first", stopped)
+    plan = plan_cycle(scout, PlanRequest(margin=0.05))
+    assert plan.interrupted
+    assert not plan.met
+    assert plan.candidate.request is plan.request
 
 
 def test_interrupted_it_keeps_the_best_so_far(scout):

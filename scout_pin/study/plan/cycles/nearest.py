@@ -1,0 +1,158 @@
+"""Requests next to one that can't be met: one thing of it changed, as little as was found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
+
+from scout_pin.study.plan.cycles.feet import least_spacing
+from scout_pin.study.plan.cycles.problem import Unknowns
+from scout_pin.study.plan.cycles.search import ATTEMPTS, FAR, Candidate, Search
+from scout_pin.study.plan.cycles.starts import SHARE, starts
+from scout_pin.study.plan.limits import KINDS
+from scout_pin.study.plan.request import GAP, STEP_TIME, PlanRequest
+from thesis_pin.errors import BadInput, ThesisPinError
+
+_SHARES = (0.5, 0.25, 0.1)  # of a length, speed or margin that are tried
+_CLIMBS = 10  # from the first that is met towards what was asked for
+_FIRST, _FINE = 0.16, 0.02  # relative steps of it: the first one, and when it is given up
+_FASTER, _SLOWER = 1.5, 0.4
+_CONFIRMED = 3  # how many are searched anew before none is offered
+
+OFFERS = 4 * (2 * len(_SHARES) + _CLIMBS + ATTEMPTS)
+"""Descents at most, or so."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """One thing of a request that may be less ambitious.
+
+    Attributes:
+        name: The field of the request.
+        value: What it may be instead, by a share of the ambition that there was.
+        unit: What one is in words and on the command line [SI].
+        digits: Of it that are told.
+        least: What is too little to be asked for [SI].
+        up: Whether more is less ambitious.
+    """
+
+    name: str
+    value: Callable[[float], float]
+    unit: float = 1e-3
+    digits: int = 4
+    least: float = 1e-4
+    up: bool = False
+
+    def request(self, request: PlanRequest, share: float) -> PlanRequest | None:
+        """The request with a share of the ambition, or a little less: to the digits that are told.
+
+        Who asks for what is told then asks for the same to the last bit. None where so little,
+        or so much, can't be asked for.
+        """
+        rounding = Context(self.digits, ROUND_CEILING if self.up else ROUND_FLOOR)
+        told = float(rounding.create_decimal(f"{self.value(share) / self.unit:.12g}"))
+        try:
+            changed = request.changed(**{self.name: told * self.unit})
+        except BadInput:
+            return None
+        return changed if told * self.unit >= self.least else None
+
+
+def changes(search: Search, request: PlanRequest) -> Iterator[Change]:
+    """What may be changed of a request, so that all else that was said of it stays."""
+    speed, time = request.speed, float(request.step_time or STEP_TIME)
+    if speed is not None:
+        yield Change("speed", lambda share: share * speed, least=1e-3)
+    if not request.free_length and (speed is None or request.step_time is None):
+        yield Change("step_length", lambda share: share * request.first_length)
+    if speed is None and request.objective != "fastest":
+        yield Change("step_time", lambda share: time / share, unit=1.0, up=True)
+    if request.margin > 0.0:
+        yield Change("margin", lambda share: share * request.margin, digits=3)
+    given, usual = request.foot_spacing, least_spacing(search.sampler.robot) + GAP
+    if given is not None and given > usual:
+        yield Change("foot_spacing", lambda share: usual + share * (given - usual))
+
+
+def nearest(
+    search: Search, request: PlanRequest, found: Candidate, change: Change
+) -> PlanRequest | None:
+    """The request with the largest share that was found to be met, and is met if asked for.
+
+    Args:
+        search: Where it was searched.
+        request: What was asked for.
+        found: The cycle that passes limits least.
+        change: What may be less of it.
+
+    Returns:
+        The request; None if none was found.
+    """
+    low, step, met = 0.0, _FIRST, list[Candidate]()
+    for share in _SHARES:
+        asked = change.request(request, share)
+        there = None if asked is None else _fresh(search, asked, found)
+        if there is not None:
+            low = share
+            met.append(there)
+            break
+    if not met:
+        return None
+    # Little by little: what fails from afar is often met from nearby.
+    for _ in range(_CLIMBS):
+        share = low + min(low * step, (1.0 - low) / 2)
+        asked = change.request(request, share)
+        there = None if asked is None else attempt(search, asked, met[-1].known)
+        if there is not None and there.kept:
+            met.append(there)
+            low, step = share, _FASTER * step
+        else:
+            step *= _SLOWER
+            if step < _FINE:
+                break
+    offers = (one.request for one in met[: -_CONFIRMED - 1 : -1])
+    return next((one for one in offers if _again(search, one)), None)
+
+
+def _again(search: Search, request: PlanRequest) -> bool:
+    """Whether a request is met by who knows nothing of this search."""
+    try:
+        anew = Search(search.sampler.robot, request, search.tick)
+        kept = anew.first(request).kept
+    except (ThesisPinError, ArithmeticError):
+        return False
+    search.iterations += anew.iterations
+    return kept
+
+
+def _fresh(search: Search, request: PlanRequest, found: Candidate) -> Candidate | None:
+    """A cycle that keeps a request's limits, from what was found or from the first start."""
+    length = request.first_length
+    first = next(starts(search.build, search.steps, search.cyclic, length))
+    beginnings = [found.known, Unknowns(first, SHARE, length)]
+    for known in beginnings if found.most <= FAR else beginnings[1:]:
+        there = attempt(search, request, known)
+        if there is not None and there.kept:
+            return there
+    return None
+
+
+def attempt(
+    search: Search,
+    request: PlanRequest,
+    start: Unknowns,
+    held: frozenset[str] = frozenset(KINDS),
+) -> Candidate | None:
+    """What a descent leads to; None where nothing can be said.
+
+    Args:
+        search: Where it is searched.
+        request: What it is to be.
+        start: Where to begin.
+        held: Kinds of limits that count.
+    """
+    try:
+        return search.solved(request, start, held=held)
+    except (ThesisPinError, ArithmeticError):
+        return None

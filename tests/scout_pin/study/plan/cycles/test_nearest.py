@@ -1,0 +1,97 @@
+"""Requests next to one that can't be met."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from scout_pin.study.plan.cycles import nearest as module
+from scout_pin.study.plan.cycles.nearest import Change, changes, nearest
+from scout_pin.study.plan.cycles.search import Search
+from scout_pin.study.plan.request import PlanRequest
+
+SPEED = Change("speed", lambda share: share * 0.3)
+
+
+@dataclass
+class Found:
+    """What a search that needs no robot came to."""
+
+    request: PlanRequest
+    kept: bool
+
+    @property
+    def known(self):
+        return self.request.speed
+
+
+def of_speeds(monkeypatch, most, met_anew):
+    """Searches that get to a speed only from near it; those that begin anew know another limit."""
+
+    def attempt(search, request, start):
+        return Found(request, request.speed <= min(1.35 * start, most))
+
+    def fresh(search, request, found):
+        return Found(request, True) if request.speed < 0.1 else None
+
+    monkeypatch.setattr(module, "attempt", attempt)
+    monkeypatch.setattr(module, "_fresh", fresh)
+    monkeypatch.setattr(module, "_again", lambda search, request: request.speed <= met_anew)
+
+
+def test_what_fails_from_afar_is_met_step_by_step(monkeypatch):
+    of_speeds(monkeypatch, 0.18, 1.0)
+    met = nearest(None, PlanRequest(speed=0.3), None, SPEED)
+    assert 0.97 * 0.18 < met.speed <= 0.18
+
+
+def test_what_is_not_met_anew_is_not_offered_but_the_next_less_ambitious(monkeypatch):
+    of_speeds(monkeypatch, 0.18, 0.175)
+    assert 0.14 < nearest(None, PlanRequest(speed=0.3), None, SPEED).speed <= 0.175
+    of_speeds(monkeypatch, 0.18, 0.0)
+    assert nearest(None, PlanRequest(speed=0.3), None, SPEED) is None
+
+
+@pytest.mark.parametrize(
+    ("asked", "names"),
+    [
+        ({}, ["step_length", "step_time", "margin"]),
+        ({"margin": 0.0}, ["step_length", "step_time"]),
+        ({"speed": 0.2}, ["speed", "margin"]),
+        ({"speed": 0.2, "step_length": 0.04}, ["speed", "step_length", "margin"]),
+        ({"speed": 0.2, "step_time": 0.3}, ["speed", "margin"]),
+        ({"objective": "fastest"}, ["margin"]),
+        ({"objective": "fastest", "step_length": 0.04}, ["step_length", "margin"]),
+        ({"foot_spacing": 0.09}, ["step_length", "step_time", "margin", "foot_spacing"]),
+    ],
+)
+def test_one_thing_changes_and_all_else_stays_as_it_was_said(scout, asked, names):
+    request = PlanRequest(**asked)
+    found = list(changes(Search(scout, request, lambda: None), request))
+    assert [one.name for one in found] == names
+    was = request.document()
+    for one in found:
+        now = one.request(request, 0.7).document()
+        assert {key for key in was if now[key] != was[key]} == {one.name}
+
+
+@pytest.mark.parametrize(
+    ("change", "share", "told"),
+    [
+        (Change("margin", lambda share: share * 0.01, digits=3), 0.40625, 4.06e-3),
+        (Change("margin", lambda share: share * 0.01, digits=3), 0.40699, 4.06e-3),
+        (Change("step_time", lambda share: 0.8 / share, unit=1.0, up=True), 0.7, 1.143),
+        (Change("step_time", lambda share: 0.8 / share, unit=1.0, up=True), 0.5, 1.6),
+        (SPEED, 0.48437, 145.3e-3),
+    ],
+)
+def test_what_is_told_is_on_the_safe_side(change, share, told):
+    found = getattr(change.request(PlanRequest(), share), change.name)
+    assert found == pytest.approx(told, rel=1e-14)
+
+
+def test_what_cannot_be_asked_for_is_not_offered():
+    asked = PlanRequest(step_time=20.0, step_length=0.0005, margin=0.0005)
+    slower = Change("step_time", lambda share: 20.0 / share, unit=1.0, up=True)
+    assert slower.request(asked, 0.1) is None
+    assert Change("step_length", lambda share: share * 0.0005).request(asked, 0.1) is None
+    assert Change("margin", lambda share: share * 0.0005).request(asked, 0.1) is None

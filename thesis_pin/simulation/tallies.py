@@ -1,0 +1,70 @@
+"""What several tries of a motion have in common: how many keep what is asked, in what range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Protocol
+
+import numpy as np
+
+QUANTILES = (0.05, 0.5, 0.95)
+"""Of draws, in summaries."""
+
+
+class Criterion(Protocol):
+    """One thing that is asked of a try.
+
+    Attributes:
+        name: What, the same in every try.
+        met: Whether it is as asked.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def met(self) -> bool: ...
+
+
+Tries = Sequence[Sequence[Criterion]]
+"""The criteria of each try, in one order."""
+
+
+def tallied(tries: Tries, spread: Mapping[str, Sequence[float]]) -> dict[str, object]:
+    """How many tries keep what is asked, all of it and each criterion, and in what range they are.
+
+    Args:
+        tries: What is asked of each, with its answers.
+        spread: What tries differ in: name → value of each.
+    """
+    return {
+        "draws": len(tries),
+        "draws_passed": passed(tries),
+        "kept": {each[0].name: sum(one.met for one in each) for each in zip(*tries, strict=True)},
+        "quantiles": {
+            "of": list(QUANTILES),
+            **{name: np.quantile(values, QUANTILES) for name, values in spread.items()},
+        },
+    }
+
+
+def passed(tries: Tries) -> int:
+    """How many tries keep all that is asked."""
+    return sum(all(one.met for one in each) for each in tries)
+
+
+def passed_sentence(tries: Tries) -> str:
+    """How many tries keep all that is asked, in a sentence."""
+    return f"{passed(tries)} of {len(tries)} draws keep all that is asked."
+
+
+def lost_sentences(tries: Tries, words: Mapping[str, str]) -> Iterator[str]:
+    """How many tries fail by each criterion that isn't met by all.
+
+    Args:
+        tries: What is asked of each, with its answers.
+        words: Name of a criterion → what a try fails by.
+    """
+    for each in zip(*tries, strict=True):
+        lost = sum(not one.met for one in each)
+        if lost:
+            yield f"{lost} of {len(tries)} fail by {words[each[0].name]}."
