@@ -146,7 +146,9 @@ def encode(scene: Scene) -> bytes:
     document = {
         "title": scene.title,
         "description": scene.description,
-        "time": np.asarray(scene.time),
+        "start": float(scene.time[0]),
+        # From the start on: 32 bits can't tell samples apart by seconds since 1970.
+        "time": np.asarray(scene.time) - scene.time[0],
         "floor": scene.floor,
         "forward": scene.forward,
         "camera": None if scene.camera is None else np.asarray(scene.camera).tolist(),
