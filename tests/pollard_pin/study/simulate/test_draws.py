@@ -82,6 +82,9 @@ def test_draws_that_fail_are_counted_and_the_worst_is_told(short_report, held):
     worst = int(np.argmax([one.deviation[0] for one in done.draws]))
     assert any(one.startswith(f"Draw {worst}: The spray tip leaves its path") for one in said)
     assert done.summary()["draws_passed"] == 4 - sum(lost)
+    _, second, third, most = sorted(1e3 * one.deviation[0] for one in done.draws)
+    median = f"{(second + third) / 2:.3g} mm in the median, by {most:.3g} mm at most"
+    assert any(median in one for one in said)
 
 
 def test_draws_stand_in_the_units_that_their_table_names():

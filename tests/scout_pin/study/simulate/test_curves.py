@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from scout_pin.study.simulate.curves import loads, torques, ways
+from scout_pin.study.simulate.curves import figures, loads, torques, ways
 from scout_pin.study.simulate.tables import draws_table, steps_table
 
 
@@ -54,3 +54,11 @@ def test_tables_are_in_the_units_that_they_name(walked):
     (worst, *_) = sorted(walked.draws[0].slips, key=lambda one: -one.distance)
     slips = [float(row[3]) for row in steps_table(walked).rows]
     assert max(slips) == pytest.approx(1e3 * worst.distance, abs=5e-4)
+
+
+def test_the_world_that_is_written_is_the_one_it_walked_in(walked):
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_string(figures(walked)["world.xml"].decode())
+    assert model.opt.timestep == walked.plan.step == 1e-3
+    assert model.nu == 12
