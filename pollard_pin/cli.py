@@ -14,7 +14,6 @@ from thesis_pin.command.options import (
     add_json,
     add_points,
     add_robot,
-    add_simulation,
     add_smooth,
     number,
 )
@@ -154,6 +153,7 @@ ROBOT = Robot(
     page="report.drawn.page:trajectory_page",
     scene="report.drawn.view:path_scene",
     movement="report.movement:path_movement",
+    simulation="study.simulate.draws:simulate_path",
     inverse_kinematics="model:Pollard.inverse_kinematics",
 )
 
@@ -178,15 +178,14 @@ COMMAND = Command(
             "size examples/servos.csv --path examples/spray_arch.toml",
             samples=2001,
         ),
-        Verb(
-            "simulate",
+        common.simulate_verb(
+            ROBOT,
             "does the robot do what was planned, in an engine of its own?",
             "Torques of a path replayed on the closed robot, open loop or under joint servos: "
             "deviation of the tool, loops, energy; exits with 1 if it fails.",
             "simulate --path examples/spray_arch.toml --stiffness 30 30 30 0.3 0.3 0.01",
-            "pollard_pin.study.simulate.draws:simulate_path",
-            "pollard_pin.verbs:simulate",
-            (_robot, _which_path, _which_engine, add_simulation),
+            engine=_which_engine,
+            samples=2001,
         ),
         common.view_verb(
             ROBOT,

@@ -15,20 +15,16 @@ from pollard_pin.specification import Specification
 from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.results import Answer, deliver, give, write_results
+from thesis_pin.command.results import Answer, give, write_results
 from thesis_pin.command.running import ExitCode, free
-from thesis_pin.command.warned import warned
+from thesis_pin.command.simulating import tried
 from thesis_pin.errors import BadInput, Unreachable
-from thesis_pin.numeric.workers import silent
 from thesis_pin.report.tables import Table
 
 if TYPE_CHECKING:  # reports need none of it
     from pollard_pin.report.document import TrajectoryReport
-    from pollard_pin.study.simulate.result import Simulation
+    from pollard_pin.study.simulate.conditions import Conditions
     from thesis_pin.report.exchange.movement import Movement
-
-_PLANNED = 2001
-"""Samples of the plan that a simulation is held against."""
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:
@@ -136,40 +132,16 @@ def fk(arguments: argparse.Namespace) -> ExitCode:
     return give(arguments, answer)
 
 
-def simulate(arguments: argparse.Namespace) -> ExitCode:
-    """Replay a path's torques on the simulated robot; exit with 1 if it does something else."""
+def conditions(arguments: argparse.Namespace) -> Conditions:
+    """What the arguments have a path's torques replayed with."""
     from pollard_pin.study.simulate.conditions import Conditions
 
     refuse_beside(arguments, "open-loop", ("stiffness", "damping"))
-    conditions = Conditions(
+    return Conditions(
         engine=arguments.engine,
         stiffness=None if arguments.stiffness is None else tuple(arguments.stiffness),
         damping=None if arguments.damping is None else tuple(arguments.damping),
-        time_step=arguments.time_step,
-        mass_error=arguments.mass_error,
-        servo_zero_error=float(np.radians(arguments.servo_zero_error)),
-        draws=arguments.draws,
-        seed=arguments.seed,
-        jobs=arguments.jobs,
-    )
-
-    def make(bar: Bar) -> Simulation:
-        from pollard_pin.study.simulate.draws import simulate_path
-
-        with warned():
-            robot = load(arguments.specification, inertia=arguments.inertia)
-            planned = report(arguments, robot, lambda _: _PLANNED, silent)
-            return simulate_path(planned, conditions, progress=bar)
-
-    own = "pollard_pin.study.simulate"
-    arguments.strict = True  # the answer decides how it ends
-    return deliver(
-        arguments,
-        "simulating",
-        make,
-        figures=f"{own}.curves:figures",
-        page=f"{own}.page:simulation_page",
-        table=f"{own}.tables:summary",
+        **tried(arguments),
     )
 
 

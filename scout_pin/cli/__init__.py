@@ -8,7 +8,7 @@ from functools import partial
 
 from scout_pin.cli.walks import which_walk
 from thesis_pin.command import common, options
-from thesis_pin.command.options import add_branch, add_json, add_simulation, count, number
+from thesis_pin.command.options import add_branch, add_json, count, number
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 _branch = partial(
@@ -169,8 +169,6 @@ def _which_pose(words: argparse.ArgumentParser) -> None:
     )
 
 
-_robot = partial(options.add_robot, another="another biped")
-
 ROBOT = Robot(
     package="scout_pin",
     another="another biped",
@@ -179,6 +177,7 @@ ROBOT = Robot(
     page="report.drawn.page:gait_page",
     scene="report.drawn.view:gait_scene",
     movement="report.movement:gait_movement",
+    simulation="study.simulate.draws:simulate_gait",
     inverse_kinematics="model:Scout.leg_inverse_kinematics",
     still="verbs:still",
 )
@@ -203,15 +202,14 @@ COMMAND = Command(
             "size examples/servos.csv --gait examples/walk.toml --time-unit 0.05",
             samples=401,
         ),
-        Verb(
-            "simulate",
+        common.simulate_verb(
+            ROBOT,
             "does the robot walk this gait, in an engine of its own?",
             "A gait walked by position servos on a floor, in MuJoCo: distance, heading, slip, "
             "tilt, torques beside the plan's; exits with 1 if it does something else.",
             "simulate --gait examples/walk.toml --html simulated.html",
-            "scout_pin.study.simulate.draws:simulate_gait",
-            "scout_pin.verbs:simulate",
-            (_robot, _which_gait, _which_servos, add_simulation),
+            engine=_which_servos,
+            samples=401,
         ),
         common.view_verb(
             ROBOT,

@@ -13,24 +13,21 @@ from scout_pin.implausible import implausible
 from scout_pin.model import Scout, load
 from scout_pin.specification import NEW_PATH, SIDES
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.results import Answer, check_new, deliver, put, put_new
+from thesis_pin.command.results import Answer, check_new, put, put_new
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.simulating import tried
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 from thesis_pin.model.loading import shipped_folder
 from thesis_pin.numeric.checks import choice
-from thesis_pin.numeric.workers import silent
 
 if TYPE_CHECKING:  # inverse kinematics alone needs none of them
     from scout_pin.motion.gait import Gait
     from scout_pin.report.document import GaitReport
-    from scout_pin.study.simulate.result import Simulation
+    from scout_pin.study.simulate.conditions import Conditions
     from thesis_pin.pages.scene import Scene
     from thesis_pin.report.exchange.movement import Movement
-
-_PLANNED = 401
-"""Samples of the report that a simulation is held against."""
 
 
 def report(
@@ -106,43 +103,19 @@ def _gait(arguments: argparse.Namespace, robot: Scout) -> Gait:
     return replace(gait, cycle=True) if arguments.cycle else gait
 
 
-def simulate(arguments: argparse.Namespace) -> ExitCode:
-    """Walk a gait on the simulated robot; exit with 1 if it does something else."""
+def conditions(arguments: argparse.Namespace) -> Conditions:
+    """What the arguments have a gait walked with, and on."""
     from scout_pin.study.servo import ServoGains
     from scout_pin.study.simulate.conditions import Conditions
 
     ahead, right = np.radians(arguments.floor_tilt).tolist()
-    conditions = Conditions(
+    return Conditions(
         gains=ServoGains(arguments.servo_stiffness, arguments.servo_damping),
         sag_compensation=not arguments.no_sag_compensation,
-        servo_zero_error=float(np.radians(arguments.servo_zero_error)),
-        mass_error=arguments.mass_error,
         friction=arguments.friction,
         floor_tilt=(ahead, right),
         armature=arguments.armature,
-        draws=arguments.draws,
-        seed=arguments.seed,
-        jobs=arguments.jobs,
-        time_step=arguments.time_step,
-    )
-
-    def make(bar: Bar) -> Simulation:
-        from scout_pin.study.simulate.draws import simulate_gait
-
-        with warned():
-            robot = load(arguments.specification, inertia=arguments.inertia)
-            planned = report(arguments, robot, lambda _: _PLANNED, silent)
-            return simulate_gait(planned, conditions, progress=bar)
-
-    own = "scout_pin.study.simulate"
-    arguments.strict = True  # the answer decides how it ends
-    return deliver(
-        arguments,
-        "simulating",
-        make,
-        figures=f"{own}.curves:figures",
-        page=f"{own}.page:simulation_page",
-        table=f"{own}.tables:summary",
+        **tried(arguments),
     )
 
 

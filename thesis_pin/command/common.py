@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable
 from functools import partial
 
-from thesis_pin.command import options, verbs
+from thesis_pin.command import options, simulating, verbs
 from thesis_pin.command.registry import Robot, Verb, Words
 
 
@@ -79,6 +79,31 @@ def size_verb(robot: Robot, help: str, description: str, example: str, *, sample
     return _verb(
         robot, "size", (help, description, example), robot.size, verbs.size, which, robot.motion
     )
+
+
+def simulate_verb(
+    robot: Robot,
+    help: str,
+    description: str,
+    example: str,
+    *,
+    engine: Callable[[Words], None],
+    samples: int,
+) -> Verb:
+    """The verb that tries a motion in an engine.
+
+    Args:
+        robot: The robot.
+        help: See :class:`~thesis_pin.command.registry.Verb`.
+        description: The same.
+        example: The same.
+        engine: Add what the robot's conditions have besides those of every robot.
+        samples: Of the report that the simulation is held against.
+    """
+    add = (robot.motion, engine, simulating.add_simulation)
+    run = partial(simulating.simulate, samples=samples)
+    texts = (help, description, example)
+    return _verb(robot, "simulate", texts, robot.simulation, run, *add)
 
 
 def ik_verb(

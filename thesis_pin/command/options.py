@@ -296,50 +296,6 @@ def add_convert(words: Words) -> None:
     add_json(words, "what was written")
 
 
-def add_simulation(words: Words) -> None:
-    """What every ``simulate`` verb has besides its motion, servos and engine."""
-    words.add_argument(
-        "--time-step",
-        type=number("--time-step", positive=True),
-        metavar="SECONDS",
-        help="of the engine, at most (default: what suits engine and servos)",
-    )
-    words.add_argument(
-        "--servo-zero-error",
-        type=number("--servo-zero-error", within=(0.0, 45.0), unit="degrees"),
-        default=0.0,
-        metavar="DEGREES",
-        help="standard deviation of where each servo takes zero to be (default: 0)",
-    )
-    words.add_argument(
-        "--mass-error",
-        type=number("--mass-error", within=(0.0, 0.3)),
-        default=0.0,
-        metavar="SHARE",
-        help="standard deviation of each body's mass, relative to it; 0.05 is 5 %% (default: 0)",
-    )
-    words.add_argument(
-        "--draws",
-        type=count("--draws", 1),
-        default=1,
-        metavar="N",
-        help="robots with such errors, each other ones (default: 1)",
-    )
-    words.add_argument(
-        "--seed",
-        type=count("--seed", 0),
-        default=0,
-        metavar="N",
-        help="of the errors; the same seed draws the same robots (default: 0)",
-    )
-    add_jobs(words)
-    words.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
-    add_json(words, "the simulation")
-    words.add_argument(
-        "--html", metavar="FILE|-", help="write it as a page to mail, the plan beside it as a ghost"
-    )
-
-
 def add_jobs(words: Words) -> None:
     """How many threads or processes share the work."""
     words.add_argument(

@@ -189,6 +189,9 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
         still: What to show where no motion is asked for: a function of the arguments and the
             robot that returns a scene, or None to show the usual motion; empty for that.
         urdf, files: Its URDF in one reading, and everything generated from it.
+        conditions: What a simulation is tried under, as the arguments say.
+        simulation: A simulation of a report of the motion; the rest of its room,
+            ``study.simulate``, has the same names in every robot's package.
         size: Servos or motors held against a report of the motion.
         thesis, audit: The thesis ready to be audited, and the function that does it.
     """
@@ -201,8 +204,10 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     scene: str
     inverse_kinematics: str
     movement: str
+    simulation: str
     makes_report: str = "verbs:report"
     moves: str = "verbs:motion"
+    conditions: str = "verbs:conditions"
     solves: str = "verbs:ik"
     figures: str = "report.drawn.figures:figures"
     table: str = "report.tables:summary"

@@ -87,6 +87,7 @@ def deliver(
     figures: str,
     page: str,
     table: str,
+    strict: bool = False,
 ) -> ExitCode:
     """Put a report where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
 
@@ -94,12 +95,13 @@ def deliver(
     page fails, the data are written all the same.
 
     Args:
-        arguments: With ``out``, ``json``, ``html`` and ``strict``.
+        arguments: With ``out``, ``json`` and ``html``, and ``strict`` unless that is always so.
         what: What is going on meanwhile, for a progress bar.
         make: Works the report out.
         figures: ``module:function`` of the report's files, by name.
         page: The same of its page.
         table: The same of its tables and paragraphs.
+        strict: Whether the exit code is always that of the answer.
     """
     from thesis_pin.report.writers import csv_bytes, json_bytes
 
@@ -127,7 +129,7 @@ def deliver(
     if answer.within_limits is None:
         say(str(getattr(answer, "reason", "The data don't carry a verdict.")))
         return ExitCode.BAD_INPUT
-    refused = arguments.strict and not answer.within_limits
+    refused = (strict or arguments.strict) and not answer.within_limits
     return ExitCode.NO if refused else ExitCode.DONE
 
 

@@ -57,7 +57,7 @@ def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     return deliver(
         arguments,
         what,
-        lambda bar: _report(robot, arguments, lambda _: arguments.samples, bar),
+        lambda bar: planned(robot, arguments, lambda _: arguments.samples, bar),
         figures=robot.name_of(robot.figures),
         page=robot.name_of(robot.page),
         table=robot.name_of(robot.table),
@@ -74,7 +74,7 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         if robot.still:
             scene = _hook(robot, robot.still)(arguments, _load(robot, arguments))
         if scene is None:
-            scene = _hook(robot, robot.scene)(_report(robot, arguments, frames, bar))
+            scene = _hook(robot, robot.scene)(planned(robot, arguments, frames, bar))
         return scene
 
     return show_scene(arguments, robot.command, make)
@@ -170,7 +170,7 @@ def size(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Hold lists of servos against a motion."""
 
     def make(catalogue: Catalogue, bar: Bar) -> Sizing:
-        report = _report(robot, arguments, lambda _: arguments.samples, bar)
+        report = planned(robot, arguments, lambda _: arguments.samples, bar)
         found: Sizing = _hook(robot, robot.size)(report, catalogue, arguments.factor)
         return found
 
@@ -274,12 +274,13 @@ def _load(robot: Robot, arguments: argparse.Namespace) -> Any:
         return _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
 
 
-def _report(
+def planned(
     robot: Robot,
     arguments: argparse.Namespace,
     samples: Callable[[float], int],
     progress: Callable[[int, int], None],
 ) -> Report:
+    """The report on the motion that the arguments ask for; see :class:`MakeReport`."""
     make: MakeReport = _hook(robot, robot.makes_report)
     loaded = _load(robot, arguments)
     with warned():
