@@ -5,7 +5,7 @@ import pytest
 from scout_pin.motion.files import load_gait
 from thesis_pin.errors import BadInput, TrajectoryError
 
-from ...conftest import EXAMPLES
+from ..conftest import EXAMPLES
 
 
 def test_support_that_flickers_is_refused_at_the_limit(tmp_path):
