@@ -130,6 +130,15 @@ def test_a_long_walk_is_judged_as_finely_as_a_short_one(plan, monkeypatch):
     assert asked == [(True, 801), (False, 80 * 23)]
 
 
+def test_a_walk_is_held_to_the_least_margin_that_its_parts_were_planned_with(plan, monkeypatch):
+    parts = iter([plan.start, replace(plan.stop, margin=0.0064)])
+    monkeypatch.setattr(planning, "plan_cycle", lambda *_, **__: plan.cycle)
+    monkeypatch.setattr(planning, "plan_transition", lambda *_: next(parts))
+    found = plan_gait(scout_pin.load(), plan.request, steps=STEPS)
+    assert found.walk.margin == 0.0064
+    assert plan.walk.margin == 0.008
+
+
 def test_a_short_step_is_as_short_as_asked():
     found = plan_gait(scout_pin.load(), PlanRequest(step_length=0.0005), steps=1)
     assert found.met
