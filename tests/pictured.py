@@ -71,13 +71,21 @@ def _axis(ticks, following, along):
     """An axis: its name, its labels, and what turns places on the sheet into values."""
     places = ticks.points[::3, along]
     *labels, factor, name = (mark.text for mark in following[: len(places) + 2])
-    (power,) = re.findall("×10(.+)", factor) or ["⁰"]
-    power = float(power.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")))
-    values = np.array([float(label.replace("−", "-")) for label in labels]) * 10.0**power
+    values = said(labels, factor)
     slope, start = np.polyfit(places, values, 1)
     near = 1e-9 * np.abs(values).max()
     np.testing.assert_allclose(slope * places + start, values, rtol=0, atol=near)
     return SimpleNamespace(name=name, labels=labels, read=lambda place: slope * place + start)
+
+
+def said(labels, factor):
+    """Values that an axis's labels say: times a power of ten, plus what stands beside it."""
+    signs = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
+    times = re.match("×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", factor)
+    power = int(times[1].translate(signs)) if times else 0
+    added = factor[times.end() :] if times else factor
+    base = float(added.strip().translate(signs).replace("×10", "e")) if added else 0.0
+    return np.array([float(label.translate(signs)) for label in labels]) * 10.0**power + base
 
 
 def texts_of(sheet):

@@ -141,7 +141,7 @@ def _which_servos(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--floor-tilt",
         nargs=2,
-        type=number("--floor-tilt"),
+        type=number("--floor-tilt", within=(-45.0, 45.0), unit="degrees"),
         default=(0.0, 0.0),
         metavar=("AHEAD", "RIGHT"),
         help="angles by which the floor rises ahead and to the right [°] (default: 0 0)",

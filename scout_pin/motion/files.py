@@ -236,8 +236,11 @@ def gait_of(file: GaitFile, interpolation: str | None = None) -> Gait:
         interpolation: Method for every node segment, instead of the file's.
 
     Raises:
+        BadInput: A method is given, and no segment has nodes that it could be for.
         TrajectoryError: A curve jumps.
     """
+    if interpolation is not None:
+        _refuse_nothing_to_override(file, interpolation)
     curves = {body: _curves(file, getattr(file, body), interpolation) for body in BODIES}
     return Gait(
         file.name,
@@ -248,6 +251,24 @@ def gait_of(file: GaitFile, interpolation: str | None = None) -> Gait:
         cycle=file.cycle,
         branch=file.branch_asked,
     )
+
+
+def _refuse_nothing_to_override(file: GaitFile, interpolation: str) -> None:
+    """Refuse a method for nodes of a gait all of whose curves are exact.
+
+    Raises:
+        BadInput: They are.
+    """
+    curves = [
+        getattr(getattr(file, body), name) for body in BODIES for name in BodyCurves.model_fields
+    ]
+    segments = [one for curve in curves if isinstance(curve, tuple) for one in curve]
+    if segments and all(one.value is None for one in segments):
+        raise BadInput(
+            f"interpolation is {interpolation!r}, and curves of the gait {file.name!r} are exact",
+            allowed="a gait some of whose curves have nodes",
+            remedy="Leave it out: polynomials and pieces are taken as they are",
+        )
 
 
 def _curves(file: GaitFile, body: BodyCurves, override: str | None) -> tuple[Piecewise, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import shlex
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from scout_pin.model import load
@@ -15,6 +16,7 @@ from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
+from thesis_pin.numeric.checks import real
 
 if TYPE_CHECKING:  # help has to be quick
     from scout_pin.study.plan.request import PlanRequest
@@ -39,6 +41,15 @@ _UNITS = {
     "friction": 1.0,
 }
 """Numbers of a request, and what one is on the command line."""
+
+_WORDS = {
+    **dict.fromkeys(("step_length", "foot_spacing", "lift", "margin"), "mm"),
+    "step_time": "s",
+    "walking_speed": "mm/s",
+    **dict.fromkeys(("torque_reserve", "speed_reserve", "line_reserve"), "percent"),
+    **dict.fromkeys(("pitch", "roll", "yaw", "knee"), "degrees"),
+}
+"""The same in words."""
 
 _NAMES = {"walking_speed": "speed"}
 """Fields of a request that are called otherwise there."""
@@ -111,11 +122,7 @@ def _request(arguments: argparse.Namespace) -> PlanRequest:
             )
         objective = "fastest"
     _refuse_other_units(arguments)
-    asked: dict[str, Any] = {
-        _NAMES.get(name, name): getattr(arguments, name) * unit
-        for name, unit in _UNITS.items()
-        if getattr(arguments, name) is not None
-    }
+    asked: dict[str, Any] = dict(_numbers(arguments))
     if arguments.height is not None:
         asked["height"] = tuple(value * _MILLI for value in arguments.height)
     if objective is not None:
@@ -129,9 +136,10 @@ _LEAST = {
     "torque_reserve": (1.0, "percent", "10"),
     "speed_reserve": (1.0, "percent", "10"),
     "line_reserve": (1.0, "percent", "10"),
+    **dict.fromkeys(("pitch", "roll", "yaw"), (0.5, "degrees", "15")),
 }
-"""Values above zero that are taken for metres or shares written by mistake, and how a usual one
-is written."""
+"""Values above zero that are taken for metres, shares or radians written by mistake, and
+how a usual one is written."""
 
 
 def _refuse_other_units(arguments: argparse.Namespace) -> None:
@@ -146,9 +154,33 @@ def _refuse_other_units(arguments: argparse.Namespace) -> None:
             raise BadInput(
                 f"--{name.replace('_', '-')} is {value:g} {unit}",
                 allowed=f"0 or at least {least:g} {unit}"
-                if name != "walking_speed"
+                if name in ("margin", "torque_reserve", "speed_reserve", "line_reserve")
                 else f"at least {least:g} {unit}",
                 remedy=f"Write it in {unit}, as {usual}",
+            )
+
+
+def _numbers(arguments: argparse.Namespace) -> Iterator[tuple[str, float]]:
+    """Numbers of the request in SI; those out of range are refused as they were said.
+
+    Raises:
+        BadInput: A number is out of range.
+    """
+    from scout_pin.study.plan.request import RANGES
+
+    for name, one in _UNITS.items():
+        field = _NAMES.get(name, name)
+        low, high, _ = RANGES[field]
+        if (value := getattr(arguments, name)) is not None:
+            flag = f"--{name.replace('_', '-')}"
+            real(flag, value, low=low / one, high=high / one, unit=_WORDS.get(name, ""))
+            yield field, min(max(value * one, low), high)  # 95 * 0.01 is more than 0.95
+    if (height := arguments.height) is not None:
+        least, most = (real("--height", value, low=1.0, high=1e4, unit="mm") for value in height)
+        if not least < most:
+            raise BadInput(
+                f"--height is from {least:g} to {most:g} mm",
+                allowed="the least below the greatest",
             )
 
 

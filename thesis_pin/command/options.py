@@ -11,16 +11,28 @@ from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import MOST, shown
 
 
-def number(name: str, *, positive: bool = False) -> Callable[[str], float]:
-    """An argparse type: a finite number, optionally positive."""
+def number(
+    name: str, *, positive: bool = False, within: tuple[float, float] | None = None, unit: str = ""
+) -> Callable[[str], float]:
+    """An argparse type: a finite number, optionally positive, or between two bounds.
+
+    Args:
+        name: The flag.
+        positive: Whether it is above zero.
+        within: Least and greatest value.
+        unit: What it counts, for messages.
+    """
+    low, high = within or (-math.inf, math.inf)
     allowed = "a positive number" if positive else "a finite number"
+    if within is not None:
+        allowed = f"{low:g} to {high:g} {unit}".rstrip()
 
     def read(text: str) -> float:
         try:
             value = float(text)
         except ValueError:
             value = math.nan
-        if not math.isfinite(value) or (positive and value <= 0):
+        if not (math.isfinite(value) and low <= value <= high) or (positive and value <= 0):
             raise argparse.ArgumentTypeError(f"{name} is {shown(text)}; allowed: {allowed}")
         return value
 

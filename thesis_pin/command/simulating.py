@@ -41,14 +41,14 @@ def add_simulation(words: Words) -> None:
     )
     words.add_argument(
         "--servo-zero-error",
-        type=number("--servo-zero-error"),
+        type=number("--servo-zero-error", within=(0.0, 45.0), unit="degrees"),
         default=0.0,
         metavar="DEGREES",
         help="standard deviation of where each servo takes zero to be (default: 0)",
     )
     words.add_argument(
         "--mass-error",
-        type=number("--mass-error"),
+        type=number("--mass-error", within=(0.0, 0.3)),
         default=0.0,
         metavar="SHARE",
         help="standard deviation of each body's mass, relative to it; 0.05 is 5 %% (default: 0)",

@@ -24,6 +24,7 @@ _MOVED = 1e-7  # by how much the polyhedron's sides are moved, of the largest di
 _DIGITS = 12  # of unit normals that are told apart
 _STILL = 1e-12  # rate at which a side isn't met
 _ON = 1e-9  # distance at which a ray lies on a facet, of the longest ray
+_WORST = 1e6  # by how much rounding may grow in a corner: to a fifth of that distance
 
 
 def cone_facets(hull: np.ndarray, tilts: np.ndarray, length: float, rays: np.ndarray) -> np.ndarray:
@@ -86,7 +87,7 @@ def _level(hull: np.ndarray, tilts: np.ndarray, length: float) -> np.ndarray:
 def _yawing(rays: np.ndarray) -> np.ndarray:
     """Normals whose last component is one, ``(m, 6)``; some of them several times."""
     sides, exact = rays[:, :5], -rays[:, 5]  # sides @ x <= exact
-    count = len(rays)
+    count, size = len(rays), np.abs(sides).max()
     chance = random.Random(0)  # so that no more than five sides meet
     spread = np.array([1.0 + chance.random() for _ in range(count)])
     bounds = exact + _MOVED * np.abs(exact).max() * spread
@@ -95,6 +96,8 @@ def _yawing(rays: np.ndarray) -> np.ndarray:
     seen, found = set((corners @ weights).tolist()), []
     while len(corners):
         inverse = np.linalg.inv(sides[corners])
+        if not np.abs(inverse).max() * size < _WORST:
+            raise np.linalg.LinAlgError
         found.append(np.matmul(inverse, exact[corners][:, :, None])[:, :, 0])
         x = np.matmul(inverse, bounds[corners][:, :, None])[:, :, 0]
         room = bounds - x @ sides.T

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -12,6 +14,8 @@ MARGINS = {"l": 58, "r": 14, "t": 12, "b": 44}
 
 STRETCHES = 600
 """Of a plot's x axis: about as many as it has columns of pixels."""
+
+_DIGITS = 5
 
 _MARKS: dict[str, dict[str, object]] = {"dot": {"size": 4}, "cross": {"size": 6, "symbol": "x"}}
 
@@ -113,5 +117,11 @@ def _band(band: Band) -> dict[str, object]:
 
 
 def _short(values: ArrayLike) -> list[float | None]:
-    """Numbers with five digits; NaN becomes None, a gap."""
-    return [None if v != v else float(f"{v:.5g}") for v in np.asarray(values, dtype=float)]
+    """Numbers with five digits of what they range over; NaN and infinity become None, a gap."""
+    values = np.asarray(values, dtype=float)
+    some = values[np.isfinite(values)]
+    size, span = np.abs(some).max(initial=0.0), np.ptp(some) if some.size else 0.0
+    # Times of a log, say, are seconds since 1970.
+    more = math.ceil(math.log10(size / span)) if 0.0 < span < size else 0
+    digits = min(_DIGITS + more, 17)
+    return [float(f"{v:.{digits}g}") if math.isfinite(v) else None for v in values]

@@ -31,7 +31,20 @@ LINE_RESERVE = 0.1
 FASTEST_LINE_RESERVE = 0.05
 """The same of the fastest walk, whose rotors may need some more."""
 
-_RIGHT_ANGLE = math.pi / 2
+RANGES: dict[str, tuple[float, float, str]] = {
+    **dict.fromkeys(("step_length", "foot_spacing", "lift"), (1e-4, 10.0, "m")),
+    "margin": (0.0, 10.0, "m"),
+    "step_time": (0.01, 100.0, "s"),
+    "speed": (1e-4, 10.0, "m/s"),
+    **dict.fromkeys(("torque_reserve", "speed_reserve", "line_reserve"), (0.0, 0.95, "")),
+    **dict.fromkeys(("pitch", "roll", "yaw"), (1e-4, 1.5, "rad")),
+    "knee": (math.radians(1.0), math.radians(80.0), "rad"),
+    "friction": (1e-6, math.inf, ""),
+}
+"""Least and greatest value of each number of a request, and its unit."""
+
+_OPEN = frozenset({"step_length", "foot_spacing", "step_time", "speed", "line_reserve", "friction"})
+"""Those that may be left open."""
 
 
 @dataclass(frozen=True)
@@ -90,29 +103,15 @@ class PlanRequest:
         Raises:
             BadInput: Says which field, what is allowed and how to mend it.
         """
-        lengths = ("step_length", "foot_spacing", "lift")
-        for name in lengths:
-            if (value := getattr(self, name)) is not None:
-                real(name, value, low=1e-4, high=10.0, unit="m")
-        real("margin", self.margin, low=0.0, high=10.0, unit="m")
-        if self.step_time is not None:
-            real("step_time", self.step_time, low=0.01, high=100.0, unit="s")
-        if self.speed is not None:
-            real("speed", self.speed, low=1e-4, high=10.0, unit="m/s")
-        for name in ("torque_reserve", "speed_reserve"):
-            real(name, getattr(self, name), low=0.0, high=0.95)
-        for name in ("pitch", "roll", "yaw"):
-            real(name, getattr(self, name), low=1e-4, high=1.5, unit="rad")
-        real("knee", self.knee, low=math.radians(1.0), high=math.radians(80.0), unit="rad")
-        if self.friction is not None:
-            real("friction", self.friction, low=1e-6)
+        for name, (low, high, unit) in RANGES.items():
+            if (value := getattr(self, name)) is not None or name not in _OPEN:
+                real(name, value, low=low, high=high, unit=unit)
         if not isinstance(self.servo_line, bool | np.bool_):
             raise BadInput(f"servo_line is {shown(self.servo_line)}", allowed="True or False")
         choice("objective", self.objective, OBJECTIVES)
         if self.line_reserve is None:
             usual = FASTEST_LINE_RESERVE if self.objective == "fastest" else LINE_RESERVE
             object.__setattr__(self, "line_reserve", usual)
-        real("line_reserve", self.line_reserve, low=0.0, high=0.95)
         branch_words(self.branch)
         self._check_height()
         self._check_speed()

@@ -24,6 +24,21 @@ def test_curves_over_time_arrive_with_gaps_where_they_have_no_value():
     assert drawn.layout.yaxis.title.text == "torque [N·m]"
 
 
+def test_what_is_far_from_zero_keeps_its_shape():
+    """Times of a log are seconds since 1970."""
+    time = 1732617283.25 + np.linspace(0.0, 0.6, 101)
+    values = 1e3 + 1e-6 * np.sin(10 * (time - time[0]))
+    (trace,) = read(Plot("t", "", "y", [Curve("c", values, "#000000")], time)).data
+    np.testing.assert_allclose(np.array(trace.x), time, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(np.array(trace.y), values, rtol=0, atol=1e-10)
+
+
+def test_infinity_is_a_gap():
+    values = np.array([1.0, np.inf, 2.0, -np.inf, 3.0])
+    (trace,) = read(Plot("t", "", "y", [Curve("c", values, "#000000")], TIME)).data
+    assert trace.y == (1.0, None, 2.0, None, 3.0)
+
+
 def test_limits_cross_the_whole_time_and_share_a_line_of_the_legend():
     limits = [*both_signs("stall", np.array([3.0])), Limit("rated", 1.0)]
     drawn = read(Plot("t", "", "y", [Curve("c", TIME, "#000000")], TIME, limits=limits)).data[1:]

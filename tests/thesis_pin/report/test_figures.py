@@ -4,6 +4,7 @@ import hashlib
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import matplotlib as mpl
@@ -82,6 +83,28 @@ def test_a_plane_has_one_scale_and_its_areas():
     (point,) = (thing for thing in panel.things if thing[0] == "curve")
     np.testing.assert_allclose(point[1], np.stack([2 * TIME, TIME], axis=1), atol=1e-9)
     assert point[2].marks == "cross"
+
+
+@pytest.mark.parametrize("ranges", [(1.0, 10.0), (10.0, 1.0)])
+def test_a_plane_stays_on_its_sheet_whichever_way_it_is_longer(ranges):
+    corners = SQUARE / np.ptp(SQUARE, axis=0) * ranges
+    sheet = panels(
+        [[replace(PLANE, areas=[curves.Area("long", corners, "#0072b2")], curves=[])]], 4, 3
+    )
+    (frame,) = shapes_of(sheet, "frame")
+    assert (frame.points > 0).all()
+    assert (frame.points < [72 * sheet.width, 72 * sheet.height]).all()
+    across, up = np.ptp(frame.points, axis=0)
+    assert across / up == pytest.approx(ranges[0] / ranges[1])
+
+
+def test_limits_are_dashed_over_the_whole_axis():
+    limited = replace(OVER_TIME, limits=[curves.Limit("most", 3.0)])
+    sheet = panels([[limited]], 8, 3)
+    (frame,), (limit,) = shapes_of(sheet, "frame"), shapes_of(sheet, "limit")
+    assert limit.look.dash == "dash"
+    assert np.ptp(limit.points[:, 0]) == pytest.approx(np.ptp(frame.points[:, 0]))
+    assert limit.points[0, 1] == limit.points[1, 1]
 
 
 def test_panels_stand_where_their_rows_say():

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from thesis_pin.report.plotting.legend import Legend
 from thesis_pin.report.plotting.panel import TITLE, Panel
-from thesis_pin.report.plotting.sheet import INCH, Box, Mark, Sheet, Text
+from thesis_pin.report.plotting.sheet import INCH, Box, Mark, Sheet, Text, size_within
 
 PAD = 3.0
 """Around each panel and along the sheet's borders [pt]."""
@@ -48,7 +48,8 @@ def arranged(
     marks: list[Mark] = []
     top = high - PAD
     if title:
-        marks.append(Text(across / 2, top - 0.76 * TITLE, title, TITLE, 0.5))
+        size = size_within(title, TITLE, across - 2 * PAD)
+        marks.append(Text(across / 2, top - 0.76 * TITLE, title, size, 0.5))
         top -= PAD + TITLE
     for row, over, under in zip(rows, above, below, strict=True):
         start = PAD

@@ -18,7 +18,7 @@ _PAD = 0.5 * SIZE
 _SAMPLE = 2.0 * SIZE
 _GAP = 0.8 * SIZE
 _BETWEEN = 1.75 * SIZE
-_SPARE = 0.25 * SIZE  # letters on whole pixels are a little wider
+_SPARE = 0.04  # of a name: letters on whole pixels are that much wider
 _EDGE = Look(colour("#cccccc"), 1.0, fill=colour("#ffffff", 0.8))
 
 
@@ -58,7 +58,7 @@ class Legend:
     def widths(self) -> list[float]:
         """Of the columns [pt]."""
         return [
-            _SAMPLE + _GAP + max(text_width(entry.name, SIZE) for entry in column) + _SPARE
+            _SAMPLE + _GAP + max(_room(entry.name) for entry in column)
             for column in self._columns()
         ]
 
@@ -88,6 +88,11 @@ class Legend:
     def _columns(self) -> list[Sequence[Entry]]:
         rows = self.rows
         return [self.entries[k : k + rows] for k in range(0, len(self.entries), rows)]
+
+
+def _room(name: str) -> float:
+    width = text_width(name, SIZE)
+    return width + max(_SPARE * width, 0.25 * SIZE)
 
 
 def fitting(entries: Sequence[Entry], height: float) -> Legend:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from thesis_pin.report.curves import BLACK, Curve, Plot
 from thesis_pin.report.plotting.legend import Entry, Legend, fitting
@@ -18,6 +19,7 @@ from thesis_pin.report.plotting.sheet import (
     Shape,
     Text,
     colour,
+    size_within,
     text_width,
 )
 
@@ -69,7 +71,9 @@ class Panel:
         """Room to the left of axes of that height [pt]."""
         if not self.marked[1]:
             return 0.0
-        return _TICK + _GAP + _widest(self.y_ticks(height)) + _SPACE + LABEL + 2.0
+        found = self.y_ticks(height)
+        labels = _TICK + _GAP + _widest(found) + _SPACE + LABEL + 2.0
+        return max(labels, _TICK + text_width(found.factor, LABEL))
 
     def right(self, height: float) -> float:
         """Room to the right of axes of that height [pt]."""
@@ -81,6 +85,13 @@ class Panel:
         """Marked values of axes of that height [pt]."""
         return ticks(*self.y, int(height / _TIGHT["y"]))
 
+    def x_ticks(self, width: float) -> Ticks:
+        """Marked values of axes of that width [pt]: as many as their labels leave room for."""
+        most = int(width / _TIGHT["x"])
+        found = ticks(*self.x, most)
+        fit = int(width / (_widest(found) + _SPACE))
+        return ticks(*self.x, fit) if fit < min(most, len(found.values)) else found
+
     def _under(self) -> Legend:
         return Legend(self.entries, 2)
 
@@ -91,7 +102,8 @@ class Panel:
         yield from _axes(self, box)
         if self.plot.title:
             middle = (box.left + box.right) / 2
-            yield Text(middle, box.top + 6.0, self.plot.title, TITLE, 0.5)
+            size = size_within(self.plot.title, TITLE, cell.width)
+            yield Text(middle, box.top + 6.0, self.plot.title, size, 0.5)
         if self.entries and self.plane:
             legend = self._under()
             left = (box.left + box.right - legend.width) / 2
@@ -170,17 +182,26 @@ def _things(panel: Panel, box: Box) -> Iterator[Shape]:
     if all(panel.marked):
         yield from _grid(panel, box)
     for curve in plot.curves:
-        points = panel.at(box, plot.places(curve), curve.y)
-        yield Shape(points, next(looks), clip=box, kind="curve")
+        points, look = panel.at(box, plot.places(curve), curve.y), next(looks)
+        yield Shape(points, look, clip=box, kind="curve")
+        alone = points[_alone(points)]
+        if len(alone) and not curve.marks:  # no line goes through them
+            yield Shape(alone, replace(look, marks="dot", dash="solid"), clip=box, kind="samples")
     for limit in plot.limits:
         ends = panel.at(box, np.array(panel.x), np.full(2, limit.value))
         yield Shape(ends, next(looks), clip=box, snap=True, kind="limit")
 
 
+def _alone(points: Points) -> NDArray[np.bool_]:
+    """Which points have no neighbour that a line could join them to."""
+    there = np.pad(np.isfinite(points).all(axis=1), 1)
+    return np.asarray(there[1:-1] & ~there[:-2] & ~there[2:])
+
+
 def _marked(panel: Panel, box: Box) -> tuple[Ticks, Points, Ticks, Points]:
     """Marked values of both axes and where on the axes they stand."""
     none = Ticks((), ())
-    x = ticks(*panel.x, int(box.width / _TIGHT["x"])) if panel.marked[0] else none
+    x = panel.x_ticks(box.width) if panel.marked[0] else none
     y = panel.y_ticks(box.height) if panel.marked[1] else none
     along = panel.at(box, np.array(x.values), np.full(len(x.values), panel.y[0]))
     up = panel.at(box, np.full(len(y.values), panel.x[0]), np.array(y.values))
@@ -220,7 +241,8 @@ def _axes(panel: Panel, box: Box) -> Iterator[Mark]:
             yield Text(beside, float(at) - _ASCENT / 2 * LABEL, label, LABEL, 1.0)
         yield Text(box.left - _TICK, box.top + 6.0, y.factor, LABEL, 1.0)
         name = beside - _widest(y) - _SPACE - _DESCENT * LABEL
-        yield Text(name, centre, panel.plot.label, LABEL, 0.5, upright=True)
+        size = size_within(panel.plot.label, LABEL, box.height + panel.above())
+        yield Text(name, centre, panel.plot.label, size, 0.5, upright=True)
 
 
 def _widest(marked: Ticks) -> float:

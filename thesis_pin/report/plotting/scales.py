@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +27,12 @@ _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _LARGE, _SMALL = 6, -5
 """Powers of ten from which on a factor beside the axis spares the labels their zeros."""
 
+_FAR = 1e5
+"""Steps from zero on which what labels have in common stands beside the axis, once."""
+
+_PLAIN = 15
+"""Digits before the point of what is said without a power of ten, at most."""
+
 
 @dataclass(frozen=True)
 class Ticks:
@@ -35,7 +41,8 @@ class Ticks:
     Attributes:
         values: Ascending.
         labels: What stands beside each.
-        factor: By what all labels are to be multiplied; empty for nothing.
+        factor: By what all labels are to be multiplied, and what then is to be added to them;
+            empty for nothing.
     """
 
     values: tuple[float, ...]
@@ -44,7 +51,7 @@ class Ticks:
 
 
 def shown(values: Iterable[NDArray[np.float64] | float]) -> tuple[float, float]:
-    """The range of an axis that shows some values, with a margin; NaN are none.
+    """The range of an axis that shows some values, with a margin; NaN and infinity are none.
 
     Args:
         values: Arrays and single values, the former of any length.
@@ -52,9 +59,9 @@ def shown(values: Iterable[NDArray[np.float64] | float]) -> tuple[float, float]:
     low, high = math.inf, -math.inf
     for value in values:
         some = np.atleast_1d(value)
+        some = some[np.isfinite(some)]
         if some.size:
-            low = min(low, float(np.fmin.reduce(some)))  # which ignores NaN
-            high = max(high, float(np.fmax.reduce(some)))
+            low, high = min(low, float(some.min())), max(high, float(some.max()))
     if not low <= high:
         low, high = 0.0, 1.0
     size = max(abs(low), abs(high))
@@ -79,13 +86,36 @@ def ticks(low: float, high: float, most: int) -> Ticks:
     step = float(found[1] - found[0]) if len(found) > 1 else high - low
     slack = 1e-9 * (high - low)
     values = [float(v) for v in found if low - slack <= v <= high + slack]
-    size = max((abs(v) for v in values), default=0.0)
+    base, added = _base(values, step)
+    beside = [v - base for v in values]
+    size = max((abs(v) for v in beside), default=0.0)
     power = math.floor(math.log10(size)) if size else 0
     power = power if power >= _LARGE or power <= _SMALL else 0
     digits = _digits(step / 10.0**power)
-    labels = (f"{v / 10.0**power + 0.0:z.{digits}f}".replace("-", "−") for v in values)
-    factor = f"×10{str(power).translate(_SUPERSCRIPT)}" if power else ""
-    return Ticks(tuple(values), tuple(labels), factor)
+    labels = (f"{v / 10.0**power + 0.0:z.{digits}f}".replace("-", "−") for v in beside)
+    return Ticks(tuple(values), tuple(labels), f"{_ten(power)} {added}".strip())
+
+
+def _base(values: Sequence[float], step: float) -> tuple[float, str]:
+    """What values far from zero have in common, a round number, and how it is written."""
+    size = max((abs(v) for v in values), default=0.0)
+    if size < _FAR * step:
+        return 0.0, ""
+    least = math.ceil(math.log10(step) - 1e-9) + 1  # the power of ten of its last digit
+    first, last = (value / 10.0**least for value in (values[0], values[-1]))
+    units = math.ceil(first - 1e-6) if math.ceil(first - 1e-6) <= last else math.floor(first)
+    if not units:
+        return 0.0, ""
+    power = math.floor(math.log10(size))
+    power = 0 if _SMALL < power < _PLAIN else power
+    digits = max(0, power - least)
+    said = f"{abs(units) * 10.0 ** (least - power):.{digits}f}"
+    said = said.rstrip("0").rstrip(".") if digits else said
+    return units * 10.0**least, f"{'−' if units < 0 else '+'}{said}{_ten(power)}"
+
+
+def _ten(power: int) -> str:
+    return f"×10{str(power).translate(_SUPERSCRIPT)}" if power else ""
 
 
 def _digits(step: float) -> int:

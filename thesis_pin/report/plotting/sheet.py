@@ -154,6 +154,11 @@ def text_width(text: str, size: float) -> float:
     return float(text_to_path.get_text_width_height_descent(text, _font(size), ismath=False)[0])
 
 
+def size_within(text: str, size: float, room: float) -> float:
+    """The size of a font, smaller if a line of text would be longer than that [pt]."""
+    return size * min(1.0, room / max(text_width(text, size), 1.0))
+
+
 def png(sheet: Sheet) -> bytes:
     """A sheet as PNG, without its time."""
     from matplotlib.backends.backend_agg import RendererAgg

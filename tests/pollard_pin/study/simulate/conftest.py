@@ -1,9 +1,12 @@
 """Short paths on which the arm stands, with servos that hold it."""
 
+from functools import cache
+
 import pytest
 
 import pollard_pin
 from pollard_pin.study.simulate.conditions import Conditions
+from pollard_pin.study.simulate.draws import simulate_path
 
 GAINS = (30.0, 30.0, 30.0, 0.3, 0.3, 0.01)
 
@@ -39,3 +42,17 @@ def short_report(arch):
 def held():
     """Conditions with servos, and more of them."""
     return lambda **more: Conditions(stiffness=GAINS, **more)
+
+
+@pytest.fixture(scope="session")
+def open_loop(default_report):
+    """Appendix B without servos in an engine, by its name and perhaps its time step."""
+    pytest.importorskip(
+        "mujoco", reason="MuJoCo isn't installed: pip install 'thesis-pin[simulate]'"
+    )
+
+    @cache
+    def done(engine, step=None):
+        return simulate_path(default_report, Conditions(engine=engine, time_step=step))
+
+    return done

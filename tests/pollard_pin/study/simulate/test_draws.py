@@ -1,5 +1,8 @@
 """Drawn robots weigh what they say, and are the same however the work is shared."""
 
+import math
+from types import SimpleNamespace
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -7,6 +10,7 @@ import pytest
 import pollard_pin
 from pollard_pin.specification import LINK_NAMES
 from pollard_pin.study.simulate.draws import simulate_path, weighed
+from pollard_pin.study.simulate.tables import draws_table
 
 pytest.importorskip("mujoco", reason="MuJoCo isn't installed: pip install 'thesis-pin[simulate]'")
 
@@ -78,3 +82,18 @@ def test_draws_that_fail_are_counted_and_the_worst_is_told(short_report, held):
     worst = int(np.argmax([one.deviation[0] for one in done.draws]))
     assert any(one.startswith(f"Draw {worst}: The spray tip leaves its path") for one in said)
     assert done.summary()["draws_passed"] == 4 - sum(lost)
+    _, second, third, most = sorted(1e3 * one.deviation[0] for one in done.draws)
+    median = f"{(second + third) / 2:.3g} mm in the median, by {most:.3g} mm at most"
+    assert any(median in one for one in said)
+
+
+def test_draws_stand_in_the_units_that_their_table_names():
+    names = ("deviation", "turn", "saturated", "peak_torque")
+    spread = {name: [0.25, 0.25] for name in names}
+    found = {row[0]: row[1] for row in draws_table(SimpleNamespace(spread=spread)).rows}
+    assert found == {
+        "deviation [mm]": "250.000",
+        "turn [°]": f"{math.degrees(0.25):.3f}",
+        "saturated [%]": "25.000",
+        "peak torque [N·m]": "0.250",
+    }

@@ -5,8 +5,9 @@ import pinocchio as pin
 import pytest
 
 import pollard_pin
-from pollard_pin.study.simulate.conditions import Servo, gains
-from pollard_pin.study.simulate.growth import felt_inertia, growth
+from pollard_pin.study.simulate.conditions import Conditions, Servo, gains
+from pollard_pin.study.simulate.growth import Growth, felt_inertia, growth
+from pollard_pin.study.simulate.replay import prepare
 from thesis_pin.loops.dynamics import ForwardDynamics
 from thesis_pin.numeric.trajectory import JointTrajectory
 
@@ -88,3 +89,20 @@ def test_servos_end_the_growth_and_critical_damping_is_what_it_says(default_repo
     assert found.rate.max() < -5.0
     assert found.factor[-1] < 0
     assert found.horizon(1e-3) is None
+
+
+def test_rounding_is_a_millimetre_when_it_has_grown_by_thirteen_powers_of_ten():
+    """1e-16 rad half a metre from the tip are 5e-17 m: log(1e-3 / 5e-17) = 30.6."""
+    time = np.arange(41.0)
+    assert Growth(time, np.ones(41), time, 1.0).horizon(1e-3) == 31.0
+    assert Growth(time, np.ones(41), 0.7 * time, 1.0).horizon(1e-3) is None
+
+
+def test_steps_resolve_the_fastest_swing_of_stiff_servos(short_report):
+    """Which is at least that of any motor alone, by the inertia that it feels."""
+    inertia = felt_inertia(short_report.robot, short_report.joints.q[0])
+    slowest = np.sqrt((1e3 / inertia).max())
+    assert 0.2 / slowest < 1e-4  # or they would be as long as usual
+    found = prepare(short_report, Conditions(stiffness=1e3))
+    assert found.time_step * slowest <= 0.2
+    assert found.growth.fastest >= 0.999 * slowest

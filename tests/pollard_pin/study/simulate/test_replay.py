@@ -45,12 +45,18 @@ def test_both_engines_take_a_robot_of_wrong_masses_the_same_way(short_report, he
 
 
 @pytest.mark.parametrize(
-    ("engine", "step"),
-    [*(("mujoco", step) for step in (1e-3, 5e-4, 1e-4)), *(("pinocchio", s) for s in (4e-3, 2e-3))],
+    ("engine", "asked", "step"),
+    [
+        ("mujoco", 1e-3, 1e-3),
+        ("mujoco", None, 5e-4),
+        ("mujoco", 1e-4, 1e-4),
+        ("pinocchio", 4e-3, 4e-3),
+        ("pinocchio", None, 2e-3),
+    ],
 )
-def test_energy_closes_and_loops_stay_closed_at_several_time_steps(default_report, engine, step):
+def test_energy_closes_and_loops_stay_closed_at_several_time_steps(open_loop, engine, asked, step):
     """Open loop until the tool is lost, some joules exchanged: a thousandth is what others lose."""
-    done = simulate_path(default_report, Conditions(engine=engine, time_step=step))
+    done = open_loop(engine, asked)
     assert done.prepared.time_step == pytest.approx(step)
     assert done.replay.exchanged > 1.0
     for name in ("energy", "opening"):
@@ -95,10 +101,8 @@ def test_an_integrator_that_loses_energy_fails_by_it(short_report, held, monkeyp
 
 
 @BOTH
-def test_open_loop_the_default_path_is_lost_and_the_reason_is_its_instability(
-    default_report, engine
-):
-    done = simulate_path(default_report, Conditions(engine=engine))
+def test_open_loop_the_default_path_is_lost_and_the_reason_is_its_instability(open_loop, engine):
+    done = open_loop(engine)
     assert not done.passed
     assert 1.0 < done.replay.left < 4.0
     assert done.replay.ended[1] == "the tool is 50 mm off its path"
@@ -110,8 +114,8 @@ def test_open_loop_the_default_path_is_lost_and_the_reason_is_its_instability(
     assert done.verdict()[0].startswith("FAIL")
 
 
-def test_recorded_torques_of_an_open_loop_are_the_plans(default_report):
-    done = simulate_path(default_report, Conditions())
+def test_recorded_torques_of_an_open_loop_are_the_plans(default_report, open_loop):
+    done = open_loop("mujoco")
     time = done.replay.time[:-1]
     joints = pollard_pin.joint_trajectory(default_report.robot, default_report.path.at(time))
     plan = pollard_pin.inverse_dynamics(
@@ -136,6 +140,8 @@ def test_a_motor_that_is_too_weak_is_named_and_fails(short_report, held, engine)
     one = criterion(done, "saturation")
     assert not one.met
     assert one.words.startswith("θ21 is at its largest torque")
+    at_limit = np.abs(done.replay.torque[:, 0]) >= effort[0] * (1 - 1e-12)
+    assert done.replay.saturated[0] == pytest.approx(at_limit.mean(), abs=0.02)
     assert done.replay.saturated[0] > 0.01
     assert done.verdict()[1].startswith("The plan asks more than the motors give: θ21 for ")
     assert np.abs(done.replay.torque[:, 0]).max() == pytest.approx(effort[0])

@@ -1,6 +1,7 @@
 """Documents, tables and pages say what the replay did."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from pollard_pin.study.simulate.curves import plots
 from pollard_pin.study.simulate.draws import simulate_path
 from pollard_pin.study.simulate.page import simulation_page, simulation_scene
 from pollard_pin.study.simulate.tables import summary
+from pollard_pin.study.simulate.verdict import criteria, passes
 from thesis_pin.report.tables import Table
 from thesis_pin.report.writers import json_bytes
 
@@ -21,8 +23,8 @@ def done(short_report, held):
 
 
 @pytest.fixture(scope="module")
-def lost(default_report):
-    return simulate_path(default_report)
+def lost(open_loop):
+    return open_loop("mujoco")
 
 
 def test_json_has_the_samples_and_the_answer(done):
@@ -104,3 +106,11 @@ def test_the_terminal_is_told_what_was_chosen(done, lost):
     table = next(part for part in summary(lost) if isinstance(part, Table))
     assert "open loop" in table.title
     assert len(table.rows) == 6
+
+
+def test_a_replay_that_ends_early_fails_however_near_its_path_it_was(done):
+    early = replace(done.draws[0], ended=(0.3, "the engine gives up"))
+    assert passes(done.draws[0])
+    (lost,) = [one for one in criteria(early) if not one.met]
+    assert lost.name == "deviation"
+    assert lost.words == "The spray tip doesn't get to the end of its path."

@@ -291,3 +291,10 @@ def test_a_check_that_finds_more_adds_samples(scout, monkeypatch):
     assert found.kept
     assert len(found.problem.moments.step) > 16
     judged(plan_cycle(scout))
+
+
+def test_knees_allowed_to_be_straighter_are_planned_with_exact_angles(scout):
+    for degrees in (2.0, 10.0):
+        request = PlanRequest(knee=np.radians(degrees))
+        straight = search.Search(scout, request, lambda: None).sampler.straight
+        assert np.degrees(np.arccos(straight)) == pytest.approx(degrees, abs=0.1)

@@ -181,3 +181,28 @@ def test_a_foot_that_lands_where_the_gait_ends_does_not_slip_by_its_step(case):
     assert measures(robot, landing, walked).worst_slip.distance < 1e-12
     leaving = replace(plan, stances=(plan.stances[0], ((1.5, 2.0),)))
     assert measures(robot, leaving, walked).worst_slip.distance < 1e-12
+
+
+def test_what_comes_aside_to_the_right_counts_positive(case):
+    robot, plan, walked = case
+    walked.soles[:, -1, 0, 3] += 0.004
+    assert measures(robot, plan, walked).sideways == pytest.approx(0.004)
+
+
+def test_what_it_was_turned_by_before_it_began_is_not_its_heading(case):
+    robot, plan, walked = case
+    turn = pin.Quaternion(pin.exp3(np.array([0, 0, np.radians(6.0)]))).coeffs()
+    walked.q[:, 3:7] = turn
+    assert measures(robot, plan, walked).heading == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_foot_that_lands_early_slips_from_where_it_took_load(case):
+    robot, plan, walked = case
+    early = slice(65, 76)  # from 1.3 to 1.5 s
+    plan.low[1, early] = 1e-3
+    walked.load[1, 65:] = walked.load[1, 0]
+    walked.soles[1, 65:, :2, 3] = walked.soles[1, -1, :2, 3]
+    walked.soles[1, 65:70, 0, 3] -= 1.5e-3
+    found = measures(robot, plan, walked)
+    assert (found.worst_slip.side, found.worst_slip.start) == ("right", 1.5)
+    assert found.worst_slip.distance == pytest.approx(1.5e-3)

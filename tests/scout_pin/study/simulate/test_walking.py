@@ -1,15 +1,24 @@
 """Gaits walked in the engine: those called walkable walk, the thesis's tips over."""
 
+from types import SimpleNamespace
+
 import numpy as np
+import pinocchio as pin
 import pytest
 
+from scout_pin.motion.files import load_gait
+from scout_pin.report.document import gait_report
+from scout_pin.specification import SIDES
 from scout_pin.study.simulate.conditions import Conditions
 from scout_pin.study.simulate.draws import simulate_gait
 from scout_pin.study.simulate.planned import planned
 from scout_pin.study.simulate.verdict import criteria, sentences
-from scout_pin.study.simulate.walking import walk
+from scout_pin.study.simulate.walking import _Servos, walk
 from thesis_pin.errors import BadInput
+from thesis_pin.simulation.engine import Engine
 
+from ...conftest import EXAMPLES
+from ...dynamics.test_rotors import REFLECTED, geared
 from .conftest import STEP
 
 pytest.importorskip("mujoco", reason="MuJoCo isn't installed: pip install mujoco")
@@ -132,3 +141,83 @@ def test_the_share_of_the_line_counts_rotors_and_only_the_way_a_servo_pushes(rep
     share = np.abs(given) / robot.stall_torque
     share += np.where(given * joints.v > 0, np.abs(joints.v), 0.0) / robot.no_load_speed
     np.testing.assert_allclose(planned(report, conditions).line, share.max(axis=0), rtol=2e-2)
+
+
+def test_soles_are_where_pinocchio_has_them(scout, walked):
+    model, data = scout.model, scout.model.createData()
+    pin.framesForwardKinematics(model, data, walked.walked.q[0])
+    for number, side in enumerate(SIDES):
+        expected = data.oMf[scout.sole_frames[side]].homogeneous
+        np.testing.assert_allclose(walked.walked.soles[number, 0], expected, atol=1e-9)
+
+
+class Begun(Exception):
+    """What a try asks of the engine."""
+
+
+@pytest.mark.parametrize(("name", "stands"), [("squat", True), ("thesis", False)])
+def test_a_try_begins_as_planned_and_servos_are_off_by_their_zeros(
+    report_of, monkeypatch, name, stands
+):
+    placed = []
+    monkeypatch.setattr(Engine, "place", lambda _, q, v, time: placed.append((q, v, time)))
+
+    def run(_, asked, **how):
+        raise Begun(asked)
+
+    monkeypatch.setattr(Engine, "run", run)
+    report = report_of(name)
+    conditions = Conditions(time_step=STEP, servo_zero_error=0.01, seed=5)
+    plan = planned(report, conditions)
+    with pytest.raises(Begun) as begun:
+        walk(report.robot, plan, conditions, 2)
+    off = begun.value.args[0] / 20.0 - plan.commands
+    zeros = conditions.errors(2)[0]
+    assert np.abs(zeros).max() > 5e-3
+    np.testing.assert_allclose(off, np.broadcast_to(zeros, off.shape), atol=1e-12)
+    ((q, v, time),) = placed
+    np.testing.assert_array_equal(q, plan.q[0])
+    if stands:
+        assert v is None
+        assert time == pytest.approx(-0.5)
+    else:
+        assert time == 0.0
+        np.testing.assert_allclose(v[6:], report.joints.v[0], atol=1e-9)
+        assert np.abs(v).max() > 0.01
+
+
+def test_servos_are_watched_while_the_gait_lasts_and_weaken_the_way_they_turn(scout):
+    model = SimpleNamespace(actuator_forcerange=np.zeros((12, 2)))
+    data = SimpleNamespace(qvel=np.zeros(18), actuator_force=np.zeros(12))
+    data.qvel[6:8] = 0.25 * scout.no_load_speed[0], -2.0 * scout.no_load_speed[1]
+    plan = SimpleNamespace(before=2, after=3, commands=np.zeros((10, 12)))
+    servos = _Servos(scout, SimpleNamespace(model=model, data=data), plan)
+    stall = scout.stall_torque[0]
+    for number in range(10):
+        servos.before()
+        lasts = 2 <= number < 7
+        data.actuator_force[:3] = 0.75 * stall, 0.01 * number, 0.1 if lasts else 0.3
+        servos.after()
+    np.testing.assert_allclose(model.actuator_forcerange[:3] / stall, [[-1, 0.75], [0, 1], [-1, 1]])
+    assert servos.steps == 5
+    np.testing.assert_allclose(servos.peak[:3], [0.75 * stall, 0.06, 0.1])
+    np.testing.assert_allclose(servos.full, [5.0] + [0.0] * 11)
+
+
+def test_rotors_of_the_specification_and_of_the_conditions_are_commanded_alike(scout):
+    """On one foot, where nothing is shared."""
+    gait, conditions = load_gait(EXAMPLES / "walk.toml"), Conditions(armature=REFLECTED)
+    plain, other = (
+        planned(gait_report(robot, gait, samples=101, time_unit=0.05), conditions)
+        for robot in (scout, geared())
+    )
+    steps = len(plain.commands) - plain.before - plain.after
+    t = gait.start + np.arange(steps) * plain.step / 0.05
+    single = plain.before + np.flatnonzero(~gait.sample(t, 0.05).support.all(axis=1))
+    assert len(single) > 100
+    np.testing.assert_allclose(plain.commands[single], other.commands[single], atol=1e-9)
+    without = planned(
+        gait_report(scout, gait, samples=101, time_unit=0.05), Conditions(armature=0.0)
+    )
+    assert np.abs(plain.commands - without.commands)[single].max() > 1e-4
+    np.testing.assert_allclose(plain.line, other.line, rtol=0.02)

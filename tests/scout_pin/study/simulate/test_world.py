@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pinocchio as pin
 import pytest
+from scipy.linalg import eigh
 
-from scout_pin.specification import SIDES
+import scout_pin
+from scout_pin.specification import SIDES, Specification
 from scout_pin.study.servo import ServoGains
 from scout_pin.study.simulate.conditions import Conditions
 from scout_pin.study.simulate.world import engine, gravity, time_step, walking_tree
@@ -125,3 +127,28 @@ def test_a_time_step_too_long_for_the_servos_is_refused(scout):
         time_step(scout, Conditions(gains=ServoGains(1e5), time_step=1e-3), q)
     with pytest.raises(BadInput, match="softer servos"):
         time_step(scout, Conditions(gains=ServoGains(1e8)), q)
+
+
+def test_friction_of_the_floor_and_of_joints_are_the_specification_s_or_what_is_asked_for():
+    data = Specification.read().model_dump()
+    data["assumptions"]["joint_friction"] |= {"viscous": 0.02, "coulomb": 0.03}
+    data["assumptions"]["floor_friction"]["coefficient"] = 0.45
+    robot = scout_pin.load(Specification.model_validate(data))
+    for asked, expected in ((None, 0.45), (0.3, 0.3)):
+        model = made(robot, replace(BARE, friction=asked)).model
+        touching = [k for k in range(model.ngeom) if "plate" not in model.geom(k).name]
+        np.testing.assert_allclose(model.geom_friction[touching, 0], expected)
+    np.testing.assert_allclose(model.dof_frictionloss, [0.0] * 6 + [0.03] * 12)
+    np.testing.assert_allclose(model.dof_damping.ravel(), [0.0] * 6 + [0.02] * 12)
+
+
+def test_a_usual_step_is_half_the_time_of_the_fastest_swing(scout):
+    """Of K x = λ M x for all degrees of freedom, by SciPy."""
+    q = scout.configuration(np.eye(4), np.full(12, 0.2))
+    conditions = Conditions(gains=ServoGains(3000.0))
+    tree = walking_tree(scout, conditions, np.ones(13))
+    mass = pin.crba(tree, tree.createData(), q)
+    mass = np.triu(mass) + np.triu(mass, 1).T
+    fastest = np.sqrt(eigh(np.diag([0.0] * 6 + [3000.0] * 12), mass, eigvals_only=True)[-1])
+    assert 0.5 / fastest < 5e-4
+    assert time_step(scout, conditions, q) == pytest.approx(0.5 / fastest)

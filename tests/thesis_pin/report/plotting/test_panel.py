@@ -1,5 +1,6 @@
 """A panel's axes, names and legend stand around it and nowhere else."""
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -31,10 +32,12 @@ def box(text):
 
 @pytest.mark.parametrize("scale", [1e-9, 1e-3, 1.0, 123456.0, 1e9])
 @pytest.mark.parametrize("shape", [(1, 1), (2, 3)])
-@pytest.mark.parametrize("title", ["", "A robot"])
-def test_no_text_lies_over_another_or_leaves_the_sheet(scale, shape, title):
+@pytest.mark.parametrize("title", ["", "A robot", 20 * "A robot "])
+@pytest.mark.parametrize("start", [0.0, 1732617283.25])
+def test_no_text_lies_over_another_or_leaves_the_sheet(scale, shape, title, start):
     width, height = 5.0 * shape[1], 3.2 * shape[0]
-    sheet = panels([[plot(scale)] * shape[1]] * shape[0], width, height, title)
+    drawn = replace(plot(scale), time=start + TIME, title=title or "Torques")
+    sheet = panels([[drawn] * shape[1]] * shape[0], width, height, title)
     boxes = [box(mark) for mark in sheet.marks if isinstance(mark, Text) and mark.text]
     for left, bottom, right, top in boxes:
         assert 0 <= left < right <= 72 * width
@@ -93,6 +96,32 @@ def test_a_constant_no_value_at_all_and_a_gap_are_drawn():
     bare = Plot("", "", "y", [])
     (one, _) = panels_of(panels([[flat], [none], [bare]], 6, 7))
     np.testing.assert_allclose(one.things[0][1][:, 1], 5.0)
+
+
+def test_a_sample_without_neighbours_is_a_dot():
+    values = np.sin(TIME)
+    values[[0, 2, 20, 22, 40]] = np.nan, np.nan, np.inf, np.nan, np.nan
+    curve = Curve("torn", values, "#0072b2", dash="dash")
+    (dots,) = shapes_of(panels([[Plot("", "", "y", [curve], TIME)]], 6, 3), "samples")
+    (line,) = shapes_of(panels([[Plot("", "", "y", [curve], TIME)]], 6, 3), "curve")
+    np.testing.assert_array_equal(dots.points, line.points[[1, 21]])
+    assert dots.look.marks == "dot"
+    assert dots.look.stroke == line.look.stroke
+    assert not shapes_of(panels([[plot()]], 6, 3), "samples")
+
+
+@pytest.mark.parametrize("name", ["rod_2_right_tip – rod_2_right_seat", "left_hip " * 9, "m" * 30])
+def test_a_legend_has_room_for_letters_on_whole_pixels(name):
+    from matplotlib.backends.backend_agg import RendererAgg
+    from matplotlib.font_manager import FontProperties
+
+    drawn = RendererAgg(9, 9, 150).get_text_width_height_descent(
+        name, FontProperties(size=8), False
+    )
+    curves = [Curve(name, TIME, "#0072b2"), Curve("b", TIME, "#000000")]
+    sheet = panels([[Plot("", "", "y", curves, TIME)]], 9, 3)
+    (text,) = (mark for mark in sheet.marks if getattr(mark, "text", "") == name)
+    assert text.x + drawn[0] * 72 / 150 < 9 * 72 - 3.0
 
 
 def test_an_area_without_an_edge_and_a_limit_stretch_the_axes():

@@ -1,5 +1,7 @@
 """Joints turn no more than they need to, and limits stay kept."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -36,6 +38,21 @@ def test_a_calm_cycle_keeps_its_limits_with_half_the_rates(search, found):
 def test_a_cycle_that_cannot_be_calmed_stays_as_it_was(search, found, monkeypatch):
     monkeypatch.setattr(calm, "effort", lambda one: 0.0)
     assert calm.calmed(search, found) is found
+
+
+def test_a_calmer_cycle_that_passes_a_limit_is_not_taken(search, found, monkeypatch):
+    solved, tried = search.solved, []
+
+    def outside(request, known):
+        there = solved(request, known)
+        tried.append(there)
+        margin = replace(there.excess["margin"], value=there.excess["margin"].value + 1.0)
+        return replace(there, excess=there.excess | {"margin": margin})
+
+    monkeypatch.setattr(search, "solved", outside)
+    assert calm.calmed(search, found) is found
+    assert len(tried) == len(calm.EFFORTS)
+    assert calm.effort(tried[0]) < calm.effort(found)
 
 
 def test_slopes_of_the_rates_are_those_of_finite_differences(search, found):

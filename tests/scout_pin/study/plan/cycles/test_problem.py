@@ -68,7 +68,9 @@ def test_residuals_are_what_passes_limits_less_the_back_off(problem):
     known = made.unpacked(x, 0.03)
     excess = made.excess(known)
     beyond = [one.value[one.value > -BACK_OFF] + BACK_OFF for one in excess.values()]
-    over, _ = made.posture(known)
+    units = np.array([0.01, 0.01, 0.01, 0.1, 0.1, 0.1])[:, None]
+    low, high = made.bounds[:, :, None]
+    over = np.stack([low - known.coefficients, known.coefficients - high]) / units + BACK_OFF
     expected = 3.0 * np.concatenate([over[over > 0.0], *beyond])
     np.testing.assert_allclose(np.sort(residual), np.sort(expected))
     assert (over > 0.0).any()
@@ -92,3 +94,9 @@ def test_a_share_or_length_that_cannot_be_is_pushed_back(problem):
         rows = np.flatnonzero((slopes[:, size] == 3.0 * sign) & ~slopes[:, :size].any(axis=1))
         assert len(rows) == 1
         assert residual[rows[0]] > 0.0
+
+
+def test_a_torso_may_be_from_four_fifths_of_its_neutral_height_to_all_of_it():
+    low, high = bounds(PlanRequest(pitch=0.1, roll=0.2, yaw=0.3), 0.25)
+    np.testing.assert_allclose(low, [-np.inf, -np.inf, 0.2, -0.1, -0.2, -0.3])
+    np.testing.assert_allclose(high, [np.inf, np.inf, 0.25, 0.1, 0.2, 0.3])

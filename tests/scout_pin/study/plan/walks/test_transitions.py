@@ -113,6 +113,21 @@ def test_a_start_that_cannot_be_says_by_how_much(cycle, monkeypatch):
     assert found.worst[0].value < 0.036
 
 
+def test_a_start_out_of_its_posture_is_not_kept(cycle, monkeypatch):
+    monkeypatch.setattr(transitions, "SLOWER", (0.75,))
+    problem = cycle.candidate.problem
+    bounds = problem.bounds.copy()
+    bounds[1, 2] = float(cycle.gait.curves["torso"][2](cycle.gait.start)) - 0.02  # where it joins
+    low = replace(
+        cycle, candidate=replace(cycle.candidate, problem=replace(problem, bounds=bounds))
+    )
+    found = plan_transition(low, courses(cycle)["start"], lambda: None)
+    assert not found.kept
+    posture = next(one for one in found.worst if one.kind == "posture")
+    assert (posture.subject, posture.limit) == ("height", bounds[1, 2])
+    assert posture.value > posture.limit
+
+
 def test_starts_are_calmed(cycle, monkeypatch):
     def rates(found):
         sampler, t = cycle.candidate.problem.sampler, transitions.spaced(found.course, 200)
