@@ -197,7 +197,7 @@ CONTRADICTIONS = {
         ["--damping", "1", "2", "3"],
         ["--time-step", "0.04"],
         ["--mass-error", "0.5"],
-        ["--servo-zero-error", "40"],
+        ["--servo-zero-error", "50"],
         ["--draws", "3"],
         ["--duration", "3"],
         ["--actuators", "three"],

@@ -76,12 +76,25 @@ def shared(
 
 @contextlib.contextmanager
 def _ctrl_c_later() -> Generator[None]:
-    """Keep Ctrl-C back; processes that are begun meanwhile never get it."""
+    """Keep Ctrl-C back; processes that are begun meanwhile never get it.
+
+    They inherit that the signal is blocked. Blocking it doesn't keep it from the caller: another
+    thread of this process may take it, a library's say, and Python then interrupts this one.
+    """
+    kept: list[int] = []
+    handler = signal.getsignal(signal.SIGINT)
+    ours = handler is not None and threading.current_thread() is threading.main_thread()
+    if ours:
+        signal.signal(signal.SIGINT, lambda number, _: kept.append(number))
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        if ours:
+            signal.signal(signal.SIGINT, handler)
+        if kept:
+            signal.raise_signal(signal.SIGINT)
 
 
 def _begin(ear: Connection, begin: Callable[[], object]) -> None:

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from contextlib import closing
 from functools import partial
@@ -13,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from thesis_pin.errors import BadInput
+from thesis_pin.numeric import workers
 from thesis_pin.numeric.workers import shared
 
 ROOT = Path(__file__).parents[3]
@@ -108,3 +110,27 @@ def test_whatever_ends_the_caller_ends_its_processes(number, tmp_path):
         caller.send_signal(number)
         assert gone(processes)
         assert caller.wait(20) != 0
+
+
+def test_ctrl_c_that_another_thread_takes_waits_until_all_processes_are_begun():
+    """Such as a thread of OpenBLAS, which was there before the signal was blocked."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    rest, begun = threading.Event(), []
+    other = threading.Thread(target=rest.wait)
+    other.start()
+
+    def begin():
+        with workers._ctrl_c_later():
+            signal.pthread_kill(other.ident, signal.SIGINT)
+            time.sleep(0.05)
+            begun.append(True)
+
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            begin()
+        assert begun
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, before)
+        rest.set()
+        other.join()

@@ -101,9 +101,10 @@ def _base(values: Sequence[float], step: float) -> tuple[float, str]:
     size = max((abs(v) for v in values), default=0.0)
     if size < _FAR * step:
         return 0.0, ""
-    least = math.ceil(math.log10(step) - 1e-9) + 1  # the power of ten of its last digit
+    least = math.ceil(math.log10(step) - _ROUND) + 1  # the power of ten of its last digit
     first, last = (value / 10.0**least for value in (values[0], values[-1]))
-    units = math.ceil(first - 1e-6) if math.ceil(first - 1e-6) <= last else math.floor(first)
+    above = math.ceil(first - _ROUND)
+    units = above if above <= last else math.floor(first)
     if not units:
         return 0.0, ""
     power = math.floor(math.log10(size))
