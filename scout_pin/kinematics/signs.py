@@ -13,6 +13,7 @@ import math
 import numpy as np
 
 from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.products import ONE_THREAD
 from thesis_pin.numeric.turns import TURN
 
 BRANCHES = tuple((e, two, knee) for e in (1, -1) for two in (1, -1) for knee in (1, -1))
@@ -33,11 +34,6 @@ ones, and :data:`FAR` for each triangle that isn't one."""
 
 FAR = 1e300
 """Overflows in the sums of branches that don't exist, and of no others: 0 · FAR is 0."""
-
-
-ONE_THREAD = 2**18
-"""Multiplications of a matrix product that OpenBLAS leaves to one thread: shared out to two on a
-busy machine, one of twice as many takes a hundred times as long."""
 
 
 def angle_sums(beta: np.ndarray) -> np.ndarray:

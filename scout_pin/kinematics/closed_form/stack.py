@@ -24,7 +24,6 @@ from scout_pin.kinematics.signs import (
     GONE,
     KNEE,
     ONE,
-    ONE_THREAD,
     SUMMANDS,
     THIGH,
     TILT,
@@ -33,6 +32,7 @@ from scout_pin.kinematics.signs import (
     wrap_below,
 )
 from thesis_pin.numeric.elementwise import Number, blocks
+from thesis_pin.numeric.products import ONE_THREAD
 from thesis_pin.numeric.vectors import cross
 from thesis_pin.tolerances import TOLERANCES
 

@@ -16,13 +16,13 @@ from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.numeric.arrays import skew
 from thesis_pin.numeric.elementwise import blocks
+from thesis_pin.numeric.products import ONE_THREAD
 from thesis_pin.numeric.trajectory import BodyMotion
 
 NEAREST = 8
 """Facets of a cone that are looked at a sample, those that the wrench passes or is nearest to."""
 
 _LEAST = 0.05  # of the weight: less pressure is taken for this, or its point runs away
-_ALONE = 250_000  # multiplications that OpenBLAS leaves to one thread
 
 
 def pressed(
@@ -104,7 +104,7 @@ def contacts(
 
 def _few(samples: np.ndarray, contact: Contact) -> list[np.ndarray]:
     """Samples in portions whose product with the facets wakes no second thread."""
-    size = max(1, _ALONE // contact.facets.size)
+    size = max(1, ONE_THREAD // contact.facets.size)
     return [samples[part] for part in blocks(len(samples), size)]
 
 

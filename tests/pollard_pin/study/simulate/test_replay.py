@@ -124,6 +124,11 @@ def test_recorded_torques_of_an_open_loop_are_the_plans(default_report, open_loo
     step = done.prepared.time_step  # held since, so that it is that of half a step later
     change = np.abs(np.gradient(plan, time, axis=0)).max()
     assert np.abs(done.replay.torque[:-1] - plan).max() < change * step
+    later = default_report.path.at(time + step / 2)
+    joints = pollard_pin.joint_trajectory(default_report.robot, later)
+    plan = pollard_pin.inverse_dynamics(default_report.robot, later, joints).torque
+    off = np.abs(done.replay.torque[:-1] - plan).max(axis=1)
+    assert np.median(off) < 0.01 * change * step  # a stretch ends with the torque held before
 
 
 @BOTH

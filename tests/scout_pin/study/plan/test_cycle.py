@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import scout_pin
+from scout_pin.specification import JOINT_NAMES
 from scout_pin.study.plan.cycle import plan_cycle, with_friction
 from scout_pin.study.plan.cycles import aims, nearest, search
 from scout_pin.study.plan.cycles.splines import KNOTS
@@ -62,6 +63,9 @@ def test_what_a_plan_says_of_its_limits_is_what_the_judge_finds(default):
     assert said["torque"].subject.split("_")[0] in ("left", "right"), k.name
     torque = np.abs(report.dynamics.torque).max()
     assert said["torque"].value == pytest.approx(torque, rel=1e-3)
+    worst = np.abs(report.dynamics.torque[:, JOINT_NAMES.index(said["torque"].subject)])
+    there = np.interp(said["torque"].t, report.joints.time, worst)
+    assert there == pytest.approx(said["torque"].value, rel=0.02)
     assert said["line"].value == pytest.approx(report.servo_use.max(), rel=1e-3)
     assert [one.excess for one in default.worst] == sorted(
         (one.excess for one in default.worst), reverse=True

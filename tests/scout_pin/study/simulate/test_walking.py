@@ -221,3 +221,16 @@ def test_rotors_of_the_specification_and_of_the_conditions_are_commanded_alike(s
     )
     assert np.abs(plain.commands - without.commands)[single].max() > 1e-4
     np.testing.assert_allclose(plain.line, other.line, rtol=0.02)
+
+
+def test_stances_last_from_landing_to_lift_off(report_of):
+    """Where samples of the gait begin and end to have a foot in support."""
+    report = report_of("walk", 0.1)
+    plan, gait = planned(report, Conditions(time_step=STEP)), report.gait
+    t = np.linspace(gait.start, gait.end, 2001)
+    support = gait.sample(t, 0.1).support
+    for side, stances in enumerate(plan.stances):
+        changes = np.diff(np.r_[0, support[:, side].astype(int), 0])
+        starts, ends = np.flatnonzero(changes == 1), np.flatnonzero(changes == -1) - 1
+        expected = np.stack([t[starts], t[ends]], axis=1) * 0.1 - gait.start * 0.1
+        np.testing.assert_allclose(stances, expected, atol=2e-3 * plan.duration)
