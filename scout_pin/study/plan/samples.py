@@ -20,6 +20,7 @@ from scout_pin.dynamics.inverse import walking
 from scout_pin.model import Scout
 from scout_pin.study.plan.footing import Footing
 from scout_pin.study.plan.sampling.floor import contacts, pressed
+from scout_pin.study.plan.sampling.jets import Heading
 from scout_pin.study.plan.sampling.reach import STRAIGHT
 from scout_pin.study.plan.sampling.sloped import Sloped
 from scout_pin.study.plan.sampling.slopes import state_slopes
@@ -89,7 +90,14 @@ class Sampler:
         self.robot, self.branches = walking(robot), branches
         self.weight, self.straight = robot.mass * GRAVITY, straight
 
-    def __call__(self, jets: np.ndarray, footing: Footing, *, slopes: bool = True) -> Quantities:
+    def __call__(
+        self,
+        jets: np.ndarray,
+        footing: Footing,
+        *,
+        slopes: bool = True,
+        heading: Heading | None = None,
+    ) -> Quantities:
         """Evaluate samples.
 
         Args:
@@ -97,6 +105,7 @@ class Sampler:
                 accelerations, shape ``(n, 18)``.
             footing: The feet.
             slopes: Whether to work out derivatives; else each slope is None.
+            heading: What the torso's angles count from; None for the world's y.
 
         Raises:
             SingularPose: A leg's Jacobian loses rank otherwise than by a straight knee.
@@ -105,8 +114,8 @@ class Sampler:
         jets = finite_array("jets", jets, None, 18)
         if len(jets) != footing.count:
             raise WrongShape("jets", jets.shape, f"({footing.count}, 18), as the footing")
-        here = self.state(jets, footing)
-        of = state_slopes(self.robot, jets, footing, here, self.straight) if slopes else None
+        here, rate = self.state(jets, footing, heading), heading.rate if heading else 0.0
+        of = state_slopes(self.robot, jets, footing, here, self.straight, rate) if slopes else None
 
         def known(value: np.ndarray, name: str) -> Sloped:
             return Sloped(value, None if of is None else getattr(of, name))
@@ -131,6 +140,6 @@ class Sampler:
             known(here.knee, "knee"),
         )
 
-    def state(self, jets: np.ndarray, footing: Footing) -> State:
+    def state(self, jets: np.ndarray, footing: Footing, heading: Heading | None = None) -> State:
         """Joints, torques and wrenches of samples."""
-        return state(self.robot, self.branches, jets, footing, self.straight)
+        return state(self.robot, self.branches, jets, footing, self.straight, heading)

@@ -116,6 +116,7 @@ class Simulation:
             "start": self.start,
             **tallied([criteria(one) for one in self.draws], self.spread),
             "planned_distance": self.draws[0].planned_distance,
+            "planned_turn": self.draws[0].planned_turn,
             "planned_peak_torque": self.planned_peak,
             "planned_line": self.plan.line,
             "report_within_limits": self.report.within_limits,
