@@ -6,6 +6,7 @@ from pathlib import Path
 
 import chromium
 import pytest
+from once import once
 
 ROOT = Path(__file__).parents[1]
 _BEFORE = pytest.StashKey[set[str]]()
@@ -24,6 +25,30 @@ def browser():
 def artefacts():
     """Folder for screenshots, which git ignores."""
     return ROOT / "artefacts"
+
+
+def _scout_audit():
+    from scout_pin.thesis.audit import audit
+
+    return audit()
+
+
+def _pollard_audit():
+    from pollard_pin.thesis.audit import audit
+
+    return audit()
+
+
+@pytest.fixture(scope="session")
+def scout_audit(request, tmp_path_factory):
+    """The whole audit of the Scout thesis, which takes 15 s."""
+    return once(request, tmp_path_factory, _scout_audit)
+
+
+@pytest.fixture(scope="session")
+def pollard_audit(request, tmp_path_factory):
+    """The whole audit of the Pollard thesis, likewise."""
+    return once(request, tmp_path_factory, _pollard_audit)
 
 
 def _untidy():
