@@ -55,7 +55,7 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
             table = csv_bytes(written.columns(space))
             files = {"workspace.json": content, "workspace.csv": table} | workspace_files(space)
         if arguments.html:
-            from thesis_pin.pages.workspace import workspace_page
+            from thesis_pin.pages.reports.workspace import workspace_page
 
             page = workspace_page(space)
     write_results(arguments, files, content)
