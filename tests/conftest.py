@@ -13,12 +13,19 @@ _BEFORE = pytest.StashKey[set[str]]()
 
 
 @pytest.fixture(scope="session")
-def browser():
+def running_browser():
     """A headless Chromium; without one the tests that need it are skipped."""
     if chromium.find() is None:
         pytest.skip("no Chromium on this machine (Debian and Ubuntu: apt-get install chromium)")
     with chromium.Chromium() as running:
         yield running
+
+
+@pytest.fixture
+def browser(running_browser):
+    """The Chromium of all tests, without a page before and after."""
+    yield running_browser
+    running_browser.leave()
 
 
 @pytest.fixture(scope="session")
