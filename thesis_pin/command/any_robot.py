@@ -52,7 +52,7 @@ def torque(arguments: argparse.Namespace) -> ExitCode:
         "working out the torques",
         lambda _: _report(arguments),
         figures="thesis_pin.report.torque.figures:figures",
-        page="thesis_pin.pages.torque:torque_page",
+        page="thesis_pin.pages.reports.torque:torque_page",
         table="thesis_pin.report.torque.tables:summary",
     )
 
@@ -68,7 +68,7 @@ def size(arguments: argparse.Namespace) -> ExitCode:
 
 def view(arguments: argparse.Namespace) -> ExitCode:
     """Show a motion of any robot in the browser, or write it as a page."""
-    from thesis_pin.pages.torque_scene import scene
+    from thesis_pin.pages.reports.torque_scene import scene
 
     return show_scene(arguments, "thesis-pin", lambda _: scene(_report(arguments)))
 

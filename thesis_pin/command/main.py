@@ -96,7 +96,7 @@ COMMAND = Command(
             "127.0.0.1.",
             "view urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
             "examples/pollard_motors.csv --html view.html",
-            "thesis_pin.pages.torque_scene:scene",
+            "thesis_pin.pages.reports.torque_scene:scene",
             "thesis_pin.command.any_robot:view",
             (which_robot, which_motion, which_pose, which_wrenches, add_view),
         ),

@@ -41,7 +41,7 @@ def balance(arguments: argparse.Namespace) -> ExitCode:
         "working out the balance",
         lambda _: _report(arguments),
         figures="thesis_pin.report.balance.figures:figures",
-        page="thesis_pin.pages.balance:balance_page",
+        page="thesis_pin.pages.reports.balance:balance_page",
         table="thesis_pin.report.balance.tables:summary",
     )
 
