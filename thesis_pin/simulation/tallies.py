@@ -37,8 +37,8 @@ Tries = Sequence[Sequence[Criterion]]
 """The criteria of each try, in one order."""
 
 
-class Tried(ABC):
-    """What a simulation of any robot has: several tries, and whether they keep what is asked."""
+class Tally(ABC):
+    """Several tries of a motion by any robot, and whether they keep what is asked."""
 
     report: Doubted
 

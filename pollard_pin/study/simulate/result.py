@@ -19,7 +19,7 @@ from pollard_pin.study.simulate.verdict import (
     reason,
     sentences,
 )
-from thesis_pin.simulation.tallies import Tried, passed, tallied
+from thesis_pin.simulation.tallies import Tally, passed, tallied
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
@@ -28,7 +28,7 @@ VERSION = 1
 
 
 @dataclass(frozen=True)
-class Simulation(Tried):
+class Simulation(Tally):
     """What became of a path in an engine.
 
     Attributes:

@@ -14,7 +14,7 @@ from scout_pin.study.simulate.measures import Measures, turns
 from scout_pin.study.simulate.planned import SETTLING, Planned
 from scout_pin.study.simulate.verdict import Criterion, criteria, draws_sentences, sentences
 from scout_pin.study.simulate.walking import Walked
-from thesis_pin.simulation.tallies import Tried, kept, tallied
+from thesis_pin.simulation.tallies import Tally, kept, tallied
 from thesis_pin.version import __version__
 
 MOST_WRITTEN = 4001
@@ -22,7 +22,7 @@ MOST_WRITTEN = 4001
 
 
 @dataclass(frozen=True)
-class Simulation(Tried):
+class Simulation(Tally):
     """What became of a gait in the second engine.
 
     Attributes:
