@@ -15,7 +15,6 @@ from scout_pin.study.simulate.tables import (
     servos_table,
     steps_table,
 )
-from scout_pin.study.simulate.verdict import criteria
 from thesis_pin.pages.ghost import with_ghost
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import Arrow, Group, Readout, Scene, Trace, thinned
@@ -95,7 +94,7 @@ def simulation_scene(simulation: Simulation) -> Scene:
 
 
 def _tiles(simulation: Simulation) -> list[Tile]:
-    first, met = simulation.draws[0], {one.name: one.met for one in criteria(simulation.draws[0])}
+    first, met = simulation.draws[0], {one.name: one.met for one in simulation.tries[0]}
     slip = "–" if first.worst_slip is None else f"{first.worst_slip.distance * 1e3:.2f} mm"
     share = (
         f"{abs(first.distance) * 1e3:.2f} mm off"

@@ -8,7 +8,6 @@ import numpy as np
 
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from scout_pin.study.simulate.result import Simulation
-from scout_pin.study.simulate.verdict import criteria
 from thesis_pin.report.draws import draws_table as drawn_table
 from thesis_pin.report.tables import Part, Table
 
@@ -40,8 +39,7 @@ def servos_table(simulation: Simulation) -> Table:
 
 def criteria_table(simulation: Simulation) -> Table:
     """What is asked, and how often it is kept."""
-    tries = [criteria(one) for one in simulation.draws]
-    rows = []
+    tries, rows = simulation.tries, []
     for k, one in enumerate(tries[0]):
         kept = sum(each[k].met for each in tries)
         answer = ("yes" if one.met else "no") if len(tries) == 1 else f"{kept} of {len(tries)}"
