@@ -10,7 +10,6 @@ from scout_pin.study.simulate.curves import plots
 from scout_pin.study.simulate.result import Simulation
 from scout_pin.study.simulate.tables import (
     criteria_table,
-    draws_table,
     how,
     servos_table,
     steps_table,
@@ -19,6 +18,7 @@ from thesis_pin.pages.ghost import with_ghost
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import Arrow, Group, Readout, Scene, Trace, thinned
 from thesis_pin.report.curves import GREEN, ORANGE, PURPLE, SKY, VERMILLION
+from thesis_pin.report.draws import draws_tables
 from thesis_pin.tolerances import GRAVITY
 
 MOST_SAMPLES = 1201
@@ -27,7 +27,6 @@ MOST_SAMPLES = 1201
 def simulation_page(simulation: Simulation) -> bytes:
     """A simulation as one self-contained HTML file."""
     report = simulation.report
-    draws = [draws_table(simulation)] if len(simulation.draws) > 1 else []
     return html(
         Page(
             title=f"{report.robot.specification.name.capitalize()}: gait {report.gait.name}, "
@@ -41,7 +40,7 @@ def simulation_page(simulation: Simulation) -> bytes:
                 criteria_table(simulation),
                 servos_table(simulation),
                 steps_table(simulation),
-                *draws,
+                *draws_tables(simulation.spread),
                 *closing_tables(report.assumptions(), simulation.parameters),
             ],
             scene=simulation_scene(simulation),
