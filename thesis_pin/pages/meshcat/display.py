@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from types import TracebackType
-from typing import TYPE_CHECKING
 
 import numpy as np
 from meshcat import Visualizer
@@ -17,9 +16,6 @@ from thesis_pin.pages.meshcat.shapes import grid
 from thesis_pin.pages.meshcat.tracks import SetMotion, animation, samples
 from thesis_pin.pages.meshcat.window import visualizer
 from thesis_pin.pages.scene import Item, Scene
-
-if TYPE_CHECKING:
-    from IPython.display import HTML
 
 Array = NDArray[np.float64]
 
@@ -112,13 +108,13 @@ class SceneViewer:
         """The page as one that works alone: everything in it, and no request to the network."""
         return static(str(self.visualizer.static_html()))
 
-    def jupyter_cell(self, height: int = 400) -> HTML:
-        """The page in a cell of a notebook on this machine.
+    def jupyter_cell(self, height: int = 400) -> object:
+        """The page in a cell of a notebook on this machine: IPython's HTML.
 
         Args:
             height: Of the cell, in pixels.
         """
-        cell: HTML = self.visualizer.jupyter_cell(height)
+        cell: object = self.visualizer.jupyter_cell(height)
         return cell
 
     def close(self) -> None:

@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import weakref
+from collections.abc import Callable
 
 import zmq
 from meshcat import Visualizer
@@ -47,6 +48,7 @@ class Window(ViewerWindow):  # type: ignore[misc] # meshcat has no types
 
     def __init__(self, url: str | None = None, port: int | None = None) -> None:
         self.own = url is None
+        self._closing: Callable[[], object] = lambda: None
         if url is None:
             self.server_proc, told = _start(port)
             self._end = weakref.finalize(self, _stop, self.server_proc)
@@ -62,8 +64,7 @@ class Window(ViewerWindow):  # type: ignore[misc] # meshcat has no types
 
     def connect_zmq(self) -> None:
         """Connect, with an end to every waiting."""
-        if hasattr(self, "_closing"):
-            self._closing()
+        self._closing()
         self.zmq_socket = self.context.socket(zmq.REQ)
         self._closing = weakref.finalize(self, self.zmq_socket.close, 0)
         self.zmq_socket.setsockopt(zmq.LINGER, 0)
