@@ -3,7 +3,7 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from thesis_pin.loops.moving.coordinates import coordinates
@@ -42,6 +42,7 @@ def test_every_freedom_of_every_kind_of_joint_has_a_coordinate():
     assert [name for name in names if name.startswith("ball")] == [f"ball {turn}" for turn in turns]
 
 
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(seed=st.integers(0, 10_000), number=st.integers(0, MODEL.nv - 1), value=st.floats(-1.4, 1.4))
 def test_a_coordinate_reads_back_and_leaves_all_others_alone(seed, number, value):
     q = pin.integrate(
