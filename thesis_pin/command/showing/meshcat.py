@@ -43,7 +43,7 @@ def show_in_meshcat(
     """Show a scene in meshcat until Ctrl-C, or leave it on the server that was named.
 
     Args:
-        arguments: With what :func:`thesis_pin.command.options.add_view` adds.
+        arguments: With what the options of ``view`` add.
         scene: The scene.
         shown: What is said of it as JSON.
 
