@@ -1,0 +1,1 @@
+"""What ``view`` shows besides motions."""
