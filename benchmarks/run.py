@@ -2,7 +2,7 @@
 
 Run ``python benchmarks/run.py``. Answers are compared first; then ours and the peer's are measured
 in turns. Times are medians on this machine, and only the ratios mean anything elsewhere.
-``--json docs/speed.json``, then ``python docs/speed.py``, renews docs/speed.md.
+``--all --json docs/speed.json``, then ``python docs/speed.py``, renews docs/speed.md.
 """
 
 from __future__ import annotations
@@ -31,22 +31,36 @@ SUITES = {
     "commands": ("commands",),
     "streams": ("streams",),
     "threads": ("threads",),
+    "planning": ("planning",),
+    "simulation": ("simulation",),
+    "fastest": ("fastest",),
 }
 """Suite → modules whose ``rows`` are measured."""
+
+LONG = ("fastest",)
+"""Suites that take minutes and run only if they are named, or all are asked for."""
 
 SCHEMA, VERSION = "thesis-pin/benchmark", 1
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Run the suites asked for, all by default; 1 if answers differ."""
+    """Run the suites asked for; 1 if answers differ."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("suite", nargs="*", help=f"which: {', '.join(SUITES)} (default: all)")
+    usual = [name for name in SUITES if name not in LONG]
+    parser.add_argument(
+        "suite",
+        nargs="*",
+        help=f"which: {', '.join(SUITES)} (default: all but {', '.join(LONG)})",
+    )
+    parser.add_argument("--all", action="store_true", help="every suite, those that take long too")
     parser.add_argument("--quick", action="store_true", help="a smoke run of a few samples")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write what was measured")
     arguments = parser.parse_args(words)
     for name in arguments.suite:
         if name not in SUITES:
             parser.error(f"no suite {name!r}; there are {', '.join(SUITES)}")
+    if arguments.all and arguments.suite:
+        parser.error(f"--all and {arguments.suite[0]!r}: either")
     if arguments.json and not arguments.json.parent.is_dir():
         parser.error(f"--json: there is no folder {str(arguments.json.parent)!r}")
     scale, begun = QUICK if arguments.quick else FULL, time.perf_counter()
@@ -56,7 +70,7 @@ def main(words: Sequence[str] | None = None) -> int:
             print(f"{name} isn't installed: rows against it have no ratio", file=sys.stderr)
     found: list[Json] = []
     try:
-        for name in arguments.suite or SUITES:
+        for name in SUITES if arguments.all else arguments.suite or usual:
             mine = [measured(name, row, scale) for row in rows(name, scale)]
             printed(name, mine)
             found += mine

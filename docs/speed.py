@@ -1,6 +1,6 @@
 """Write docs/speed.md from what one run of the benchmark measured.
 
-    python benchmarks/run.py --json docs/speed.json
+    python benchmarks/run.py --all --json docs/speed.json
     python docs/speed.py
 
 A test holds the page to docs/speed.json.
@@ -27,7 +27,12 @@ TITLES = {
     "commands": "Whole commands",
     "streams": "A million samples",
     "threads": "Two threads",
+    "planning": "Planning a walk",
+    "simulation": "The second engine",
+    "fastest": "Planning the fastest walk",
 }
+OPTIONAL = ("planning", "simulation", "fastest")
+"""Suites without which a run is a whole one: they take seconds an item, or MuJoCo."""
 NOTES = {
     "scout": "EAIK is C++ and answers with angles; our answer carries margins, residuals and "
     "reasons for all eight branches.",
@@ -38,6 +43,14 @@ NOTES = {
     "a sample, of the whole, and of the process's peak memory.",
     "threads": "By the clock on the wall. With both cores free, and with one kept busy by "
     "somebody else.",
+    "planning": "`scout_pin.plan_gait` from a request to a judged walk: start, cycle, stop, both "
+    "reports. N counts the samples at which it asks Pinocchio for RNEA; the yardstick is "
+    "Pinocchio alone at as many samples, and its derivatives at as many as the plan takes them "
+    "at. Goals are of the whole plan, by both clocks. A plan takes {turns}.",
+    "simulation": "`simulate_gait` and `simulate_path` in MuJoCo, all of it but the report that "
+    "they begin with. An item is a simulated millisecond: as many microseconds as it takes, so "
+    "many milliseconds of processor time does a simulated second.",
+    "fastest": 'As other plans, with `objective="fastest"`; in {turns}.',
 }
 
 TEXT = """# Speed
@@ -47,15 +60,15 @@ TEXT = """# Speed
 `python benchmarks/run.py` first compares ours and the peer's answers, then measures both in turns,
 so that a busy machine hits both; `python benchmarks/run.py scout streams` runs some of it
 ({suites}),
-`--quick` only tries everything, `--json FILE` writes what was measured. Only the ratios mean
-anything on another machine.
+`--all` also what takes minutes (`fastest`), `--quick` only tries everything, `--json FILE` writes
+what was measured. Only the ratios mean anything on another machine.
 
 This is one run of {date} on {machine}, with
 {versions}.{missing}
 
-Times are medians of an item, ratios medians of {rounds} turns or more, beside the quarters below
-and above; of processor time where one thread works, by the clock on the wall for two threads. N is
-the number of items.
+Times are medians of an item, ratios medians of {rounds} turns or more (of plans fewer), beside the
+quarters below and above; of processor time where one thread works, by the clock on the wall for two
+threads. N is the number of items.
 
 {tables}
 ## Long motions
@@ -93,7 +106,8 @@ and heavy libraries are imported by the verbs that need them.
 def page(run: Json) -> str:
     """The page of one run."""
     rows = run["rows"]
-    missing = [suite for suite in TITLES if not any(row["suite"] == suite for row in rows)]
+    absent = [suite for suite in TITLES if not any(row["suite"] == suite for row in rows)]
+    missing = [suite for suite in absent if suite not in OPTIONAL]
     if run["quick"] or missing:
         raise SystemExit(f"not a whole run: quick {run['quick']}, without {missing}")
     streams = [row for row in rows if row["suite"] == "streams"]
@@ -105,9 +119,10 @@ def page(run: Json) -> str:
         date=run["date"],
         machine=machine(run["machine"]),
         versions=", ".join(f"{name} {one}" for name, one in run["versions"].items() if one),
-        missing="".join(f" {name} wasn't installed." for name in run["missing"]),
-        rounds=min(row["rounds"] for row in rows),
-        tables="\n".join(section(suite, rows) for suite in TITLES),
+        missing="".join(f" {name} wasn't installed." for name in run["missing"])
+        + (f" Not run: {', '.join(f'`{suite}`' for suite in absent)}." if absent else ""),
+        rounds=min(row["rounds"] for row in rows if row["suite"] not in OPTIONAL),
+        tables="\n".join(section(suite, rows) for suite in TITLES if suite not in absent),
         streams=f"{' and '.join(said)} and at most {peak:.0f} MB",
         double=TABLES["seconds"](double["ours"]["cpu"]["median"]),
     )
@@ -123,7 +138,9 @@ def machine(found: Json) -> str:
 
 def section(suite: str, rows: Sequence[Json]) -> str:
     """A suite's table under its title."""
-    note = f"{NOTES[suite]}\n\n" if suite in NOTES else ""
+    rounds = sorted({row["rounds"] for row in rows if row["suite"] == suite})
+    turns = f"{' or '.join(map(str, rounds))} turn{'s' * (rounds[-1] > 1)}"
+    note = f"{NOTES[suite]}\n\n".replace("{turns}", turns) if suite in NOTES else ""
     return f"## {TITLES[suite]}\n\n{note}" + "\n".join(table(suite, rows)) + "\n"
 
 

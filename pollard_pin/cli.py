@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
+from thesis_pin.command.numbers import add_number, number
 from thesis_pin.command.options import (
     add_branch,
     add_euler,
@@ -15,7 +16,6 @@ from thesis_pin.command.options import (
     add_points,
     add_robot,
     add_smooth,
-    number,
 )
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
@@ -26,12 +26,8 @@ def _which_path(words: argparse.ArgumentParser) -> None:
         "--path", metavar="FILE", help=".csv or .toml path (default: the curve of appendix B)"
     )
     add_smooth(words)
-    words.add_argument(
-        "--duration",
-        type=number("--duration", positive=True),
-        metavar="SECONDS",
-        help="duration of appendix B's curve (default: the specification's)",
-    )
+    duration = "duration of appendix B's curve (default: the specification's)"
+    add_number(words, "--duration", "SECONDS", duration, positive=True)
     words.add_argument(
         "--timing",
         choices=("constant-rate", "rest-to-rest", "ramped"),
@@ -39,19 +35,10 @@ def _which_path(words: argparse.ArgumentParser) -> None:
         "times a tool speed gives (default: ramped)",
     )
     add_euler(words)
-    words.add_argument(
-        "--feed",
-        type=number("--feed", positive=True),
-        metavar="SPEED",
-        help="speed of the spray tip along a path without times [m/s]",
-    )
-    words.add_argument(
-        "--placement",
-        nargs=3,
-        type=number("--placement"),
-        metavar=("X", "Y", "Z"),
-        help="what is added to appendix B's curve [m] (default: the specification's)",
-    )
+    feed = "speed of the spray tip along a path without times [m/s]"
+    add_number(words, "--feed", "SPEED", feed, positive=True)
+    placement = "what is added to appendix B's curve [m] (default: the specification's)"
+    add_number(words, "--placement", ("X", "Y", "Z"), placement)
     words.add_argument(
         "--actuators",
         choices=("six", "three"),
@@ -89,22 +76,10 @@ def _which_motors(words: argparse.ArgumentParser) -> None:
 def _which_grid(words: argparse.ArgumentParser) -> None:
     _branch(words, default="this one")
     for axis, default in (("x", [0.1, 0.8]), ("y", [0.0]), ("z", [-0.5, 0.5])):
-        words.add_argument(
-            f"--{axis}",
-            nargs="+",
-            type=number(f"--{axis}"),
-            default=default,
-            metavar="METRES",
-            help=f"one value, or from and to (default: {' '.join(map(str, default))})",
-        )
-    words.add_argument(
-        "--orientation",
-        nargs=3,
-        type=number("--orientation"),
-        default=(0.0, 0.0, 0.0),
-        metavar=("PSI", "THETA", "PHI"),
-        help="ψ, θ, φ of the tool [°] (default: 0 0 0)",
-    )
+        text = "one value, or from and to"
+        add_number(words, f"--{axis}", "METRES", text, nargs="+", default=default)
+    orientation, still = ("PSI", "THETA", "PHI"), (0.0, 0.0, 0.0)
+    add_number(words, "--orientation", orientation, "ψ, θ, φ of the tool [°]", default=still)
     add_points(words, 101)
     add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
@@ -123,20 +98,10 @@ def _which_engine(words: argparse.ArgumentParser) -> None:
         action="store_true",
         help="nothing corrects the torques (default: so it is where no stiffness is given)",
     )
-    words.add_argument(
-        "--stiffness",
-        nargs="+",
-        type=number("--stiffness"),
-        metavar="N·m/rad",
-        help="of a servo at each motor's joint: one number, or six in the motors' order",
-    )
-    words.add_argument(
-        "--damping",
-        nargs="+",
-        type=number("--damping"),
-        metavar="N·m·s/rad",
-        help="the same of its rate (default: critical for what each motor moves at the start)",
-    )
+    stiffness = "of a servo at each motor's joint: one number, or six in the motors' order"
+    add_number(words, "--stiffness", "N·m/rad", stiffness, nargs="+")
+    damping = "the same of its rate (default: critical for what each motor moves at the start)"
+    add_number(words, "--damping", "N·m·s/rad", damping, nargs="+")
 
 
 _branch = partial(

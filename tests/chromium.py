@@ -67,7 +67,7 @@ class Chromium:
 
         self._playwright = sync_playwright().start()
         self._browser = self._playwright.chromium.launch(executable_path=find(), args=_FLAGS)
-        self._context = self._browser.new_context()
+        self._context = None
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -86,7 +86,7 @@ class Chromium:
             mobile: Whether it is a telephone.
             **wishes: What a reader wants, such as ``reduced_motion="reduce"``.
         """
-        self._context.close()
+        self.leave()
         self._context = self._browser.new_context(
             viewport={"width": width, "height": height}, is_mobile=mobile, **wishes
         )
@@ -97,6 +97,12 @@ class Chromium:
         self.page.on("pageerror", lambda error: self._complaints.append(str(error)))
         self.page.on("console", self._heard)
         self.page.goto(url, wait_until="commit")
+
+    def leave(self) -> None:
+        """Close the page, if there is one: an animation goes on drawing, which takes a core."""
+        if self._context is not None:
+            self._context.close()
+        self._context = None
 
     def _heard(self, message) -> None:
         if message.type == "error":

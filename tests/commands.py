@@ -2,6 +2,7 @@
 
 import argparse
 import shlex
+from functools import cache
 from pathlib import Path
 
 from pollard_pin.cli import COMMAND as POLLARD
@@ -25,12 +26,13 @@ WRITTEN = {"scout-pin new": "my_biped.toml"}
 OUTPUTS = ("--to", "--out", "--write", "--html", "--json", "--markdown")
 
 
+@cache
 def flags(name):
     """The options and words of a verb's parser, in order."""
     command, verb = VERBS[name]
     verbs = next(
         action
-        for action in command.parser()._actions
+        for action in command.parser(verb.name)._actions
         if isinstance(action, argparse._SubParsersAction)
     )
     return [action for action in verbs.choices[verb.name]._actions if action.dest != "help"]

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import chromium
 import pytest
+from once import once
 
 ROOT = Path(__file__).parents[1]
 _BEFORE = pytest.StashKey[set[str]]()
 
 
 @pytest.fixture(scope="session")
-def browser():
+def running_browser():
     """A headless Chromium; without one the tests that need it are skipped."""
     if chromium.find() is None:
         pytest.skip("no Chromium on this machine (Debian and Ubuntu: apt-get install chromium)")
@@ -20,10 +21,41 @@ def browser():
         yield running
 
 
+@pytest.fixture
+def browser(running_browser):
+    """The Chromium of all tests, without a page before and after."""
+    yield running_browser
+    running_browser.leave()
+
+
 @pytest.fixture(scope="session")
 def artefacts():
     """Folder for screenshots, which git ignores."""
     return ROOT / "artefacts"
+
+
+def _scout_audit():
+    from scout_pin.thesis.audit import audit
+
+    return audit()
+
+
+def _pollard_audit():
+    from pollard_pin.thesis.audit import audit
+
+    return audit()
+
+
+@pytest.fixture(scope="session")
+def scout_audit(request, tmp_path_factory):
+    """The whole audit of the Scout thesis, which takes 15 s."""
+    return once(request, tmp_path_factory, _scout_audit)
+
+
+@pytest.fixture(scope="session")
+def pollard_audit(request, tmp_path_factory):
+    """The whole audit of the Pollard thesis, likewise."""
+    return once(request, tmp_path_factory, _pollard_audit)
 
 
 def _untidy():

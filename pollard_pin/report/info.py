@@ -73,7 +73,7 @@ def document(robot: Pollard) -> info.Info:
 
 def page(robot: Pollard) -> bytes:
     """The same as a page."""
-    from thesis_pin.pages.info import info_page
+    from thesis_pin.pages.reports.info import info_page
 
     return info_page(document(robot))
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
+from scout_pin.cli.gaits import add_branch
+from scout_pin.cli.servos import add_gains
 from thesis_pin.command import options
-from thesis_pin.command.options import add_json, count, number
+from thesis_pin.command.numbers import add_count, add_number
+from thesis_pin.command.options import add_json
 from thesis_pin.command.registry import Words
 
 _STEPS = (
@@ -27,37 +28,15 @@ _STEPS = (
 )
 """Numbers that say which walk is planned: flag, unit, whether above zero, help."""
 
-_SERVOS = (
-    ("--servo-rate", "HZ", True, "how often servos are told where to go (default: 50)"),
-    ("--servo-stiffness", "N·m/rad", True, "how a position servo gives way (default: 20)"),
-    ("--servo-damping", "N·m·s/rad", False, "how it is damped (default: 0.05)"),
-)
 
-
-def which_walk(words: Words, branch: Callable[..., None]) -> None:
-    """Which walk is planned, and what is written of it.
-
-    Args:
-        words: Where to add the options.
-        branch: Adds the one that says how the legs stand.
-    """
+def which_walk(words: Words) -> None:
+    """Which walk is planned, and what is written of it."""
     for flag, unit, positive, text in _STEPS:
         # argparse formats help: a lone per cent sign is its own.
-        unit = unit.replace("%", "PERCENT")
-        words.add_argument(flag, type=number(flag, positive=positive), metavar=unit, help=text)
-    words.add_argument(
-        "--height",
-        nargs=2,
-        type=number("--height", positive=True),
-        metavar=("LEAST", "MOST"),
-        help="of the torso's origin [mm] (default: 80 to 100 %% of the neutral pose's)",
-    )
-    words.add_argument(
-        "--friction",
-        type=number("--friction", positive=True),
-        metavar="NUMBER",
-        help="coefficient between sole and floor, at least 1e-6 (default: the specification's)",
-    )
+        add_number(words, flag, unit.replace("%", "PERCENT"), text, positive=positive)
+    height = "of the torso's origin [mm] (default: 80 to 100 %% of the neutral pose's)"
+    add_number(words, "--height", ("LEAST", "MOST"), height, positive=True)
+    options.add_friction(words, default=None)
     words.add_argument(
         "--no-servo-line",
         action="store_true",
@@ -69,16 +48,12 @@ def which_walk(words: Words, branch: Callable[..., None]) -> None:
         help="what is best of all that keep the limits (default: limits, which is any)",
     )
     words.add_argument("--fastest", action="store_true", help="the same as --objective fastest")
-    words.add_argument(
-        "--steps",
-        type=count("--steps", 1, 100),
-        default=10,
-        metavar="N",
-        help="steps of the walk from rest to rest, the foot behind drawn up last (default: 10)",
-    )
-    branch(words, default="the specification's, else nearest to neutral")
-    for flag, unit, positive, text in _SERVOS:
-        words.add_argument(flag, type=number(flag, positive=positive), metavar=unit, help=text)
+    steps = "steps of the walk from rest to rest, the foot behind drawn up last"
+    add_count(words, "--steps", steps, least=1, most=100, default=10)
+    add_branch(words, default="the specification's, else nearest to neutral")
+    rate = "how often servos are told where to go (default: 50)"
+    add_number(words, "--servo-rate", "HZ", rate, positive=True)
+    add_gains(words)
     options.add_samples(words, 801)
     words.add_argument(
         "--out", metavar="DIR", help="write gaits, joint tables, report.json, samples.csv, figures"

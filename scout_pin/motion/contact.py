@@ -36,6 +36,22 @@ class Phase(Strict):
     support: Support
 
 
+class Phased:
+    """What has contact phases in order begins and ends with them."""
+
+    phases: tuple[Phase, ...]
+
+    @property
+    def start(self) -> float:
+        """First t."""
+        return self.phases[0].start
+
+    @property
+    def end(self) -> float:
+        """Last t."""
+        return self.phases[-1].end
+
+
 def check_stance(
     name: str, feet: Mapping[str, Sequence[Piecewise]], phases: Sequence[Phase]
 ) -> None:

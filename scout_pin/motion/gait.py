@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.contact import Phase, check_stance
+from scout_pin.motion.contact import Phase, Phased, check_stance
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import ascending, finite_array
 from thesis_pin.numeric.checks import choice, real, whole
@@ -96,7 +96,7 @@ class GaitMotion:
 
 
 @dataclass(frozen=True)
-class Gait:
+class Gait(Phased):
     """A gait ready to be sampled.
 
     Attributes:
@@ -128,16 +128,6 @@ class Gait:
     branch: str | None = None
     variants: Variants | None = None
     rows: Rows | None = None
-
-    @property
-    def start(self) -> float:
-        """First t."""
-        return self.phases[0].start
-
-    @property
-    def end(self) -> float:
-        """Last t."""
-        return self.phases[-1].end
 
     def support(self, t: np.ndarray) -> np.ndarray:
         """Feet in support at times t, left then right: ``(n,)`` → booleans ``(n, 2)``.

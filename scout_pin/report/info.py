@@ -76,8 +76,8 @@ def page(robot: Scout) -> bytes:
     """
     found = document(robot)
     from scout_pin.report.drawn.drawing import leg_drawing
-    from thesis_pin.pages.info import info_page
     from thesis_pin.pages.page import Drawing
+    from thesis_pin.pages.reports.info import info_page
 
     drawings = [
         Drawing(

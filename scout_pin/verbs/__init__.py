@@ -25,6 +25,7 @@ from thesis_pin.numeric.checks import choice
 if TYPE_CHECKING:  # inverse kinematics alone needs none of them
     from scout_pin.motion.gait import Gait
     from scout_pin.report.document import GaitReport
+    from scout_pin.study.servo import ServoGains
     from scout_pin.study.simulate.conditions import Conditions
     from thesis_pin.pages.scene import Scene
     from thesis_pin.report.exchange.movement import Movement
@@ -105,18 +106,29 @@ def _gait(arguments: argparse.Namespace, robot: Scout) -> Gait:
 
 def conditions(arguments: argparse.Namespace) -> Conditions:
     """What the arguments have a gait walked with, and on."""
-    from scout_pin.study.servo import ServoGains
     from scout_pin.study.simulate.conditions import Conditions
 
     ahead, right = np.radians(arguments.floor_tilt).tolist()
     return Conditions(
-        gains=ServoGains(arguments.servo_stiffness, arguments.servo_damping),
+        gains=gains(arguments),
         sag_compensation=not arguments.no_sag_compensation,
         friction=arguments.friction,
         floor_tilt=(ahead, right),
         armature=arguments.armature,
         **tried(arguments),
     )
+
+
+def gains(arguments: argparse.Namespace) -> ServoGains:
+    """How the arguments have position servos answer."""
+    from scout_pin.study.servo import ServoGains
+
+    asked = {
+        name: getattr(arguments, f"servo_{name}")
+        for name in ("stiffness", "damping")
+        if getattr(arguments, f"servo_{name}") is not None
+    }
+    return ServoGains(**asked)
 
 
 def ik(arguments: argparse.Namespace, robot: Scout) -> Answer:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from scout_pin.model import load
+from scout_pin.verbs import gains
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, put_folder
@@ -192,14 +193,8 @@ def _numbers(arguments: argparse.Namespace) -> Iterator[tuple[str, float]]:
 def _tables(arguments: argparse.Namespace) -> tuple[float, ServoGains]:
     """The servos' rate and gains."""
     from scout_pin.study.plan.results.tables import RATE
-    from scout_pin.study.servo import ServoGains
 
-    given = {
-        name: getattr(arguments, f"servo_{name}")
-        for name in ("stiffness", "damping")
-        if getattr(arguments, f"servo_{name}") is not None
-    }
-    return (RATE if arguments.servo_rate is None else arguments.servo_rate), ServoGains(**given)
+    return (RATE if arguments.servo_rate is None else arguments.servo_rate), gains(arguments)
 
 
 def _command(arguments: argparse.Namespace) -> str:

@@ -11,15 +11,25 @@ import orjson
 import pytest
 
 from scout_pin.cli import main
+from thesis_pin.audit.thesis import Thesis
 
 
 @pytest.fixture(scope="module")
-def outputs(tmp_path_factory):
-    """One run of the whole audit that writes everything."""
+def outputs(tmp_path_factory, scout_audit):
+    """Everything that the command writes of the whole audit, which is worked out elsewhere."""
     folder = tmp_path_factory.mktemp("audit")
     names = {kind: folder / f"audit.{kind}" for kind in ("json", "html", "markdown")}
-    code = main(["audit", *(part for k, path in names.items() for part in (f"--{k}", str(path)))])
-    assert code == 0
+    asked = []
+
+    def whole(thesis, **how):
+        asked.append((thesis.robot, how["only"]))
+        return scout_audit
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Thesis, "audit", whole)
+        words = [part for k, path in names.items() for part in (f"--{k}", str(path))]
+        assert main(["audit", *words]) == 0
+    assert asked == [("scout", None)]
     return names
 
 

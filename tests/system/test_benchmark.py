@@ -10,7 +10,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-SUITES = ("scout", "pollard", "loading", "commands", "streams", "threads")
+USUAL = ("scout", "pollard", "loading", "commands", "streams", "threads")
+SLOW = ("planning", "simulation", "fastest")
+SUITES = (*USUAL, *SLOW)
 STORED = json.loads((ROOT / "docs" / "speed.json").read_text(encoding="utf-8"))
 
 
@@ -39,7 +41,7 @@ def measured(suite, path, **more):
     return done, json.loads(path.read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize("suite", SUITES)
+@pytest.mark.parametrize("suite", [*USUAL, "simulation", "fastest"])
 def test_a_smoke_run_finds_equal_answers_and_judges_every_goal(suite, tmp_path):
     if suite == "threads" and len(getattr(os, "sched_getaffinity", lambda _: [])(0)) < 2:
         pytest.skip("one core")
@@ -58,7 +60,7 @@ def test_a_smoke_run_finds_equal_answers_and_judges_every_goal(suite, tmp_path):
         if not row["peer"].get("missing"):
             assert row["ratio"]["low"] <= row["ratio"]["median"] <= row["ratio"]["high"]
             assert all(goal["met"] is not None for goal in row["goals"])
-    assert any(row["goals"] for row in found["rows"])
+    assert suite in ("simulation",) or any(row["goals"] for row in found["rows"])
     assert suite in ("threads",) or any(row["equal"] for row in found["rows"])
 
 
@@ -76,6 +78,23 @@ def test_a_peer_that_is_missing_is_said_and_the_rest_is_measured(tmp_path):
     assert len(found["rows"]) > len(rows)
 
 
+def test_without_the_second_engine_its_suite_is_left_out(tmp_path):
+    done, found = measured("simulation", tmp_path / "a.json", before="sys.modules['mujoco'] = None")
+    assert "simulation: mujoco isn't installed" in done.stderr
+    assert found["rows"] == []
+
+
+def test_a_plan_that_is_not_as_known_stops_the_run(tmp_path):
+    refused = """
+import types, scout_pin
+scout_pin.plan_gait = lambda *given, **more: types.SimpleNamespace(met=False)
+"""
+    done = run("planning", "--quick", before=refused)
+    assert done.returncode == 1
+    assert "run.py: error: 30 mm in 0.8 s, the default: met is False" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_a_wrong_answer_stops_the_run(tmp_path):
     wrong = """
 import scout_pin.kinematics.rates as rates
@@ -91,7 +110,11 @@ rates.leg_rates = lambda *given: (right(*given)[0] + 1e-6, right(*given)[1])
 
 
 def test_misuse_is_said():
-    for words, said in ((["nonsense"], "no suite 'nonsense'"), (["--json", "no/no"], "no folder")):
+    for words, said in (
+        (["nonsense"], "no suite 'nonsense'"),
+        (["--json", "no/no"], "no folder"),
+        (["scout", "--all"], "--all and 'scout'"),
+    ):
         done = run(*words)
         assert done.returncode == 2
         assert said in done.stderr
@@ -155,6 +178,24 @@ def test_without_a_peer_only_absolute_goals_are_judged(measuring):
     assert found["peer"] == {"name": "peer", "size": 2, "missing": True}
 
 
+def test_time_by_the_clock_is_judged_beside_the_processor_s(measuring):
+    goals = [(3.0, "s"), (3.0, "s by the clock")]
+    for clock in ("cpu", "wall"):
+        made = row(measuring, turns(measuring, (2, 5)), None, goals=goals, clock=clock)
+        found = made.measure(measuring["QUICK"])["goals"]
+        assert [goal["found"] for goal in found] == [2.0 if clock == "cpu" else 5.0, 5.0]
+        assert [goal["met"] for goal in found] == [clock == "cpu", False]
+
+
+def test_work_that_was_done_before_is_not_tried_again(measuring):
+    calls = []
+    peer = measuring["Peer"]("peer", 1, lambda: calls.append("theirs"))
+    work = measuring["Row"]("work", 1, lambda: calls.append("ours"), peer, rounds=3, warm=False)
+    found = work.measure(measuring["FULL"])
+    assert calls == ["ours", "theirs", "theirs", "ours", "ours", "theirs"]
+    assert found["rounds"] == 3
+
+
 def test_short_work_is_repeated_until_a_turn_is_long_enough(measuring):
     calls = []
     peer = measuring["Peer"]("peer", 1, None)
@@ -174,11 +215,26 @@ def test_the_page_is_written_from_the_stored_run():
 
 def test_the_stored_run_is_a_whole_one_with_equal_answers():
     assert not STORED["quick"]
-    assert {row["suite"] for row in STORED["rows"]} == set(SUITES)
+    assert set(USUAL) <= {row["suite"] for row in STORED["rows"]} <= set(SUITES)
     for row in STORED["rows"]:
-        assert row["rounds"] >= 7
+        assert row["rounds"] >= (1 if row["suite"] in SLOW else 7)
         if row["equal"]:
             assert row["equal"]["difference"] <= row["equal"]["tolerance"]
+
+
+def test_the_page_says_what_was_left_out_and_how_often_a_plan_was_made():
+    page = runpy.run_path(str(ROOT / "docs" / "speed.py"))["page"]
+    usual = [row for row in STORED["rows"] if row["suite"] in USUAL]
+    one = usual[0]
+    goals = [{"of": "s by the clock", "most": 2.0, "found": 2.5, "met": False}]
+    plans = [one | {"suite": "planning", "rounds": rounds, "goals": goals} for rounds in (3, 1)]
+    text = page(STORED | {"rows": usual + plans})
+    assert "Not run: `simulation`, `fastest`." in text
+    assert "## Planning a walk" in text
+    assert "A plan takes 1 or 3 turns." in text
+    assert "| ≤ 2 s by the clock | **no, 2.5 s by the clock** |" in text
+    assert "ratios medians of 7 turns or more" in text
+    assert "## The second engine" not in text
 
 
 @pytest.mark.parametrize("change", [{"quick": True}, {"rows": STORED["rows"][:3]}])

@@ -3,14 +3,15 @@
 import os
 import subprocess
 import sys
-from importlib import import_module
 from pathlib import Path
 
 import pytest
+from commands import COMMANDS, MODULES
 
 ROOT = Path(__file__).parents[2]
+DELTA = ["examples/delta.urdf", "examples/delta.yaml"]
 VERBS = {
-    "scout": (
+    "scout-pin": (
         ["gait"],
         ["plan"],
         ["size", "examples/servos.csv"],
@@ -24,7 +25,7 @@ VERBS = {
         ["urdf"],
         ["audit"],
     ),
-    "pollard": (
+    "pollard-pin": (
         ["trajectory"],
         ["size", "examples/servos.csv"],
         ["simulate"],
@@ -37,12 +38,21 @@ VERBS = {
         ["urdf"],
         ["audit"],
     ),
+    "thesis-pin": (
+        ["check", *DELTA],
+        ["torque", *DELTA, "examples/delta_pick.csv"],
+        ["balance", "urdf/scout/scout.urdf"],
+        ["size", *DELTA, "examples/delta_pick.csv", "--list", "examples/servos.csv"],
+        ["view", *DELTA, "examples/delta_pick.csv", "--html", "-"],
+        ["workspace", *DELTA],
+        ["formats"],
+    ),
 }
 GAIT = ["gait", "--samples", "11"]
 
 
-def command(robot, *words, path=(), environment=None):
-    code = f"import sys; from {robot}_pin.cli import main; sys.exit(main())"
+def command(name, *words, path=(), environment=None):
+    code = f"import sys; from {MODULES[name]} import main; sys.exit(main())"
     settings = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (*path, ROOT)))}
     return subprocess.run(
         [sys.executable, "-c", code, *map(str, words)],
@@ -55,30 +65,38 @@ def command(robot, *words, path=(), environment=None):
 
 
 @pytest.mark.parametrize(
-    ("robot", "words"), [(robot, words) for robot, every in VERBS.items() for words in every]
+    ("name", "words"), [(name, words) for name, every in VERBS.items() for words in every]
 )
-def test_every_verb_names_another_pinocchio_and_the_cure(robot, words, tmp_path):
+def test_every_verb_names_another_pinocchio_and_the_cure(name, words, tmp_path):
     (tmp_path / "pinocchio").mkdir()
     (tmp_path / "pinocchio" / "__init__.py").write_text('__version__ = "0.5.1"  # a nose plug-in')
-    done = command(robot, *words, path=(tmp_path,))
+    done = command(name, *words, path=(tmp_path,))
     assert (done.returncode, done.stdout) == (2, "")
     assert str(tmp_path / "pinocchio" / "__init__.py") in done.stderr
     assert "pip uninstall pinocchio, pip install pin" in done.stderr
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("robot", VERBS)
-def test_every_verb_is_asked(robot):
-    verbs = import_module(f"{robot}_pin.cli").COMMAND.verbs
-    assert {verb.name for verb in verbs} == {words[0] for words in VERBS[robot]}
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_verb_is_asked(name):
+    assert {verb.name for verb in COMMANDS[name].verbs} == {words[0] for words in VERBS[name]}
 
 
 def figures(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix == ".svg"}
 
 
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory):
+    """The figures of someone who has set nothing."""
+    folder = tmp_path_factory.mktemp("plain") / "out"
+    done = command("scout-pin", *GAIT, "--out", folder)
+    assert done.returncode == 0, done.stderr
+    return figures(folder)
+
+
 @pytest.mark.parametrize("name", ["settings", "backend"])
-def test_a_users_settings_of_matplotlib_change_no_figure(tmp_path, name):
+def test_a_users_settings_of_matplotlib_change_no_figure(plain, tmp_path, name):
     (tmp_path / "matplotlibrc").write_text(
         "text.usetex: True\nbackend: tkagg\nfont.size: 40\naxes.facecolor: black\n"
     )
@@ -87,17 +105,16 @@ def test_a_users_settings_of_matplotlib_change_no_figure(tmp_path, name):
         if name == "settings"
         else {"MPLBACKEND": "no such backend"}
     )
-    for folder, settings in (("plain", {}), ("theirs", environment)):
-        done = command("scout", *GAIT, "--out", tmp_path / folder, environment=settings)
-        assert done.returncode == 0, done.stderr
-    assert figures(tmp_path / "theirs") == figures(tmp_path / "plain") != {}
+    done = command("scout-pin", *GAIT, "--out", tmp_path / "theirs", environment=environment)
+    assert done.returncode == 0, done.stderr
+    assert figures(tmp_path / "theirs") == plain != {}
 
 
 def test_where_figures_cannot_be_drawn_the_data_are_written_all_the_same(tmp_path):
     (tmp_path / "matplotlib").mkdir()
     (tmp_path / "matplotlib" / "__init__.py").write_text("raise ImportError('broken')")
     out, file = tmp_path / "out", tmp_path / "report.json"
-    done = command("scout", *GAIT, "--out", out, "--json", file, path=(tmp_path,))
+    done = command("scout-pin", *GAIT, "--out", out, "--json", file, path=(tmp_path,))
     assert done.returncode not in (0, 1)
     assert "broken" in done.stderr
     assert sorted(os.listdir(out)) == ["manifest.sha256", "report.json", "samples.csv"]

@@ -13,6 +13,7 @@ from collections import defaultdict
 import pytest
 from commands import COMMANDS, MODULES, ROOT, VERBS, example, flags, has, into, run
 
+from thesis_pin.command import progress
 from thesis_pin.command.registry import found
 
 SEEN = {
@@ -145,7 +146,25 @@ sys.exit(main())
 
 
 @pytest.mark.parametrize("name", VERBS)
-def test_ctrl_c_while_a_verb_works_under_its_progress_bar_ends_with_130_and_no_file(name, tmp_path):
+def test_ctrl_c_while_a_verb_works_under_its_progress_bar_ends_with_130_and_no_file(
+    name, tmp_path, monkeypatch, capfd
+):
+    enter = progress.Bar.__enter__
+
+    def interrupted(bar):
+        enter(bar)
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(progress.Bar, "__enter__", interrupted)
+    monkeypatch.chdir(ROOT)
+    code, said, complaint = run(name, [*example(name), *into(name, tmp_path)], capfd)
+    assert (code, said) == (130, "")
+    assert complaint == f"{name.split()[0]}: interrupted\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["scout-pin plan", "pollard-pin trajectory", "thesis-pin view"])
+def test_ctrl_c_from_outside_ends_a_process_with_130_and_no_file(name, tmp_path):
     out = tmp_path / "out"
     out.mkdir()
     process = subprocess.Popen(

@@ -6,6 +6,7 @@ import pytest
 
 from pollard_pin.cli import main
 from pollard_pin.thesis import catalogue
+from thesis_pin.audit.thesis import Thesis
 
 
 def test_the_command_explains_one_equation_by_its_short_id(capsys):
@@ -36,9 +37,17 @@ def test_a_whole_statement_isnt_shown_twice(capsys):
     assert "where the whole statement kind" in shown
 
 
-def test_the_command_writes_all_rows_as_json(tmp_path, capsys):
+def test_the_command_writes_all_rows_as_json(pollard_audit, monkeypatch, tmp_path, capsys):
     path = tmp_path / "audit.json"
+    asked = []
+
+    def whole(thesis, **how):
+        asked.append((thesis.robot, how["only"]))
+        return pollard_audit
+
+    monkeypatch.setattr(Thesis, "audit", whole)
     assert main(["audit", "--json", str(path)]) == 0
+    assert asked == [("pollard", None)]
     data = json.loads(path.read_bytes())
     assert len(data["rows"]) == len(catalogue().equations)
     assert sum(data["counts"].values()) == len(data["rows"])

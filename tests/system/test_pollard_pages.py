@@ -72,73 +72,74 @@ def test_every_group_can_be_hidden_and_shown_again(view):
         assert differing(before, view.still()) < 20, name
 
 
-@pytest.mark.parametrize("sample", SAMPLES)
-def test_loops_look_closed_at_the_ball_joints_pinocchio_finds(view, report, sample):
-    view.run(f"player.time = {report.joints.time[sample]}")
-    model, data = report.robot.model, report.robot.model.createData()
-    pin.framesForwardKinematics(model, data, report.joints.q[sample])
-    for pair in [loop.frames for loop in report.robot.loops]:
-        first, second = (view.vertices(name).mean(axis=0) for name in pair)
-        place = data.oMf[model.getFrameId(pair[0])].translation
-        np.testing.assert_allclose(first, second, atol=2e-4)
-        radius = np.linalg.norm(view.vertices(pair[0]) - place, axis=1)
-        np.testing.assert_allclose(radius, 0.011, atol=2e-6)
-        assert view.shown(" to ".join(pair)) is False
+def test_loops_look_closed_at_the_ball_joints_pinocchio_finds(view, report):
+    for sample in SAMPLES:
+        view.run(f"player.time = {report.joints.time[sample]}")
+        model, data = report.robot.model, report.robot.model.createData()
+        pin.framesForwardKinematics(model, data, report.joints.q[sample])
+        for pair in [loop.frames for loop in report.robot.loops]:
+            first, second = (view.vertices(name).mean(axis=0) for name in pair)
+            place = data.oMf[model.getFrameId(pair[0])].translation
+            np.testing.assert_allclose(first, second, atol=2e-4)
+            radius = np.linalg.norm(view.vertices(pair[0]) - place, axis=1)
+            np.testing.assert_allclose(radius, 0.011, atol=2e-6)
+            assert view.shown(" to ".join(pair)) is False
 
 
-@pytest.mark.parametrize("sample", SAMPLES)
-def test_arrows_have_the_size_and_direction_of_the_ball_joint_forces(view, report, sample):
-    view.run(f"player.time = {report.joints.time[sample]}")
-    model, data = report.robot.model, report.robot.model.createData()
-    pin.framesForwardKinematics(model, data, report.joints.q[sample])
-    largest = np.linalg.norm(report.dynamics.loop_force, axis=-1).max()
-    for i, (anchor, _) in enumerate([loop.frames for loop in report.robot.loops]):
-        start = data.oMf[model.getFrameId(anchor)].translation
-        force = report.dynamics.loop_force[sample, i]
-        points = view.vertices(f"loop_force_{i + 1}")
-        tip = points[np.argmax((points - start) @ force)]
-        np.testing.assert_allclose(tip, start + 0.12 / largest * force, atol=1e-5)
+def test_arrows_have_the_size_and_direction_of_the_ball_joint_forces(view, report):
+    for sample in SAMPLES:
+        view.run(f"player.time = {report.joints.time[sample]}")
+        model, data = report.robot.model, report.robot.model.createData()
+        pin.framesForwardKinematics(model, data, report.joints.q[sample])
+        largest = np.linalg.norm(report.dynamics.loop_force, axis=-1).max()
+        for i, (anchor, _) in enumerate([loop.frames for loop in report.robot.loops]):
+            start = data.oMf[model.getFrameId(anchor)].translation
+            force = report.dynamics.loop_force[sample, i]
+            points = view.vertices(f"loop_force_{i + 1}")
+            tip = points[np.argmax((points - start) @ force)]
+            np.testing.assert_allclose(tip, start + 0.12 / largest * force, atol=1e-5)
 
 
-@pytest.mark.parametrize("sample", SAMPLES)
-def test_the_spray_starts_at_the_tip_and_points_along_the_tool(view, report, sample):
-    view.run(f"player.time = {report.joints.time[sample]}")
-    model, data = report.robot.model, report.robot.model.createData()
-    pin.framesForwardKinematics(model, data, report.joints.q[sample])
-    tool = data.oMf[model.getFrameId("tool_tip")]
-    np.testing.assert_allclose(tool.translation, report.motion.pose[sample, :3], atol=1e-12)
-    points = view.vertices("spray")
-    tip = points[np.argmax(points @ tool.rotation[:, 0])]
-    np.testing.assert_allclose(tip, tool.act(np.array([0.08, 0.0, 0.0])), atol=1e-5)
+def test_the_spray_starts_at_the_tip_and_points_along_the_tool(view, report):
+    for sample in SAMPLES:
+        view.run(f"player.time = {report.joints.time[sample]}")
+        model, data = report.robot.model, report.robot.model.createData()
+        pin.framesForwardKinematics(model, data, report.joints.q[sample])
+        tool = data.oMf[model.getFrameId("tool_tip")]
+        np.testing.assert_allclose(tool.translation, report.motion.pose[sample, :3], atol=1e-12)
+        points = view.vertices("spray")
+        tip = points[np.argmax(points @ tool.rotation[:, 0])]
+        np.testing.assert_allclose(tip, tool.act(np.array([0.08, 0.0, 0.0])), atol=1e-5)
 
 
-@pytest.mark.parametrize("sample", SAMPLES)
-def test_torque_arcs_turn_about_their_motors_by_their_share(view, report, sample):
-    view.run(f"player.time = {report.joints.time[sample]}")
-    model, data = report.robot.model, report.robot.model.createData()
-    jacobian = pin.computeJointJacobians(model, data, report.joints.q[sample])
-    for k, name in enumerate(ACTUATOR_NAMES):
-        joint = model.getJointId(name)
-        axis = jacobian[3:, model.joints[joint].idx_v]
-        torque = report.torque[sample, k]
-        full = np.abs(report.torque[:, :3] if k < 3 else report.torque[:, 3:]).max()
-        turned = view.run(
-            "(() => { const item = player.items.find((i) => i.name === "
-            f"'torque_{name}'); const [ring, head] = item.object.children[0].children;"
-            "player.stage.world.updateMatrixWorld(true);"
-            "const at = (x, y) => ring.localToWorld(new MeshCat.THREE.Vector3(x, y, 0)).toArray();"
-            "return [at(0, 0), at(1, 0), head.getWorldPosition(new MeshCat.THREE.Vector3())"
-            ".toArray()]; })()"
-        )
-        centre, start, head = map(np.array, turned)
-        np.testing.assert_allclose(centre, data.oMi[joint].translation, atol=1e-6)
-        if abs(torque) < 1e-3 * full:
-            continue
-        begin, end = start - centre, head - centre
-        end /= np.linalg.norm(end)
-        angle = np.arctan2(np.cross(begin, end) @ axis, begin @ end)
-        expected = 2 * np.pi * torque / full
-        assert np.exp(1j * angle) == pytest.approx(np.exp(1j * expected), abs=1e-3)
+def test_torque_arcs_turn_about_their_motors_by_their_share(view, report):
+    for sample in SAMPLES:
+        view.run(f"player.time = {report.joints.time[sample]}")
+        model, data = report.robot.model, report.robot.model.createData()
+        jacobian = pin.computeJointJacobians(model, data, report.joints.q[sample])
+        for k, name in enumerate(ACTUATOR_NAMES):
+            joint = model.getJointId(name)
+            axis = jacobian[3:, model.joints[joint].idx_v]
+            torque = report.torque[sample, k]
+            full = np.abs(report.torque[:, :3] if k < 3 else report.torque[:, 3:]).max()
+            turned = view.run(
+                "(() => { const item = player.items.find((i) => i.name === "
+                f"'torque_{name}'); const [ring, head] = item.object.children[0].children;"
+                "player.stage.world.updateMatrixWorld(true);"
+                "const at = (x, y) => "
+                "ring.localToWorld(new MeshCat.THREE.Vector3(x, y, 0)).toArray();"
+                "return [at(0, 0), at(1, 0), head.getWorldPosition(new MeshCat.THREE.Vector3())"
+                ".toArray()]; })()"
+            )
+            centre, start, head = map(np.array, turned)
+            np.testing.assert_allclose(centre, data.oMi[joint].translation, atol=1e-6)
+            if abs(torque) < 1e-3 * full:
+                continue
+            begin, end = start - centre, head - centre
+            end /= np.linalg.norm(end)
+            angle = np.arctan2(np.cross(begin, end) @ axis, begin @ end)
+            expected = 2 * np.pi * torque / full
+            assert np.exp(1j * angle) == pytest.approx(np.exp(1j * expected), abs=1e-3)
 
 
 def test_between_samples_bodies_are_where_the_mean_angles_put_them(view, report):

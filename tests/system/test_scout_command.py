@@ -1,33 +1,47 @@
-"""The command scout-pin as a user runs it: in a process of its own."""
+"""The command scout-pin: in a process of its own where that matters, else called directly."""
 
 import json
 import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from commands import run
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
-def scout_pin(
-    *arguments, cwd=None, code="import sys; from scout_pin.cli import main; sys.exit(main())"
-):
+def process(*arguments, code="import sys; from scout_pin.cli import main; sys.exit(main())"):
+    """Run the command as a user does."""
     environment = os.environ | {"COLUMNS": "80", "PYTHONPATH": str(EXAMPLES.parent)}
     return subprocess.run(
         [sys.executable, "-c", code, *map(str, arguments)],
         capture_output=True,
         text=True,
-        cwd=cwd,
         env=environment,
         check=False,
     )
 
 
+@pytest.fixture
+def scout_pin(capfd, monkeypatch):
+    """The command called in this process: saves starting Python sixty times."""
+    monkeypatch.setenv("COLUMNS", "80")
+
+    def call(*arguments, cwd=None):
+        if cwd is not None:
+            monkeypatch.chdir(cwd)
+        code, out, err = run("scout-pin", list(map(str, arguments)), capfd)
+        return SimpleNamespace(returncode=code, stdout=out, stderr=err)
+
+    return call
+
+
 def test_default_report_says_plainly_that_the_thesis_gait_cannot_walk():
-    done = scout_pin("gait")
+    done = process("gait")
     assert done.returncode == 0
     assert done.stderr == ""
     text = " ".join(done.stdout.split())
@@ -39,7 +53,7 @@ def test_default_report_says_plainly_that_the_thesis_gait_cannot_walk():
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
-def test_report_numbers_are_those_worked_out_by_hand_and_by_prototype():
+def test_report_numbers_are_those_worked_out_by_hand_and_by_prototype(scout_pin):
     summary = json.loads(scout_pin("gait", "--json", "-", "--samples", "2001").stdout)["summary"]
     peaks = np.array(summary["peak_torque"])
     # Largest of both legs, joints 2 to 6; joint 1 depends on the double-support rule.
@@ -53,7 +67,7 @@ def test_report_numbers_are_those_worked_out_by_hand_and_by_prototype():
 
 
 @pytest.mark.parametrize("gait", ["thesis", "walk", "squat", "lopsided_walk"])
-def test_a_gait_at_its_fastest_time_unit_just_meets_the_line(gait):
+def test_a_gait_at_its_fastest_time_unit_just_meets_the_line(scout_pin, gait):
     # The last robot has joint friction, which doesn't scale like gravity or inertia;
     # the squat stands on two feet throughout.
     words = ["gait", "--json", "-"]
@@ -67,7 +81,7 @@ def test_a_gait_at_its_fastest_time_unit_just_meets_the_line(gait):
     assert unit >= first["fastest_time_unit"]["speed"]
 
 
-def test_a_swinging_sole_that_dips_into_the_floor_breaks_a_limit(tmp_path):
+def test_a_swinging_sole_that_dips_into_the_floor_breaks_a_limit(scout_pin, tmp_path):
     text = (EXAMPLES / "walk.toml").read_text()
     assert "value = [0, 10, 0]" in text
     (tmp_path / "dip.toml").write_text(text.replace("value = [0, 10, 0]", "value = [0, -2, 0]"))
@@ -76,7 +90,7 @@ def test_a_swinging_sole_that_dips_into_the_floor_breaks_a_limit(tmp_path):
     assert "A swinging sole goes 2.0 mm into the floor." in " ".join(done.stdout.split())
 
 
-def test_json_has_every_documented_field_and_shape():
+def test_json_has_every_documented_field_and_shape(scout_pin):
     document = json.loads(scout_pin("gait", "--json", "-", "--samples", "11").stdout)
     # Eleven evenly spaced samples, and those beside every change.
     count = len(document["time"])
@@ -102,7 +116,7 @@ def test_json_has_every_documented_field_and_shape():
     assert {a["name"] for a in document["assumptions"]} >= {"joint_range", "floor_friction"}
 
 
-def test_out_writes_report_table_and_figures(tmp_path):
+def test_out_writes_report_table_and_figures(scout_pin, tmp_path):
     done = scout_pin("gait", "--out", tmp_path / "report", "--gait", EXAMPLES / "walk.toml")
     assert done.returncode == 0
     names = {path.name for path in (tmp_path / "report").iterdir()}
@@ -117,7 +131,7 @@ def test_out_writes_report_table_and_figures(tmp_path):
     ("gait", "specification"),
     [("walk.toml", None), ("lopsided_walk.toml", "lopsided.toml")],
 )
-def test_a_gait_that_walks_passes_strict(gait, specification):
+def test_a_gait_that_walks_passes_strict(scout_pin, gait, specification):
     arguments = ["--gait", EXAMPLES / gait, "--strict"]
     if specification:
         arguments += ["--specification", EXAMPLES / specification]
@@ -127,13 +141,13 @@ def test_a_gait_that_walks_passes_strict(gait, specification):
 
 
 @pytest.mark.parametrize("samples", ["2", "3"])
-def test_few_samples_do_not_hide_that_the_thesis_gait_tips(samples):
+def test_few_samples_do_not_hide_that_the_thesis_gait_tips(scout_pin, samples):
     done = scout_pin("gait", "--samples", samples, "--strict")
     assert done.returncode == 1
     assert "can't walk this gait" in done.stdout
 
 
-def test_a_gait_whose_rates_jump_cannot_be_walked():
+def test_a_gait_whose_rates_jump_cannot_be_walked(scout_pin):
     done = scout_pin(
         "gait", "--gait", EXAMPLES / "walk.toml", "--interpolation", "linear", "--strict"
     )
@@ -141,11 +155,11 @@ def test_a_gait_whose_rates_jump_cannot_be_walked():
     assert "A planned rate jumps" in done.stdout
 
 
-def test_strict_exits_1_when_the_gait_breaks_a_limit():
+def test_strict_exits_1_when_the_gait_breaks_a_limit(scout_pin):
     assert scout_pin("gait", "--strict").returncode == 1
 
 
-def test_printed_inertias_change_the_torques_by_a_thousandth():
+def test_printed_inertias_change_the_torques_by_a_thousandth(scout_pin):
     physical, printed = (
         np.array(json.loads(scout_pin("gait", "--json", "-", "--inertia", i).stdout)["torque"])
         for i in ("physical", "printed")
@@ -178,7 +192,7 @@ BAD = {
 
 
 @pytest.mark.parametrize("name", BAD)
-def test_bad_input_is_one_clear_message_exit_2_and_no_file(name, tmp_path):
+def test_bad_input_is_one_clear_message_exit_2_and_no_file(scout_pin, name, tmp_path):
     arguments, says = BAD[name]
     out = [] if arguments[0] in ("ik", "dance", "view") else ["--out", "made"]
     done = scout_pin(*arguments, *out, cwd=tmp_path)
@@ -198,7 +212,7 @@ def test_bad_input_is_one_clear_message_exit_2_and_no_file(name, tmp_path):
         ["gait", "--json", "no/where/report.json"],
     ],
 )
-def test_what_cannot_be_written_is_refused_with_3_before_any_work(arguments, tmp_path):
+def test_what_cannot_be_written_is_refused_with_3_before_any_work(scout_pin, arguments, tmp_path):
     done = scout_pin(*arguments, cwd=tmp_path)
     assert (done.returncode, done.stdout) == (3, "")
     assert "can't" in done.stderr
@@ -206,7 +220,7 @@ def test_what_cannot_be_written_is_refused_with_3_before_any_work(arguments, tmp
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_gait_out_of_reach_says_when_and_by_how_much(tmp_path):
+def test_a_gait_out_of_reach_says_when_and_by_how_much(scout_pin, tmp_path):
     text = (EXAMPLES / "walk.toml").read_text()
     (tmp_path / "tall.toml").write_text(text.replace("z_mm = 216.00", "z_mm = 300"))
     done = scout_pin("gait", "--gait", "tall.toml", "--json", "report.json", cwd=tmp_path)
@@ -216,7 +230,7 @@ def test_a_gait_out_of_reach_says_when_and_by_how_much(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["tall.toml"]
 
 
-def test_ik_lists_branches_and_explains():
+def test_ik_lists_branches_and_explains(scout_pin):
     done = scout_pin("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")
     assert done.returncode == 0
     assert done.stdout.count("valid") >= 1
@@ -233,7 +247,7 @@ def test_ik_lists_branches_and_explains():
     assert len(document["branches"]) == 8
 
 
-def test_info_and_urdf_describe_the_robot(tmp_path):
+def test_info_and_urdf_describe_the_robot(scout_pin, tmp_path):
     text = scout_pin("info").stdout
     assert "0.89854 kg" in text
     assert "Assumed joint range" in text
@@ -248,7 +262,7 @@ def test_info_and_urdf_describe_the_robot(tmp_path):
             assert made.read_bytes() == path.read_bytes()
 
 
-def test_help_imports_nothing_heavy():
+def test_help_imports_nothing_heavy(scout_pin):
     probe = (
         "import sys\n"
         "from scout_pin.cli import main\n"
@@ -256,7 +270,7 @@ def test_help_imports_nothing_heavy():
         "heavy = {'numpy', 'scipy', 'pinocchio', 'matplotlib', 'pydantic', 'rich', 'meshcat'}\n"
         "print(sorted(heavy & set(sys.modules)), file=sys.stderr)"
     )
-    done = scout_pin("--help", code=probe)
+    done = process("--help", code=probe)
     assert done.stderr.strip() == "[]"
     for verb in ("gait", "view", "ik", "info", "urdf"):
         assert verb in done.stdout
@@ -280,7 +294,7 @@ def test_a_closed_pipe_is_no_error():
     assert "Traceback" not in done.stderr
 
 
-def test_view_writes_one_page_and_serves_for_as_long_as_asked(tmp_path):
+def test_view_writes_one_page_and_serves_for_as_long_as_asked(scout_pin, tmp_path):
     done = scout_pin("view", "--html", "walk.html", "--gait", EXAMPLES / "walk.toml", cwd=tmp_path)
     assert (done.returncode, done.stdout) == (0, "")
     assert done.stderr == "wrote walk.html\n"
@@ -290,7 +304,7 @@ def test_view_writes_one_page_and_serves_for_as_long_as_asked(tmp_path):
     assert "showing Scout, gait thesis at http://127.0.0.1:" in done.stderr
 
 
-def test_view_on_a_busy_port_says_so(tmp_path):
+def test_view_on_a_busy_port_says_so(scout_pin, tmp_path):
     import socket
 
     with socket.create_server(("127.0.0.1", 0)) as taken:
@@ -302,7 +316,7 @@ def test_view_on_a_busy_port_says_so(tmp_path):
     assert "Traceback" not in done.stderr
 
 
-def test_gait_writes_its_report_as_a_page_beside_the_table(tmp_path):
+def test_gait_writes_its_report_as_a_page_beside_the_table(scout_pin, tmp_path):
     done = scout_pin("gait", "--html", "report.html", cwd=tmp_path)
     assert done.returncode == 0
     assert "Scout can't walk this gait" in done.stdout
@@ -318,10 +332,10 @@ def test_angles_of_a_leg_and_the_robots_numbers_need_neither_scipy_nor_matplotli
     )
     leg = ("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")
     for words in (("info",), leg, (*leg, "--json", "-")):
-        assert scout_pin(*words, code=probe).stderr.strip() == "[]"
+        assert process(*words, code=probe).stderr.strip() == "[]"
 
 
-def test_a_gait_takes_the_branch_it_is_told():
+def test_a_gait_takes_the_branch_it_is_told(scout_pin):
     def theta(*words):
         done = scout_pin("gait", "--samples", "11", "--json", "-", *words)
         assert done.returncode == 0, done.stderr

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from commands import ROOT, run
 
+from scout_pin.study.servo import ServoGains
+
 SQUAT = ["--gait", str(ROOT / "examples" / "squat.toml"), "--time-step", "0.002"]
 
 
@@ -21,6 +23,14 @@ def simulate(capfd):
 @pytest.fixture
 def mujoco():
     return pytest.importorskip("mujoco", reason="MuJoCo isn't installed: pip install mujoco")
+
+
+@pytest.mark.parametrize("verb", ["simulate", "plan"])
+def test_help_says_the_gains_that_servos_have_where_none_are_given(capfd, verb):
+    _, out, _ = run(f"scout-pin {verb}", [verb, "--help"], capfd)
+    said = " ".join(out.split())
+    assert f"a position servo gives way (default: {ServoGains().stiffness:g})" in said
+    assert f"how it is damped (default: {ServoGains().damping:g})" in said
 
 
 @pytest.mark.usefixtures("mujoco")

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,13 @@ def command(robot, *words, environment=None, **options):
     return done
 
 
+@cache
+def answer(robot, words, **environment):
+    """What a command says on standard output in UTF-8; several tests compare with it."""
+    settings = {"PYTHONIOENCODING": "utf-8"} | environment
+    return command(robot, *words, environment=settings).stdout.decode()
+
+
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252", "cp437"])
 @pytest.mark.parametrize(("robot", "words"), EVERY)
 def test_every_encoding_gets_a_readable_answer(robot, words, encoding):
@@ -41,8 +49,8 @@ def test_every_encoding_gets_a_readable_answer(robot, words, encoding):
     assert (done.returncode, done.stderr) == (0, b"")
     text = done.stdout.decode(encoding)
     assert not re.search(r"\\u|\\x|\?", text)
-    plain = command(robot, *words, environment={"PYTHONIOENCODING": "utf-8", "COLUMNS": "80"})
-    numbers = [re.findall(r"\d+\.\d+", one) for one in (text, plain.stdout.decode())]
+    plain = answer(robot, tuple(words), COLUMNS="80")
+    numbers = [re.findall(r"\d+\.\d+", one) for one in (text, plain)]
     assert numbers[0] == numbers[1]
     assert len(numbers[0]) > 10
 
@@ -50,10 +58,7 @@ def test_every_encoding_gets_a_readable_answer(robot, words, encoding):
 @pytest.mark.parametrize("width", ["20", "40"])
 @pytest.mark.parametrize(("robot", "words"), EVERY)
 def test_no_number_is_cut_below_80_columns(robot, words, width):
-    wide, narrow = (
-        command(robot, *words, environment={"COLUMNS": columns}).stdout.decode()
-        for columns in ("200", width)
-    )
+    wide, narrow = (answer(robot, tuple(words), COLUMNS=columns) for columns in ("200", width))
     decimals = r"-?\d+\.\d+"
     assert sorted(re.findall(decimals, narrow)) == sorted(re.findall(decimals, wide))
     assert "…" not in narrow

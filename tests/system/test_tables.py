@@ -1,11 +1,10 @@
-"""Tables as people have them, through all three commands as a user runs them."""
+"""Tables as people have them, through all three commands."""
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
+from types import SimpleNamespace
 
+import commands
 import numpy as np
 import pytest
 
@@ -16,23 +15,19 @@ from scout_pin.motion.gait import BODIES
 from thesis_pin.report.writers import csv_bytes
 
 ROOT = Path(__file__).parents[2]
-MODULES = {
-    "scout-pin": "scout_pin.cli",
-    "pollard-pin": "pollard_pin.cli",
-    "thesis-pin": "thesis_pin.command.main",
-}
 
 
-def run(command, *arguments):
-    code = f"import sys; from {MODULES[command]} import main; sys.exit(main())"
-    return subprocess.run(
-        [sys.executable, "-c", code, *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        env=os.environ | {"COLUMNS": "80", "PYTHONPATH": str(ROOT)},
-        check=False,
-    )
+@pytest.fixture
+def run(capfd, monkeypatch):
+    """A command called in this process."""
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.chdir(ROOT)
+
+    def call(command, *arguments):
+        code, out, err = commands.run(command, list(map(str, arguments)), capfd)
+        return SimpleNamespace(returncode=code, stdout=out, stderr=err)
+
+    return call
 
 
 def gait():
@@ -73,7 +68,7 @@ def motors():
 
 
 @pytest.mark.parametrize("motion", [gait, path, motors])
-def test_a_spreadsheet_s_table_gives_the_same_numbers_and_says_so(motion, tmp_path):
+def test_a_spreadsheet_s_table_gives_the_same_numbers_and_says_so(run, motion, tmp_path):
     command, words, columns = motion()
     plain = csv_bytes(columns).decode()
     continental = "sep=;\n" + plain.replace(",", ";").replace(".", ",").replace("\n", ";;\r\n")
@@ -93,7 +88,7 @@ def test_a_spreadsheet_s_table_gives_the_same_numbers_and_says_so(motion, tmp_pa
 
 
 @pytest.mark.parametrize("motion", [gait, path, motors])
-def test_milliseconds_in_t_are_doubted_before_the_verdict(motion, tmp_path):
+def test_milliseconds_in_t_are_doubted_before_the_verdict(run, motion, tmp_path):
     command, words, columns = motion()
     (time,) = {"t", "time", "time_s"} & columns.keys()
     scaled = {name if name != time else "t": values for name, values in columns.items()}
@@ -117,7 +112,7 @@ def test_milliseconds_in_t_are_doubted_before_the_verdict(motion, tmp_path):
 
 @pytest.mark.parametrize("motion", [gait, path, motors])
 @pytest.mark.parametrize("lines", [0, 1, 2])
-def test_a_table_of_hardly_any_rows_is_refused_in_one_line(motion, lines, tmp_path):
+def test_a_table_of_hardly_any_rows_is_refused_in_one_line(run, motion, lines, tmp_path):
     command, words, columns = motion()
     kept = csv_bytes(columns).splitlines(keepends=True)[:lines]
     (tmp_path / "short.csv").write_bytes(b"".join(kept))

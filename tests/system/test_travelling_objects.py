@@ -3,6 +3,7 @@
 import copy
 import multiprocessing
 import pickle
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -151,10 +152,16 @@ def travelled(way, thing):
     return pickle.loads(pickle.dumps(thing)) if way == "pickle" else copy.deepcopy(thing)
 
 
+@cache
+def made(name):
+    """A traveller, made once for both ways."""
+    return MAKERS[name]()
+
+
 @pytest.mark.parametrize("way", ["pickle", "deepcopy"])
 @pytest.mark.parametrize("name", MAKERS)
 def test_an_object_arrives_with_the_numbers_it_left_with(way, name):
-    thing = MAKERS[name]()
+    thing = made(name)
     found = travelled(way, thing)
     assert type(found) is type(thing)
     assert same(thing, found)

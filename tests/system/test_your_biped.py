@@ -1,28 +1,28 @@
 """docs/your_biped.md, run as it stands: from nothing to a page to mail in six commands."""
 
 import json
-import os
 import re
 import shlex
-import subprocess
-import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from commands import run
 
 ROOT = Path(__file__).parents[2]
 URDF = ROOT / "urdf" / "scout" / "scout.urdf"
 
 
-def scout_pin(*arguments):
-    code = "import sys; from scout_pin.cli import main; sys.exit(main())"
-    return subprocess.run(
-        [sys.executable, "-c", code, *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        env=os.environ | {"COLUMNS": "80", "PYTHONPATH": str(ROOT)},
-        check=False,
-    )
+@pytest.fixture
+def scout_pin(capfd, monkeypatch):
+    """The command called in this process."""
+    monkeypatch.setenv("COLUMNS", "80")
+
+    def call(*arguments):
+        code, out, err = run("scout-pin", list(map(str, arguments)), capfd)
+        return SimpleNamespace(returncode=code, stdout=out, stderr=err)
+
+    return call
 
 
 def commands(page):
@@ -33,7 +33,7 @@ def commands(page):
     return [shlex.split(line)[1:] for block in blocks for line in block.splitlines()]
 
 
-def test_six_commands_lead_from_nothing_to_a_page_to_mail(tmp_path, monkeypatch):
+def test_six_commands_lead_from_nothing_to_a_page_to_mail(scout_pin, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     lines = commands("your_biped.md")[:6]
     assert [words[0] for words in lines] == ["new", "info", "view", "new", "gait", "gait"]
@@ -47,7 +47,7 @@ def test_six_commands_lead_from_nothing_to_a_page_to_mail(tmp_path, monkeypatch)
     assert "<svg" in (tmp_path / "info.html").read_text(encoding="utf-8")
 
 
-def test_nothing_is_replaced_unless_it_is_asked_for(tmp_path):
+def test_nothing_is_replaced_unless_it_is_asked_for(scout_pin, tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text("mine")
     for words in (
@@ -64,7 +64,7 @@ def test_nothing_is_replaced_unless_it_is_asked_for(tmp_path):
     assert "my_biped" in path.read_text()
 
 
-def test_a_file_that_is_there_is_refused_before_anything_is_read_for_it(tmp_path):
+def test_a_file_that_is_there_is_refused_before_anything_is_read_for_it(scout_pin, tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text("mine")
     nowhere = tmp_path / "nowhere"
@@ -78,7 +78,7 @@ def test_a_file_that_is_there_is_refused_before_anything_is_read_for_it(tmp_path
         assert "No such file" in scout_pin(*words, "--force").stderr
 
 
-def test_a_urdf_becomes_the_same_robot_on_the_command_line(tmp_path):
+def test_a_urdf_becomes_the_same_robot_on_the_command_line(scout_pin, tmp_path):
     target = tmp_path / "again.toml"
     done = scout_pin("from-urdf", URDF, "--to", str(target))
     assert done.returncode == 0, done.stderr
@@ -91,7 +91,7 @@ def test_a_urdf_becomes_the_same_robot_on_the_command_line(tmp_path):
     assert scout_pin("from-urdf", URDF).stdout == target.read_text()
 
 
-def test_a_tilted_sole_is_an_error_of_info_with_the_angle_to_change(tmp_path):
+def test_a_tilted_sole_is_an_error_of_info_with_the_angle_to_change(scout_pin, tmp_path):
     path = tmp_path / "tilted.toml"
     assert scout_pin("new", str(path)).returncode == 0
     text = path.read_text().replace("[180, 90, 335, 50, 65, 180]", "[180, 90, 335, 50, 75, 180]")
@@ -106,7 +106,9 @@ def test_a_tilted_sole_is_an_error_of_info_with_the_angle_to_change(tmp_path):
     assert scout_pin("info", "--specification", str(path)).returncode == 0
 
 
-def test_a_robot_without_a_gait_is_shown_in_its_neutral_pose_and_told_where_gaits_are(tmp_path):
+def test_a_robot_without_a_gait_is_shown_in_its_neutral_pose_and_told_where_gaits_are(
+    scout_pin, tmp_path
+):
     path, page, told = tmp_path / "mine.toml", tmp_path / "page.html", tmp_path / "told.json"
     assert scout_pin("new", str(path)).returncode == 0
     words = ("--specification", str(path))
@@ -118,7 +120,7 @@ def test_a_robot_without_a_gait_is_shown_in_its_neutral_pose_and_told_where_gait
     assert json.loads(told.read_text())["title"] == "Scout, gait thesis"
 
 
-def test_sizes_that_nobody_builds_are_warned_of_and_refused_under_strict(tmp_path):
+def test_sizes_that_nobody_builds_are_warned_of_and_refused_under_strict(scout_pin, tmp_path):
     path = tmp_path / "heavy.toml"
     assert scout_pin("new", str(path)).returncode == 0
     path.write_text(path.read_text().replace("mass = 0.50", "mass = 600.0", 1))

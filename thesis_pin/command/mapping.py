@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.command.any_robot import loaded
-from thesis_pin.command.options import quantity
+from thesis_pin.command.numbers import quantity
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, write_results
@@ -55,7 +55,7 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
             table = csv_bytes(written.columns(space))
             files = {"workspace.json": content, "workspace.csv": table} | workspace_files(space)
         if arguments.html:
-            from thesis_pin.pages.workspace import workspace_page
+            from thesis_pin.pages.reports.workspace import workspace_page
 
             page = workspace_page(space)
     write_results(arguments, files, content)

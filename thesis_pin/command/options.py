@@ -3,103 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import math
-from collections.abc import Callable
 
+from thesis_pin.command.numbers import add_count, add_number
 from thesis_pin.command.registry import Words
 from thesis_pin.errors import BadInput
-from thesis_pin.numeric.checks import MOST, shown
-
-
-def number(
-    name: str, *, positive: bool = False, within: tuple[float, float] | None = None, unit: str = ""
-) -> Callable[[str], float]:
-    """An argparse type: a finite number, optionally positive, or between two bounds.
-
-    Args:
-        name: The flag.
-        positive: Whether it is above zero.
-        within: Least and greatest value.
-        unit: What it counts, for messages.
-    """
-    low, high = within or (-math.inf, math.inf)
-    allowed = "a positive number" if positive else "a finite number"
-    if within is not None:
-        allowed = f"{low:g} to {high:g} {unit}".rstrip()
-
-    def read(text: str) -> float:
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not (math.isfinite(value) and low <= value <= high) or (positive and value <= 0):
-            raise argparse.ArgumentTypeError(f"{name} is {shown(text)}; allowed: {allowed}")
-        return value
-
-    return read
-
-
-def count(name: str, least: int, most: int = MOST) -> Callable[[str], int]:
-    """An argparse type: a whole number from ``least`` to ``most``."""
-
-    def read(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            value = least - 1
-        if not least <= value <= most:
-            raise argparse.ArgumentTypeError(
-                f"{name} is {shown(text)}; allowed: a whole number of at least {least}"
-                + (f", at most {most}" if value > most else "")
-            )
-        return value
-
-    return read
-
-
-def quantity(flag: str, text: str) -> float:
-    """A number among the words of a flag.
-
-    Raises:
-        BadInput: It is none, or not finite.
-    """
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise BadInput(f"{flag} has {shown(text)}", allowed="a finite number")
-    return value
-
-
-def wrench(text: str) -> tuple[str, tuple[float, ...]]:
-    """An argparse type: ``FRAME=fx,fy,fz``, three more numbers for a moment."""
-    frame, _, values = text.rpartition("=")
-    numbers = []
-    for value in values.split(","):
-        try:
-            numbers.append(float(value))
-        except ValueError:
-            numbers.append(math.nan)
-    if not frame or len(numbers) not in (3, 6) or not all(map(math.isfinite, numbers)):
-        raise argparse.ArgumentTypeError(
-            f"--external is {shown(text)}; allowed: FRAME=fx,fy,fz or FRAME=fx,fy,fz,mx,my,mz [N], "
-            "[N·m]"
-        )
-    return frame, (*numbers, 0.0, 0.0, 0.0)[:6]
-
-
-def slope(text: str) -> tuple[float, float]:
-    """An argparse type: a floor's slope, and the heading in which it rises [°]."""
-    try:
-        numbers = [float(part) for part in text.split(",")]
-    except ValueError:
-        numbers = [math.nan]
-    if len(numbers) > 2 or not all(map(math.isfinite, numbers)) or not 0 <= numbers[0] < 89:
-        raise argparse.ArgumentTypeError(
-            f"--slope is {shown(text)}; allowed: DEG or DEG,HEADING, DEG from 0 to below 89 [°]"
-        )
-    return numbers[0], (*numbers, 0.0)[1]
 
 
 def add_robot(words: Words, another: str) -> None:
@@ -154,35 +61,20 @@ def add_frame(words: Words) -> None:
 
 def add_samples(words: Words, default: int) -> None:
     """At how many samples a motion is worked out."""
-    words.add_argument(
-        "--samples",
-        type=count("--samples", 2),
-        default=default,
-        metavar="N",
-        help=f"evenly spaced samples; more stand beside abrupt changes (default: {default})",
-    )
+    text = "evenly spaced samples; more stand beside abrupt changes"
+    add_count(words, "--samples", text, least=2, default=default)
 
 
 def add_points(words: Words, default: int) -> None:
     """How finely a grid is divided."""
-    words.add_argument(
-        "--points",
-        type=count("--points", 2),
-        default=default,
-        metavar="N",
-        help=f"points an axis (default: {default})",
-    )
+    add_count(words, "--points", "points an axis", least=2, default=default)
 
 
-def add_friction(words: Words) -> None:
-    """How rough the floor is."""
-    words.add_argument(
-        "--friction",
-        type=number("--friction", positive=True),
-        default=0.6,
-        metavar="NUMBER",
-        help="coefficient between sole and floor, at least 1e-6 (default: 0.6)",
-    )
+def add_friction(words: Words, default: float | None = 0.6) -> None:
+    """How rough the floor is; None takes what the specification says."""
+    text = "coefficient between sole and floor, at least 1e-6"
+    text += " (default: the specification's)" if default is None else ""
+    add_number(words, "--friction", "NUMBER", text, positive=True, default=default)
 
 
 LISTS = "lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)"
@@ -191,18 +83,10 @@ LISTS = "lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)"
 
 def add_sizing(words: Words) -> None:
     """How lists of servos are held against a motion."""
-    words.add_argument(
-        "--voltage",
-        type=number("--voltage", positive=True),
-        metavar="V",
-        help="take those for this voltage (default: all)",
-    )
-    words.add_argument(
-        "--factor",
-        type=number("--factor", positive=True),
-        default=1.0,
-        help="least safety factor against the torque-speed line (default: 1)",
-    )
+    voltage = "take those for this voltage (default: all)"
+    add_number(words, "--voltage", "V", voltage, positive=True)
+    factor = "least safety factor against the torque-speed line"
+    add_number(words, "--factor", "FACTOR", factor, positive=True, default=1.0)
     words.add_argument("--out", metavar="DIR", help="write report.json and sizes.csv")
     add_json(words, "the answer")
     words.add_argument(
@@ -237,24 +121,13 @@ def add_info(words: Words) -> None:
 
 def add_view(words: Words) -> None:
     """The options every ``view`` verb has besides its motion's."""
-    words.add_argument(
-        "--speed",
-        type=number("--speed", positive=True),
-        default=1.0,
-        help="playing speed; 1 is real time (default: 1)",
-    )
-    words.add_argument(
-        "--port",
-        type=count("--port", 0, 65535),
-        help="port on 127.0.0.1; 0 is any (default: the first free one from 7000)",
-    )
+    speed = "playing speed; 1 is real time"
+    add_number(words, "--speed", "SPEED", speed, positive=True, default=1.0)
+    port = "port on 127.0.0.1; 0 is any (default: the first free one from 7000)"
+    add_count(words, "--port", port, least=0, most=65535, metavar="PORT")
     words.add_argument("--no-browser", action="store_true", help="only print the address")
-    words.add_argument(
-        "--hold",
-        type=number("--hold", positive=True),
-        metavar="SECONDS",
-        help="end by itself (default: on Ctrl-C)",
-    )
+    hold = "end by itself (default: on Ctrl-C)"
+    add_number(words, "--hold", "SECONDS", hold, positive=True)
     words.add_argument(
         "--html", metavar="FILE|-", help="write one self-contained page instead of serving it"
     )
@@ -281,13 +154,8 @@ def add_convert(words: Words) -> None:
         metavar="UNITS",
         help="of tables, as mm,deg,ms (default: SI; of m mm cm, rad deg, s ms us)",
     )
-    words.add_argument(
-        "--samples",
-        type=count("--samples", 2),
-        metavar="N",
-        help="evenly spaced samples; more stand beside abrupt changes (default: the motion's own, "
-        "or 401)",
-    )
+    samples = "evenly spaced samples; more stand beside abrupt changes (default: the motion's own, "
+    add_count(words, "--samples", f"{samples}or 401)", least=2)
     words.add_argument(
         "--servos",
         metavar="FILE",
@@ -298,13 +166,8 @@ def add_convert(words: Words) -> None:
 
 def add_jobs(words: Words) -> None:
     """How many threads or processes share the work."""
-    words.add_argument(
-        "--jobs",
-        type=count("--jobs", 1),
-        default=2,
-        metavar="N",
-        help="threads or processes that share the work (default: 2)",
-    )
+    text = "threads or processes that share the work"
+    add_count(words, "--jobs", text, least=1, default=2)
 
 
 def add_audit(words: Words) -> None:

@@ -6,7 +6,8 @@ import argparse
 import math
 from typing import TYPE_CHECKING, TypedDict, cast
 
-from thesis_pin.command.options import add_jobs, add_json, count, number
+from thesis_pin.command.numbers import add_count, add_number
+from thesis_pin.command.options import add_jobs, add_json
 from thesis_pin.command.registry import Robot, Words, found
 from thesis_pin.command.results import Report, deliver
 from thesis_pin.command.running import ExitCode
@@ -33,40 +34,29 @@ class Tried(TypedDict):
 
 def add_simulation(words: Words) -> None:
     """What every ``simulate`` verb has besides its motion, servos and engine."""
-    words.add_argument(
-        "--time-step",
-        type=number("--time-step", positive=True),
-        metavar="SECONDS",
-        help="of the engine, at most (default: what suits engine and servos)",
-    )
-    words.add_argument(
+    step = "of the engine, at most (default: what suits engine and servos)"
+    add_number(words, "--time-step", "SECONDS", step, positive=True)
+    add_number(
+        words,
         "--servo-zero-error",
-        type=number("--servo-zero-error", within=(0.0, 45.0), unit="degrees"),
+        "DEGREES",
+        "standard deviation of where each servo takes zero to be",
+        within=(0.0, 45.0),
+        unit="degrees",
         default=0.0,
-        metavar="DEGREES",
-        help="standard deviation of where each servo takes zero to be (default: 0)",
     )
-    words.add_argument(
+    add_number(
+        words,
         "--mass-error",
-        type=number("--mass-error", within=(0.0, 0.3)),
+        "SHARE",
+        "standard deviation of each body's mass, relative to it; 0.05 is 5 %%",
+        within=(0.0, 0.3),
         default=0.0,
-        metavar="SHARE",
-        help="standard deviation of each body's mass, relative to it; 0.05 is 5 %% (default: 0)",
     )
-    words.add_argument(
-        "--draws",
-        type=count("--draws", 1),
-        default=1,
-        metavar="N",
-        help="robots with such errors, each other ones (default: 1)",
-    )
-    words.add_argument(
-        "--seed",
-        type=count("--seed", 0),
-        default=0,
-        metavar="N",
-        help="of the errors; the same seed draws the same robots (default: 0)",
-    )
+    draws = "robots with such errors, each other ones"
+    add_count(words, "--draws", draws, least=1, default=1)
+    seed = "of the errors; the same seed draws the same robots"
+    add_count(words, "--seed", seed, least=0, default=0)
     add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
     add_json(words, "the simulation")

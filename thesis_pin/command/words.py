@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
+from pathlib import Path
+
+from thesis_pin.command.numbers import add_number, slope, wrench
 from thesis_pin.command.options import (
     LISTS,
     add_euler,
@@ -9,9 +13,6 @@ from thesis_pin.command.options import (
     add_friction,
     add_points,
     add_smooth,
-    number,
-    slope,
-    wrench,
 )
 from thesis_pin.command.registry import Words
 
@@ -43,6 +44,30 @@ def which_motion(words: Words) -> None:
     add_euler(words)
 
 
+def perhaps_motion(words: Words) -> None:
+    """The same, where a robot may stand still."""
+    words.add_argument(
+        "motion",
+        nargs="?",
+        metavar="MOTION",
+        help="CSV as for torque (default: sliders move the robot, its loops stay closed)",
+    )
+    add_smooth(words)
+    add_frame(words)
+    add_euler(words)
+
+
+def closures_and_motion(arguments: argparse.Namespace) -> tuple[str | None, str | None]:
+    """The two files that may stand behind the robot's: one alone is told by its ending."""
+    closures, motion = arguments.closures, arguments.motion
+    if motion is None and closures is not None and Path(closures).suffix.lower() in _TABLES:
+        return None, closures
+    return closures, motion
+
+
+_TABLES = (".csv", ".tsv", ".txt", ".dat")
+
+
 def which_list(words: Words) -> None:
     """Which servos."""
     words.add_argument(
@@ -72,12 +97,8 @@ def which_grid(words: Words) -> None:
         help="what else leads and stands still; motors that nothing leads stay at the pose",
     )
     add_points(words, 41)
-    words.add_argument(
-        "--length",
-        type=number("--length", positive=True),
-        metavar="METRES",
-        help="of shifts, that counts as a radian in condition numbers (default: 0.1)",
-    )
+    length = "of shifts, that counts as a radian in condition numbers (default: 0.1)"
+    add_number(words, "--length", "METRES", length, positive=True)
 
 
 def where_to(words: Words) -> None:
@@ -139,12 +160,8 @@ def which_stance(words: Words) -> None:
         "NAME=0.03 (a ball, in metres), NAME=0.2x0.1 (a sole) (default: a guess, which is said)",
     )
     add_friction(words)
-    words.add_argument(
-        "--floor-height",
-        type=number("--floor-height"),
-        metavar="M",
-        help="height of the floor at the world's origin [m] (default: below the feet)",
-    )
+    height = "height of the floor at the world's origin [m] (default: below the feet)"
+    add_number(words, "--floor-height", "M", height)
     words.add_argument(
         "--slope",
         type=slope,
@@ -178,10 +195,10 @@ def written(words: Words) -> None:
 
 
 def _add_precision(words: Words) -> None:
-    words.add_argument(
+    add_number(
+        words,
         "--precision",
-        type=number("--precision"),
-        metavar="RAD",
-        help="loop equations that differ by less count as one; 0 takes every one as real "
+        "RAD",
+        "loop equations that differ by less count as one; 0 takes every one as real "
         "(default: told from the file's own noise)",
     )

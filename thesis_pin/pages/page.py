@@ -16,6 +16,7 @@ from thesis_pin.pages import player as viewer
 from thesis_pin.pages.plots import MARGINS, figure
 from thesis_pin.pages.scene import Scene
 from thesis_pin.report.curves import Plot
+from thesis_pin.report.info import assumed_values
 from thesis_pin.report.tables import Table
 
 _SOFTWARE = ("thesis-pin", "pin", "numpy", "scipy", "meshcat", "plotly")
@@ -122,11 +123,7 @@ def assumptions_table(assumptions: Iterable[Mapping[str, object]]) -> Table:
     rows = [
         (
             str(entry["name"]).replace("_", " "),
-            ", ".join(
-                f"{k} {v:g}" if isinstance(v, float) else f"{k} {v}"
-                for k, v in entry.items()
-                if k not in ("name", "why")
-            ),
+            assumed_values(entry),
             str(entry["why"]),
         )
         for entry in assumptions

@@ -93,6 +93,18 @@ def body(name: str, mass: float, com: np.ndarray, inertia: np.ndarray, span: flo
     }
 
 
+_UNITS = {
+    "coulomb": " N·m",
+    "duration": " s",
+    "effort": " N·m",
+    "inertia": " kg·m²",
+    "position": " m",
+    "velocity": " rad/s",
+    "viscous": " N·m·s/rad",
+}
+"""Of values that assumptions have, where it isn't in their names."""
+
+
 def assumptions(stated: Strict) -> list[dict[str, object]]:
     """What a specification assumes, one entry an assumption: ``name``, values, ``why``."""
     dumped: dict[str, Any] = stated.model_dump(mode="json")
@@ -256,12 +268,29 @@ def _list(value: object) -> list[object]:
 
 def _assumed(one: dict[str, object]) -> str:
     """An assumption with its values, if they are few, and its reason."""
-    values = [
-        f"{key.replace('_', ' ')} {value}" for key, value in one.items() if _short(key, value)
-    ]
-    said = f": {', '.join(values)}" if values else ""
+    few = {key: v for key, v in one.items() if not isinstance(v, list) or len(v) < 4}
+    values = assumed_values(few)
+    said = f": {values}" if values else ""
     return f"Assumed {str(one['name']).replace('_', ' ')}{said} ({one['why']})."
 
 
-def _short(key: str, value: object) -> bool:
-    return key not in ("name", "why") and not (isinstance(value, list) and len(value) > 3)
+def assumed_values(one: Mapping[str, object]) -> str:
+    """The values of an assumption for people, with their units; a range as from and to.
+
+    Args:
+        one: An entry of :func:`assumptions`.
+    """
+    values = {key: value for key, value in one.items() if key not in ("name", "why")}
+    said, ends = [], (values.get("lower_deg"), values.get("upper_deg"))
+    if all(isinstance(end, int | float) for end in ends):
+        said = [f"{_said(values.pop('lower_deg'))} to {_said(values.pop('upper_deg'))}°"]
+    for key, value in values.items():
+        unit = "°" if key.endswith("_deg") else _UNITS.get(key, "")
+        said.append(f"{key.removesuffix('_deg').replace('_', ' ')} {_said(value)}{unit}")
+    return ", ".join(said)
+
+
+def _said(value: object) -> str:
+    if isinstance(value, list | tuple):
+        return f"({', '.join(map(_said, value))})"
+    return f"{value:z.10g}" if isinstance(value, float) else str(value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Protocol
 
@@ -25,8 +26,45 @@ class Criterion(Protocol):
     def met(self) -> bool: ...
 
 
+class Doubted(Protocol):
+    """A report that may be doubted."""
+
+    def doubts(self) -> list[str]:
+        """What is to be asked before its numbers are believed."""
+
+
 Tries = Sequence[Sequence[Criterion]]
 """The criteria of each try, in one order."""
+
+
+class Tally(ABC):
+    """Several tries of a motion by any robot, and whether they keep what is asked."""
+
+    report: Doubted
+
+    @property
+    @abstractmethod
+    def tries(self) -> Tries:
+        """What is asked of each try, with its answers."""
+
+    @property
+    def passed(self) -> bool:
+        """Whether every try keeps all that is asked."""
+        return all(map(kept, self.tries))
+
+    @property
+    def within_limits(self) -> bool:
+        """The same, by the name that all reports have."""
+        return self.passed
+
+    def doubts(self) -> list[str]:
+        """What is to be asked before the numbers are believed: what the report asks."""
+        return self.report.doubts()
+
+
+def kept(criteria: Sequence[Criterion]) -> bool:
+    """Whether a try keeps all that is asked."""
+    return all(one.met for one in criteria)
 
 
 def tallied(tries: Tries, spread: Mapping[str, Sequence[float]]) -> dict[str, object]:
@@ -49,7 +87,7 @@ def tallied(tries: Tries, spread: Mapping[str, Sequence[float]]) -> dict[str, ob
 
 def passed(tries: Tries) -> int:
     """How many tries keep all that is asked."""
-    return sum(all(one.met for one in each) for each in tries)
+    return sum(map(kept, tries))
 
 
 def passed_sentence(tries: Tries) -> str:

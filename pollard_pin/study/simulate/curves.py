@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from pollard_pin.specification import ACTUATOR_SYMBOLS
@@ -24,13 +26,13 @@ def plots(simulation: Simulation) -> list[Plot]:
 def deviation(simulation: Simulation) -> Plot:
     """How far the tool is off its path; a straight line grows exponentially."""
     replay = simulation.replay
-    return Plot(
+    return _decades(
+        replay.time,
         "Deviation of the spray tip",
         "From its planned place, by its decimal logarithm: a straight line is exponential growth.",
-        "log10 of the deviation in m",
-        [Curve("deviation", _log10(replay.deviation), BLUE)],
-        replay.time,
-        limits=[Limit("1 mm", float(np.log10(TOLERANCES.replay_deviation)))],
+        "the deviation in m",
+        Curve("deviation", replay.deviation, BLUE),
+        Limit("1 mm", TOLERANCES.replay_deviation),
     )
 
 
@@ -51,22 +53,22 @@ def _small(simulation: Simulation) -> list[Plot]:
     replay = simulation.replay
     error = np.abs(replay.energy_error) / max(replay.exchanged, 1e-300)
     return [
-        Plot(
+        _decades(
+            replay.time,
             "Opening of the ball joints",
             "The wider open one of both, by its decimal logarithm.",
-            "log10 of the opening in m",
-            [Curve("opening", _log10(replay.opening), GREEN)],
-            replay.time,
-            limits=[Limit("allowed", float(np.log10(TOLERANCES.replay_opening)))],
+            "the opening in m",
+            Curve("opening", replay.opening, GREEN),
+            Limit("allowed", TOLERANCES.replay_opening),
         ),
-        Plot(
+        _decades(
+            replay.time,
             "Balance of energy",
             "Work of the motors minus change of energy, over the work exchanged in all, by its "
             "decimal logarithm.",
-            "log10 of the share",
-            [Curve("imbalance", _log10(error), VERMILLION)],
-            replay.time,
-            limits=[Limit("allowed", float(np.log10(TOLERANCES.replay_energy)))],
+            "the share",
+            Curve("imbalance", error, VERMILLION),
+            Limit("allowed", TOLERANCES.replay_energy),
         ),
     ]
 
@@ -78,8 +80,12 @@ def figures(simulation: Simulation) -> dict[str, bytes]:
     return figure_files("torques", motors) | figure_files("deviation", errors)
 
 
-def _log10(values: np.ndarray) -> np.ndarray:
-    """Decimal logarithms, gaps where a value is zero."""
+def _decades(
+    time: np.ndarray, title: str, text: str, what: str, curve: Curve, limit: Limit
+) -> Plot:
+    """A curve and its limit by their decimal logarithms; gaps where a value is zero."""
     with np.errstate(divide="ignore"):
-        found = np.log10(values)
-    return np.where(np.isfinite(found), found, np.nan)
+        found = np.log10(curve.y)
+    shown = replace(curve, y=np.where(np.isfinite(found), found, np.nan))
+    least = replace(limit, value=float(np.log10(limit.value)))
+    return Plot(title, text, f"log10 of {what}", [shown], time, limits=[least])

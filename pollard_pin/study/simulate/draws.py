@@ -19,8 +19,7 @@ from pollard_pin.specification import (
 )
 from pollard_pin.study.simulate.conditions import Conditions
 from pollard_pin.study.simulate.engines import engine_name
-from pollard_pin.study.simulate.measures import Measures, measures
-from pollard_pin.study.simulate.record import Replay
+from pollard_pin.study.simulate.measures import Measures, Replay, measures
 from pollard_pin.study.simulate.replay import Prepared, prepare, replay
 from pollard_pin.study.simulate.result import Simulation
 from thesis_pin.errors import BadInput

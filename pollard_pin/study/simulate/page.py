@@ -8,12 +8,13 @@ from pollard_pin.report.drawn.view import colour_of_part
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from pollard_pin.study.simulate.curves import plots
 from pollard_pin.study.simulate.result import Simulation
-from pollard_pin.study.simulate.tables import criteria_table, draws_table, how, motors_table
+from pollard_pin.study.simulate.tables import criteria_table, how, motors_table
 from thesis_pin.pages.drawing import CLOSED, OPEN, closure_items, robot_items
 from thesis_pin.pages.ghost import with_ghost
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import Ball, Group, Readout, Scene, Trace, levels, thinned
 from thesis_pin.report.curves import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
+from thesis_pin.report.draws import draws_tables
 from thesis_pin.tolerances import TOLERANCES
 
 MOST_SAMPLES = 1201
@@ -22,7 +23,6 @@ MOST_SAMPLES = 1201
 def simulation_page(simulation: Simulation) -> bytes:
     """A simulation as one self-contained HTML file."""
     report = simulation.report
-    draws = [draws_table(simulation)] if len(simulation.draws) > 1 else []
     return html(
         Page(
             title=f"{report.robot.specification.name.capitalize()}: {report.path.name}, simulated",
@@ -34,7 +34,7 @@ def simulation_page(simulation: Simulation) -> bytes:
             tables=[
                 criteria_table(simulation),
                 motors_table(simulation),
-                *draws,
+                *draws_tables(simulation.spread),
                 *closing_tables(report.assumptions(), simulation.parameters),
             ],
             scene=simulation_scene(simulation),

@@ -13,8 +13,8 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.study.simulate.conditions import Conditions, Servo, gains
 from pollard_pin.study.simulate.engines import LONGEST, carrier
 from pollard_pin.study.simulate.growth import Growth, felt_inertia, growth
+from pollard_pin.study.simulate.measures import Log, Replay
 from pollard_pin.study.simulate.planned import stretches
-from pollard_pin.study.simulate.record import Log, Replay
 from thesis_pin.errors import BadInput, ModelError, SingularPose, Unreachable
 from thesis_pin.numeric.arrays import ascending
 from thesis_pin.numeric.workers import silent

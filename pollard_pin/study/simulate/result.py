@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, LINK_NAMES
 from pollard_pin.study.simulate.conditions import Conditions
-from pollard_pin.study.simulate.measures import Measures
-from pollard_pin.study.simulate.record import Replay
+from pollard_pin.study.simulate.measures import Measures, Replay
 from pollard_pin.study.simulate.replay import Prepared
 from pollard_pin.study.simulate.verdict import (
     Criterion,
     criteria,
     draws_sentences,
-    passes,
     reason,
     sentences,
 )
-from thesis_pin.simulation.tallies import tallied
+from thesis_pin.simulation.tallies import Tally, passed, tallied
 from thesis_pin.tolerances import TOLERANCES
 from thesis_pin.version import __version__
 
@@ -29,7 +28,7 @@ VERSION = 1
 
 
 @dataclass(frozen=True)
-class Simulation:
+class Simulation(Tally):
     """What became of a path in an engine.
 
     Attributes:
@@ -48,20 +47,15 @@ class Simulation:
     draws: tuple[Measures, ...]
     engine: str
 
-    @property
-    def passed(self) -> bool:
-        """Whether every draw keeps all that is asked."""
-        return all(passes(one) for one in self.draws)
-
-    @property
-    def within_limits(self) -> bool:
-        """The same, by the name that all reports have."""
-        return self.passed
+    @cached_property
+    def tries(self) -> tuple[tuple[Criterion, ...], ...]:
+        """What is asked of each draw, with its answers."""
+        return tuple(criteria(one) for one in self.draws)
 
     @property
     def criteria(self) -> tuple[Criterion, ...]:
         """What is asked of the first draw, with its answers."""
-        return criteria(self.draws[0])
+        return self.tries[0]
 
     @property
     def reason(self) -> str | None:
@@ -69,14 +63,10 @@ class Simulation:
         held = not self.conditions.open_loop
         return reason(self.draws[0], self.prepared.growth, self.replay.slope, held)
 
-    def doubts(self) -> list[str]:
-        """What is to be asked before the numbers are believed: what the report asks."""
-        return self.report.doubts()
-
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
         draws, duration = len(self.draws), self.report.path.duration
-        lost = sum(not passes(one) for one in self.draws)
+        lost = draws - passed(self.tries)
         answer = (
             "FAIL: the simulated robot doesn't do" if lost else "PASS: the simulated robot does"
         )
@@ -107,7 +97,7 @@ class Simulation:
             "verdict": self.verdict(),
             "reason": self.reason,
             "criteria": [vars(one) for one in self.criteria],
-            **tallied([criteria(one) for one in self.draws], self.spread),
+            **tallied(self.tries, self.spread),
             "energy": {
                 "work": float(replay.work[-1].sum()),
                 "change": float(replay.energy[-1]),
@@ -170,7 +160,10 @@ class Simulation:
             "joints": list(JOINT_NAMES),
             "parameters": self.parameters,
             "summary": self.summary(),
-            "draws": [_draw(k, one) for k, one in enumerate(self.draws)],
+            "draws": [
+                _draw(k, one, asked)
+                for k, (one, asked) in enumerate(zip(self.draws, self.tries, strict=True))
+            ],
             "time": replay.time,
             "theta": replay.q,
             "theta_rate": replay.v,
@@ -205,11 +198,11 @@ class Simulation:
         return found
 
 
-def _draw(number: int, found: Measures) -> dict[str, object]:
+def _draw(number: int, found: Measures, asked: tuple[Criterion, ...]) -> dict[str, object]:
     peaks = {name: getattr(found, name) for name in ("deviation", "turn", "opening")}
     return {
         "draw": number,
-        "criteria": {one.name: one.met for one in criteria(found)},
+        "criteria": {one.name: one.met for one in asked},
         "mass_scale": dict(zip(LINK_NAMES, found.mass_scale.tolist(), strict=True)),
         "servo_zero": found.servo_zero,
         **{name: {"largest": value, "time": time} for name, (value, time) in peaks.items()},

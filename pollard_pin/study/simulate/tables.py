@@ -8,7 +8,7 @@ import numpy as np
 
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
 from pollard_pin.study.simulate.result import Simulation
-from thesis_pin.report.draws import draws_table as drawn_table
+from thesis_pin.report.draws import draws_tables
 from thesis_pin.report.tables import Part, Table
 
 ENGINE_WORDS = {
@@ -51,17 +51,6 @@ def criteria_table(simulation: Simulation) -> Table:
     return Table.of("Criteria", columns)
 
 
-def draws_table(simulation: Simulation) -> Table:
-    """How drawn robots do, in quantiles."""
-    units = {
-        "deviation": ("mm", 1e3),
-        "turn": ("°", np.degrees(1.0)),
-        "saturated": ("%", 1e2),
-        "peak_torque": ("N·m", 1.0),
-    }
-    return drawn_table(simulation.spread, units)
-
-
 def summary(simulation: Simulation) -> Iterator[Part]:
     """A simulation in a table and paragraphs."""
     report = simulation.report
@@ -73,8 +62,7 @@ def summary(simulation: Simulation) -> Iterator[Part]:
         [row[1:] for row in table.rows],
         "Of the first draw." if len(simulation.draws) > 1 else "",
     )
-    if len(simulation.draws) > 1:
-        yield draws_table(simulation)
+    yield from draws_tables(simulation.spread)
     yield ""
     yield from simulation.verdict()
     if not simulation.conditions.open_loop and simulation.conditions.damping is None:

@@ -51,11 +51,6 @@ def criteria(found: Measures) -> tuple[Criterion, ...]:
     return (_deviation(found), _turn(found), _opening(found), _energy(found), _saturation(found))
 
 
-def passes(found: Measures) -> bool:
-    """Whether everything is as asked."""
-    return all(one.met for one in criteria(found))
-
-
 def sentences(found: Measures, duration: float) -> list[str]:
     """What of a replay isn't as asked, and where it ends early.
 

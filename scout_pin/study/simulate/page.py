@@ -10,16 +10,15 @@ from scout_pin.study.simulate.curves import plots
 from scout_pin.study.simulate.result import Simulation
 from scout_pin.study.simulate.tables import (
     criteria_table,
-    draws_table,
     how,
     servos_table,
     steps_table,
 )
-from scout_pin.study.simulate.verdict import criteria
 from thesis_pin.pages.ghost import with_ghost
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import Arrow, Group, Readout, Scene, Trace, thinned
 from thesis_pin.report.curves import GREEN, ORANGE, PURPLE, SKY, VERMILLION
+from thesis_pin.report.draws import draws_tables
 from thesis_pin.tolerances import GRAVITY
 
 MOST_SAMPLES = 1201
@@ -28,7 +27,6 @@ MOST_SAMPLES = 1201
 def simulation_page(simulation: Simulation) -> bytes:
     """A simulation as one self-contained HTML file."""
     report = simulation.report
-    draws = [draws_table(simulation)] if len(simulation.draws) > 1 else []
     return html(
         Page(
             title=f"{report.robot.specification.name.capitalize()}: gait {report.gait.name}, "
@@ -42,7 +40,7 @@ def simulation_page(simulation: Simulation) -> bytes:
                 criteria_table(simulation),
                 servos_table(simulation),
                 steps_table(simulation),
-                *draws,
+                *draws_tables(simulation.spread),
                 *closing_tables(report.assumptions(), simulation.parameters),
             ],
             scene=simulation_scene(simulation),
@@ -95,7 +93,7 @@ def simulation_scene(simulation: Simulation) -> Scene:
 
 
 def _tiles(simulation: Simulation) -> list[Tile]:
-    first, met = simulation.draws[0], {one.name: one.met for one in criteria(simulation.draws[0])}
+    first, met = simulation.draws[0], {one.name: one.met for one in simulation.tries[0]}
     slip = "–" if first.worst_slip is None else f"{first.worst_slip.distance * 1e3:.2f} mm"
     share = (
         f"{abs(first.distance) * 1e3:.2f} mm off"

@@ -12,9 +12,9 @@ from scout_pin.specification import JOINT_NAMES, SIDES
 from scout_pin.study.simulate.conditions import Conditions
 from scout_pin.study.simulate.measures import Measures, turns
 from scout_pin.study.simulate.planned import SETTLING, Planned
-from scout_pin.study.simulate.verdict import criteria, draws_sentences, passes, sentences
+from scout_pin.study.simulate.verdict import Criterion, criteria, draws_sentences, sentences
 from scout_pin.study.simulate.walking import Walked
-from thesis_pin.simulation.tallies import tallied
+from thesis_pin.simulation.tallies import Tally, kept, tallied
 from thesis_pin.version import __version__
 
 MOST_WRITTEN = 4001
@@ -22,7 +22,7 @@ MOST_WRITTEN = 4001
 
 
 @dataclass(frozen=True)
-class Simulation:
+class Simulation(Tally):
     """What became of a gait in the second engine.
 
     Attributes:
@@ -41,15 +41,10 @@ class Simulation:
     draws: tuple[Measures, ...]
     engine: str
 
-    @property
-    def passed(self) -> bool:
-        """Whether every draw keeps all that is asked."""
-        return all(passes(one) for one in self.draws)
-
-    @property
-    def within_limits(self) -> bool:
-        """The same, by the name that all reports have."""
-        return self.passed
+    @cached_property
+    def tries(self) -> tuple[tuple[Criterion, ...], ...]:
+        """What is asked of each draw, with its answers."""
+        return tuple(criteria(one) for one in self.draws)
 
     @property
     def planned_peak(self) -> np.ndarray:
@@ -69,10 +64,6 @@ class Simulation:
         assumed = self.report.robot.specification.assumptions.floor_friction.coefficient
         return assumed if given is None else given
 
-    def doubts(self) -> list[str]:
-        """What is to be asked before the numbers are believed: what the report asks."""
-        return self.report.doubts()
-
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
         first = "PASS" if self.passed else "FAIL"
@@ -84,13 +75,10 @@ class Simulation:
                 said += [f"Draw {worst}: {one}" for one in sentences(self.draws[worst])]
             return said
         failed = sentences(self.draws[0])
-        return [*said, *failed] if failed else [*said, *self._kept()]
+        return [*said, *(failed or [one.words for one in self.tries[0]])]
 
     def _failures(self, draw: int) -> int:
-        return sum(not one.met for one in criteria(self.draws[draw]))
-
-    def _kept(self) -> list[str]:
-        return [one.words for one in criteria(self.draws[0])]
+        return sum(not one.met for one in self.tries[draw])
 
     def _how(self) -> str:
         draws = f" in {len(self.draws)} draws" if len(self.draws) > 1 else ""
@@ -114,7 +102,7 @@ class Simulation:
             "passed": self.passed,
             "verdict": self.verdict(),
             "start": self.start,
-            **tallied([criteria(one) for one in self.draws], self.spread),
+            **tallied(self.tries, self.spread),
             "planned_distance": self.draws[0].planned_distance,
             "planned_turn": self.draws[0].planned_turn,
             "planned_peak_torque": self.planned_peak,
@@ -167,7 +155,10 @@ class Simulation:
             "joints": list(JOINT_NAMES),
             "parameters": self.parameters,
             "summary": self.summary(),
-            "draws": [_draw(k, one) for k, one in enumerate(self.draws)],
+            "draws": [
+                _draw(k, one, asked)
+                for k, (one, asked) in enumerate(zip(self.draws, self.tries, strict=True))
+            ],
             "time": self.plan.time[keep],
             "q": self.walked.q[keep],
             "torque": self.walked.torque[keep],
@@ -193,11 +184,11 @@ class Simulation:
         return columns
 
 
-def _draw(number: int, found: Measures) -> dict[str, object]:
+def _draw(number: int, found: Measures, asked: tuple[Criterion, ...]) -> dict[str, object]:
     return {
         "draw": number,
-        "passed": passes(found),
-        "criteria": {one.name: {"met": one.met, "words": one.words} for one in criteria(found)},
+        "passed": kept(asked),
+        "criteria": {one.name: {"met": one.met, "words": one.words} for one in asked},
         "distance": found.distance,
         "sideways": found.sideways,
         "heading": found.heading,

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
 from scout_pin.study.simulate.result import Simulation
-from scout_pin.study.simulate.verdict import criteria
-from thesis_pin.report.draws import draws_table as drawn_table
+from thesis_pin.report.draws import draws_tables
 from thesis_pin.report.tables import Part, Table
 
 
@@ -40,8 +37,7 @@ def servos_table(simulation: Simulation) -> Table:
 
 def criteria_table(simulation: Simulation) -> Table:
     """What is asked, and how often it is kept."""
-    tries = [criteria(one) for one in simulation.draws]
-    rows = []
+    tries, rows = simulation.tries, []
     for k, one in enumerate(tries[0]):
         kept = sum(each[k].met for each in tries)
         answer = ("yes" if one.met else "no") if len(tries) == 1 else f"{kept} of {len(tries)}"
@@ -62,20 +58,6 @@ def steps_table(simulation: Simulation) -> Table:
     return Table.of("Stances", columns)
 
 
-def draws_table(simulation: Simulation) -> Table:
-    """How drawn robots do, in quantiles."""
-    units = {
-        "distance": ("mm", 1e3),
-        "sideways": ("mm", 1e3),
-        "heading": ("°", np.degrees(1.0)),
-        "slip": ("mm", 1e3),
-        "tilt": ("°", np.degrees(1.0)),
-        "saturated": ("%", 1e2),
-        "peak_torque": ("N·m", 1.0),
-    }
-    return drawn_table(simulation.spread, units)
-
-
 def summary(simulation: Simulation) -> Iterator[Part]:
     """A simulation in tables and paragraphs."""
     report = simulation.report
@@ -86,8 +68,7 @@ def summary(simulation: Simulation) -> Iterator[Part]:
         [(row[0], *row[2:]) for row in table.rows],
         table.note,
     )
-    if len(simulation.draws) > 1:
-        yield draws_table(simulation)
+    yield from draws_tables(simulation.spread)
     yield f"{how(simulation)}."
     yield simulation.start
     yield from simulation.verdict()

@@ -142,11 +142,6 @@ def _soles(found: Measures) -> Criterion:
     return Criterion("soles", False, f"The soles touch each other at t = {found.meet:.3g} s.")
 
 
-def passes(found: Measures) -> bool:
-    """Whether everything is as asked."""
-    return all(one.met for one in criteria(found))
-
-
 def draws_sentences(all_found: Sequence[Measures]) -> Iterator[str]:
     """How many of several tries keep what is asked."""
     tries = [criteria(found) for found in all_found]

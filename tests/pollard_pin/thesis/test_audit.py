@@ -34,8 +34,8 @@ DOCUMENT = Path(__file__).parents[3] / "docs" / "audit" / "pollard.md"
 
 
 @pytest.fixture(scope="module")
-def report():
-    return audit()
+def report(pollard_audit):
+    return pollard_audit
 
 
 @pytest.fixture(scope="module")

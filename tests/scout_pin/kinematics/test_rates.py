@@ -55,10 +55,25 @@ def test_rates_at_a_singular_pose_are_refused_with_leg_and_sample(scout, name):
         leg_rates(leg, theta, foot)
 
 
+def moved_sole(biped, data, side, states, joints):
+    """Velocity and acceleration of a sole by Pinocchio.
+
+    ``states`` are q, v and a, into which go the leg's ``joints``: angles, rates, accelerations.
+    """
+    for whole, leg, first in zip(states, joints, (7, 6, 6), strict=True):
+        begin = first + 6 * SIDES.index(side)
+        whole[begin : begin + 6] = leg
+    pin.forwardKinematics(biped.model, data, *states)
+    pin.updateFramePlacements(biped.model, data)
+    frame, axes = biped.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
+    velocity = pin.getFrameVelocity(biped.model, data, frame, axes)
+    return velocity, pin.getFrameClassicalAcceleration(biped.model, data, frame, axes)
+
+
 @pytest.mark.parametrize("side", SIDES)
 def test_rates_and_accelerations_are_pinocchios(biped, side, rng):
     """(3.16) and (3.24): from Pinocchio's motion of the sole back to the joints."""
-    model, data = biped.model, biped.model.createData()
+    model, data, frame = biped.model, biped.model.createData(), biped.sole_frames[side]
     leg, number = biped.legs[side], SIDES.index(side)
     count = 200
     theta, rate, second = rng.uniform(-1, 1, (3, count, 6))
@@ -66,19 +81,13 @@ def test_rates_and_accelerations_are_pinocchios(biped, side, rng):
     jacobians = np.empty((count, 6, 6))
     for k in range(count):
         q, v, a = pin.neutral(model), np.zeros(18), np.zeros(18)
-        q[7 + 6 * number : 13 + 6 * number] = theta[k]
-        v[6 + 6 * number : 12 + 6 * number] = rate[k]
-        a[6 + 6 * number : 12 + 6 * number] = second[k]
-        pin.forwardKinematics(model, data, q, v, a)
-        pin.updateFramePlacements(model, data)
-        frame, axes = biped.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
-        velocity = pin.getFrameVelocity(model, data, frame, axes)
-        acceleration = pin.getFrameClassicalAcceleration(model, data, frame, axes)
+        joints = theta[k], rate[k], second[k]
+        velocity, acceleration = moved_sole(biped, data, side, (q, v, a), joints)
         motion.rotation[k] = data.oMf[frame].rotation
         motion.position[k] = data.oMf[frame].translation
         motion.velocity[k], motion.omega[k] = velocity.linear, velocity.angular
         motion.acceleration[k], motion.alpha[k] = acceleration.linear, acceleration.angular
-        full = pin.computeFrameJacobian(model, data, q, frame, axes)
+        full = pin.computeFrameJacobian(model, data, q, frame, pin.LOCAL_WORLD_ALIGNED)
         jacobians[k] = full[:, 6 + 6 * number : 12 + 6 * number]
     solved_rate, solved_second = leg_rates(leg, theta, motion)
     # An error in the joints is measured by what it does to the foot, and by its
@@ -99,7 +108,7 @@ def test_the_foot_moves_as_asked_by_pinocchio_whichever_body_turns(
 ):
     """Torso and foot in any pose, each with an angular velocity and acceleration or without."""
     model, data = biped.model, biped.model.createData()
-    leg, number, count = biped.legs[side], SIDES.index(side), 40
+    leg, count = biped.legs[side], 40
     theta = rng.uniform(-0.5, 0.5, (count, 6))
     theta[:, 3] += 1.0  # the knee well bent
     turns = np.array([pin.exp3(one) for one in rng.normal(size=(count, 3))])
@@ -118,14 +127,8 @@ def test_the_foot_moves_as_asked_by_pinocchio_whichever_body_turns(
         v[:3], v[3:6] = back @ torso.velocity[k], back @ torso.omega[k]
         a[:3] = back @ torso.acceleration[k] - np.cross(v[3:6], v[:3])
         a[3:6] = back @ torso.alpha[k]
-        q[7 + 6 * number : 13 + 6 * number] = theta[k]
-        v[6 + 6 * number : 12 + 6 * number] = rate[k]
-        a[6 + 6 * number : 12 + 6 * number] = second[k]
-        pin.forwardKinematics(model, data, q, v, a)
-        pin.updateFramePlacements(model, data)
-        frame, axes = biped.sole_frames[side], pin.LOCAL_WORLD_ALIGNED
-        velocity = pin.getFrameVelocity(model, data, frame, axes)
-        acceleration = pin.getFrameClassicalAcceleration(model, data, frame, axes)
+        joints = theta[k], rate[k], second[k]
+        velocity, acceleration = moved_sole(biped, data, side, (q, v, a), joints)
         scale = 1.0 + np.abs(rate[k]).max() ** 2
         for found, expected in (
             (velocity.linear, foot.velocity[k]),

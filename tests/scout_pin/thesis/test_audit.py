@@ -19,8 +19,8 @@ DOCUMENT = Path(__file__).parents[3] / "docs" / "audit" / "scout.md"
 
 
 @pytest.fixture(scope="module")
-def report():
-    return audit()
+def report(scout_audit):
+    return scout_audit
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ import pollard_pin
 import scout_pin
 from pollard_pin.report import info as pollard
 from scout_pin.report import info as scout
-from thesis_pin.report.info import told
+from thesis_pin.report.info import assumed_values, told
 from thesis_pin.report.tables import Table
 
 
@@ -42,3 +42,19 @@ def test_every_assumption_comes_with_its_reason(said):
     assumed = [part for part in said[1] if isinstance(part, str) and part.startswith("Assumed")]
     assert assumed
     assert all(text.endswith(").") and "(" in text for text in assumed)
+
+
+def test_ranges_that_are_assumed_read_as_in_the_table_of_joints():
+    stated = {"name": "joint_range", "why": "its servos'", "lower_deg": -90.0, "upper_deg": 45.5}
+    assert assumed_values(stated) == "-90 to 45.5°"
+
+
+def test_assumed_values_have_their_units_and_no_more_digits_than_they_need():
+    friction = {"name": "joint_friction", "why": "made up", "viscous": 0.0, "coulomb": 0.01}
+    assert assumed_values(friction) == "viscous 0 N·m·s/rad, coulomb 0.01 N·m"
+    placed = {"name": "placement", "why": "", "position": [0.45, -0.0, 0.0], "orientation_deg": [0]}
+    assert assumed_values(placed) == "position (0.45, 0, 0) m, orientation (0)°"
+    each = {"name": "joint_range", "why": "", "lower_deg": [-80, -60], "upper_deg": [80.5, 60]}
+    assert assumed_values(each) == "lower (-80, -60)°, upper (80.5, 60)°"
+    replaced = {"name": "replaced_inertias", "why": "", "link": "upper_arm"}
+    assert assumed_values(replaced) == "link upper_arm"

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from thesis_pin.simulation.tallies import lost_sentences, passed_sentence, tallied
+from thesis_pin.simulation.tallies import Tally, lost_sentences, passed_sentence, tallied
 
 
 def asked(**met):
@@ -29,6 +29,17 @@ def test_tries_are_counted_by_criterion_and_as_a_whole():
     }
     assert quantiles["of"] == [0.05, 0.5, 0.95]
     np.testing.assert_allclose(quantiles["length"], [1.1, 2.0, 2.9])
+
+
+@pytest.mark.parametrize(("some", "passes"), [(slice(0, 1), True), (slice(0, 3), False)])
+def test_a_simulation_passes_if_every_try_keeps_all_and_is_doubted_as_its_report(some, passes):
+    class Simulated(Tally):
+        report = SimpleNamespace(doubts=lambda: ["is this in degrees?"])
+        tries = TRIES[some]
+
+    found = Simulated()
+    assert (found.passed, found.within_limits) == (passes, passes)
+    assert found.doubts() == ["is this in degrees?"]
 
 
 def test_only_criteria_that_some_try_breaks_are_told():

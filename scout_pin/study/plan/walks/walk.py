@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
-from scout_pin.motion.contact import Phase
+from scout_pin.motion.contact import Phase, Phased
 from scout_pin.motion.cycles import repeat_gait
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.over_floor import OverFloor
@@ -20,7 +20,7 @@ Curves = dict[str, tuple[Piecewise, ...]]
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Stretch(Phased):
     """A part of a walk.
 
     Attributes:
@@ -30,16 +30,6 @@ class Stretch:
 
     curves: Curves
     phases: tuple[Phase, ...]
-
-    @property
-    def start(self) -> float:
-        """Its first t."""
-        return self.phases[0].start
-
-    @property
-    def end(self) -> float:
-        """Its last t."""
-        return self.phases[-1].end
 
     def moved(self, later: float, by: OverFloor) -> Stretch:
         """The same at another time and place.

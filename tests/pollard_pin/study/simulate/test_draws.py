@@ -1,7 +1,6 @@
 """Drawn robots weigh what they say, and are the same however the work is shared."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pinocchio as pin
@@ -10,7 +9,7 @@ import pytest
 import pollard_pin
 from pollard_pin.specification import LINK_NAMES
 from pollard_pin.study.simulate.draws import simulate_path, weighed
-from pollard_pin.study.simulate.tables import draws_table
+from thesis_pin.report.draws import draws_tables
 
 pytest.importorskip("mujoco", reason="MuJoCo isn't installed: pip install 'thesis-pin[simulate]'")
 
@@ -90,7 +89,8 @@ def test_draws_that_fail_are_counted_and_the_worst_is_told(short_report, held):
 def test_draws_stand_in_the_units_that_their_table_names():
     names = ("deviation", "turn", "saturated", "peak_torque")
     spread = {name: [0.25, 0.25] for name in names}
-    found = {row[0]: row[1] for row in draws_table(SimpleNamespace(spread=spread)).rows}
+    (table,) = draws_tables(spread)
+    found = {row[0]: row[1] for row in table.rows}
     assert found == {
         "deviation [mm]": "250.000",
         "turn [°]": f"{math.degrees(0.25):.3f}",

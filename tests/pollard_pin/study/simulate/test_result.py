@@ -10,9 +10,10 @@ from pollard_pin.study.simulate.curves import plots
 from pollard_pin.study.simulate.draws import simulate_path
 from pollard_pin.study.simulate.page import simulation_page, simulation_scene
 from pollard_pin.study.simulate.tables import summary
-from pollard_pin.study.simulate.verdict import criteria, passes
+from pollard_pin.study.simulate.verdict import criteria
 from thesis_pin.report.tables import Table
 from thesis_pin.report.writers import json_bytes
+from thesis_pin.simulation.tallies import kept
 
 pytest.importorskip("mujoco", reason="MuJoCo isn't installed: pip install 'thesis-pin[simulate]'")
 
@@ -110,7 +111,7 @@ def test_the_terminal_is_told_what_was_chosen(done, lost):
 
 def test_a_replay_that_ends_early_fails_however_near_its_path_it_was(done):
     early = replace(done.draws[0], ended=(0.3, "the engine gives up"))
-    assert passes(done.draws[0])
+    assert kept(criteria(done.draws[0]))
     (lost,) = [one for one in criteria(early) if not one.met]
     assert lost.name == "deviation"
     assert lost.words == "The spray tip doesn't get to the end of its path."

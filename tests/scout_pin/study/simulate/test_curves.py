@@ -1,13 +1,13 @@
 """Plots and tables of a try show what was walked, in the units that they say."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from scout_pin.study.simulate.curves import figures, loads, torques, ways
-from scout_pin.study.simulate.tables import draws_table, steps_table
+from scout_pin.study.simulate.tables import steps_table
+from thesis_pin.report.draws import draws_tables
 
 
 def test_ways_are_those_of_each_sole_beside_its_plan(walked):
@@ -40,7 +40,8 @@ def test_loads_and_torques_are_those_of_their_side(walked):
 def test_tables_are_in_the_units_that_they_name(walked):
     names = ("distance", "sideways", "heading", "slip", "tilt", "saturated", "peak_torque")
     spread = {name: [0.25, 0.25] for name in names}
-    found = {row[0]: row[1] for row in draws_table(SimpleNamespace(spread=spread)).rows}
+    (table,) = draws_tables(spread)
+    found = {row[0]: row[1] for row in table.rows}
     angle = f"{math.degrees(0.25):.3f}"
     assert found == {
         "distance [mm]": "250.000",

@@ -7,7 +7,7 @@ import pytest
 
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.motion.files import read_motion
-from thesis_pin.pages.torque import torque_page
+from thesis_pin.pages.reports.torque import torque_page
 from thesis_pin.report.torque.document import torque_report
 from thesis_pin.report.torque.figures import figures
 from thesis_pin.report.writers import json_bytes

@@ -9,8 +9,8 @@ import pytest
 from thesis_pin.loops.configurations.closing import close
 from thesis_pin.loops.workspace.mapped import WORDS, evaluate_workspace
 from thesis_pin.pages.drawing import frame_placements
+from thesis_pin.pages.reports.workspace import scene, workspace_page
 from thesis_pin.pages.scene import Arrow, Trace
-from thesis_pin.pages.workspace import scene, workspace_page
 from thesis_pin.report.workspace.document import columns, document, sentences, summary, told
 from thesis_pin.report.workspace.figures import workspace_figure, workspace_files
 from thesis_pin.report.writers import csv_bytes, json_bytes

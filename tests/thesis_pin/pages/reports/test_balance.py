@@ -9,9 +9,9 @@ from standing_robots import standing
 
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot
-from thesis_pin.pages.balance import _tiles, balance_page
-from thesis_pin.pages.balance_scene import scene
 from thesis_pin.pages.page import in_words
+from thesis_pin.pages.reports.balance import _tiles, balance_page
+from thesis_pin.pages.reports.balance_scene import scene
 from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.balance.making import balance_report
 

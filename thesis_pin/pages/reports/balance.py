@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from thesis_pin.pages.balance_scene import scene
 from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
-from thesis_pin.pages.torque import motors_tables, peak_tiles, without_folder
+from thesis_pin.pages.reports.balance_scene import scene
+from thesis_pin.pages.reports.torque import motors_tables, peak_tiles, without_folder
 from thesis_pin.report.balance.curves import plots
 from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.balance.tables import HELD_FEET, HELD_MOTORS, feet_table

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.contacts.floor import Floor
+from thesis_pin.pages.reports.torque_scene import MOST_SAMPLES
+from thesis_pin.pages.reports.torque_scene import scene as motors_scene
 from thesis_pin.pages.scene import Arrow, Ball, Group, Item, Polygon, Readout, Scene, thinned
-from thesis_pin.pages.torque_scene import MOST_SAMPLES
-from thesis_pin.pages.torque_scene import scene as motors_scene
 from thesis_pin.report.balance.document import BalanceReport
 from thesis_pin.report.curves import GREEN, ORANGE, VERMILLION
 

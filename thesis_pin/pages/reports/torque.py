@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
-from thesis_pin.pages.torque_scene import scene
+from thesis_pin.pages.reports.torque_scene import scene
 from thesis_pin.report.tables import Table
 from thesis_pin.report.torque.curves import plots
 from thesis_pin.report.torque.document import TorqueReport

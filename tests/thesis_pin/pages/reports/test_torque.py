@@ -10,11 +10,11 @@ from thesis_pin.loops.joints import singles
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import JointMotion, read_motion
 from thesis_pin.pages.drawing import frame_placements
-from thesis_pin.pages.torque import torque_page
-from thesis_pin.pages.torque_scene import scene
+from thesis_pin.pages.reports.torque import torque_page
+from thesis_pin.pages.reports.torque_scene import scene
 from thesis_pin.report.torque.document import torque_report
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 DATA = ROOT / "tests" / "thesis_pin" / "loops" / "data"
 
 

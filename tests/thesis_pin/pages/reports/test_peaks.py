@@ -12,14 +12,14 @@ from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.joints import singles
 from thesis_pin.loops.loading import load
 from thesis_pin.loops.motion.files import JointMotion
-from thesis_pin.pages.balance import balance_page
-from thesis_pin.pages.torque import torque_page
+from thesis_pin.pages.reports.balance import balance_page
+from thesis_pin.pages.reports.torque import torque_page
 from thesis_pin.report.balance import figures as feet
 from thesis_pin.report.balance.making import balance_report
 from thesis_pin.report.torque import figures as motors
 from thesis_pin.report.torque.document import torque_report
 
-DATA = Path(__file__).parents[1] / "loops" / "data"
+DATA = Path(__file__).parents[2] / "loops" / "data"
 TIME = np.linspace(0.0, 1.0, 41)
 
 

@@ -1,0 +1,1 @@
+"""Pages of the reports on any robot: torques, balance, workspace, what a robot is."""
