@@ -142,7 +142,13 @@ FILES = {
 
 CONTRADICTIONS = {
     "scout-pin gait": [["--json", "-", "--html", "-"], ["--branch=+-"]],
-    "scout-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--branch=+-"]],
+    "scout-pin view": [
+        ["--port", "0"],
+        ["--hold", "1"],
+        ["--no-browser"],
+        ["--branch=+-"],
+        ["--sliders"],
+    ],
     "scout-pin size": [["--branch=+-"]],
     "scout-pin simulate": [
         ["--json", "-", "--html", "-"],
@@ -203,7 +209,13 @@ CONTRADICTIONS = {
         ["--actuators", "three"],
         ["--branch=+-"],
     ],
-    "pollard-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--duration", "3"]],
+    "pollard-pin view": [
+        ["--port", "0"],
+        ["--hold", "1"],
+        ["--no-browser"],
+        ["--duration", "3"],
+        ["--sliders"],
+    ],
     "pollard-pin size": [["--duration", "3"], ["--branch=+-"], ["--actuators", "three"]],
     "pollard-pin convert": [["--json", "-", "--to", "-"], ["--units", "mm"], ["--duration", "3"]],
     "pollard-pin ik": [["--branch=+-"]],
