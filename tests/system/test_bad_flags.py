@@ -121,6 +121,7 @@ NUMBERS = {
     "--height": set(),
     "--steps": set(),
     "--servo-rate": {"2.5"},
+    "--meshcat": set(),
 }
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
@@ -146,6 +147,7 @@ CONTRADICTIONS = {
         ["--port", "0"],
         ["--hold", "1"],
         ["--no-browser"],
+        ["--meshcat"],
         ["--branch=+-"],
         ["--sliders"],
     ],
@@ -213,6 +215,7 @@ CONTRADICTIONS = {
         ["--port", "0"],
         ["--hold", "1"],
         ["--no-browser"],
+        ["--meshcat"],
         ["--duration", "3"],
         ["--sliders"],
     ],
@@ -243,7 +246,13 @@ CONTRADICTIONS = {
         ["--euler", "ZYX"],
     ],
     "thesis-pin size": [["--frame", "tool_tip"], ["--external", "nowhere=0,0,1"]],
-    "thesis-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--euler", "ZYX"]],
+    "thesis-pin view": [
+        ["--port", "0"],
+        ["--hold", "1"],
+        ["--no-browser"],
+        ["--meshcat"],
+        ["--euler", "ZYX"],
+    ],
     "thesis-pin workspace": [
         ["--along", "x", "0", "1"],
         ["--along", "z_mm", "3", "-3"],

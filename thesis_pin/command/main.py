@@ -7,6 +7,7 @@ from functools import partial
 
 from thesis_pin.command.options import add_json, add_report, add_sizing, add_view
 from thesis_pin.command.registry import Command, Parser, Verb
+from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.words import (
     perhaps_motion,
     strictly,
@@ -99,7 +100,7 @@ COMMAND = Command(
             "examples/pollard_motors.csv --html view.html",
             "thesis_pin.pages.reports.torque_scene:scene",
             "thesis_pin.command.any_robot:view",
-            (which_robot, perhaps_motion, which_pose, which_wrenches, add_view),
+            (which_robot, perhaps_motion, which_pose, which_wrenches, add_view, add_meshcat),
         ),
         Verb(
             "workspace",

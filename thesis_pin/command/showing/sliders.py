@@ -34,8 +34,9 @@ def show_sliders(
         BadInput: Flags contradict each other, or belong to a motion.
     """
     refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
-    if arguments.speed != 1.0:
-        raise BadInput("--speed belongs to a motion", remedy="Leave it out, or name a motion")
+    for flag, given in (("speed", arguments.speed != 1.0), ("meshcat", arguments.meshcat)):
+        if given:
+            raise BadInput(f"--{flag} belongs to a motion", remedy="Leave it out, or name a motion")
     with Bar("drawing the robot"):
         from thesis_pin.report.writers import json_bytes
 
@@ -52,6 +53,7 @@ def show_sliders(
         "samples": 1,
         "sliders": [slider.name for slider in page.rig.sliders],
         "page": arguments.html,
+        "meshcat": None,
     }
     if arguments.html:
         put(arguments.html, content)
