@@ -15,6 +15,16 @@ bin="$PWD/.venv-check/bin"
 "$bin/python" -m pip install --quiet --upgrade pip
 "$bin/python" -m pip install --quiet --editable '.[dev]'
 
+# The wheel gets its virtual environment meanwhile: types are checked on one core.
+outside="$(mktemp -d)"
+trap 'wait; rm -rf "$outside"' EXIT
+{
+  "$bin/python" -m pip wheel --quiet --no-deps --wheel-dir "$outside" . &&
+    "$python" -m venv "$outside/venv" &&
+    "$outside/venv/bin/python" -m pip install --quiet "$outside"/*.whl
+} >"$outside/log" 2>&1 &
+wheel=$!
+
 echo "== lint"
 "$bin/ruff" check .
 "$bin/ruff" format --check .
@@ -29,10 +39,6 @@ echo "== generated files, as other processors add up"
 "$bin/python" tests/processors.py -n auto
 
 echo "== wheel, used from a clean virtual environment outside the checkout"
-outside="$(mktemp -d)"
-trap 'rm -rf "$outside"' EXIT
-"$bin/python" -m pip wheel --quiet --no-deps --wheel-dir "$outside" .
-"$python" -m venv "$outside/venv"
-"$outside/venv/bin/python" -m pip install --quiet "$outside"/*.whl
+wait "$wheel" || { cat "$outside/log" >&2; exit 1; }
 cp -r tests/wheel_smoke.py examples urdf "$outside"
 (cd "$outside" && env -u PYTHONPATH "$outside/venv/bin/python" wheel_smoke.py)
