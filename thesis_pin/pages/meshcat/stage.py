@@ -44,9 +44,11 @@ def _reach(shape: Shape) -> float:
     if "vertices" in geometry:
         points = np.asarray(geometry["vertices"], dtype=float) @ local[:3, :3].T + local[:3, 3]
         return float(np.linalg.norm(points, axis=1).max())
-    sizes = {"size": 0.5, "radii": 1.0, "radius": 1.0, "length": 0.5}
-    half = [share * np.max(geometry[name]) for name, share in sizes.items() if name in geometry]  # type: ignore[type-var, operator]
-    return float(np.linalg.norm(local[:3, 3]) + max(half, default=0.0))
+    half = 0.0
+    for name, share in (("size", 0.5), ("radii", 1.0), ("radius", 1.0), ("length", 0.5)):
+        size = np.asarray(geometry.get(name, 0.0), dtype=float)
+        half = max(half, share * float(np.linalg.norm(size)))
+    return float(np.linalg.norm(local[:3, 3])) + half * 2**0.5
 
 
 def size_of_box(box: Array) -> float:
