@@ -8,6 +8,7 @@ from functools import partial
 
 from thesis_pin.command import options, simulating, verbs
 from thesis_pin.command.registry import Robot, Verb, Words
+from thesis_pin.command.showing.meshcat import add_meshcat
 
 
 def _verb(
@@ -52,7 +53,7 @@ def report_verb(
 
 def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
     """The verb that shows a motion."""
-    add = (robot.motion, options.add_view)
+    add = (robot.motion, options.add_view, add_meshcat)
     return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
 
 

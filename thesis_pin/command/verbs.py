@@ -90,7 +90,9 @@ def show_scene(
         command: Which command asks, for the schema's name.
         make: Makes the scene.
     """
-    refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
+    refuse_beside(arguments, "html", ("port", "hold", "no-browser", "meshcat"))
+    if isinstance(arguments.meshcat, str):  # a server that runs already
+        refuse_beside(arguments, "meshcat", ("port", "hold"))
     with Bar("working out the motion") as bar:
         from thesis_pin.report.writers import json_bytes
 
@@ -102,7 +104,12 @@ def show_scene(
         "duration": float(scene.time[-1] - scene.time[0]),
         "samples": len(scene.time),
         "page": arguments.html,
+        "meshcat": None,
     }
+    if arguments.meshcat is not None:
+        from thesis_pin.command.showing.meshcat import show_in_meshcat
+
+        return show_in_meshcat(arguments, scene, shown)
     from thesis_pin.pages import player, serving
 
     if arguments.html:

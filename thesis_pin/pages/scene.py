@@ -192,6 +192,25 @@ class Arc(Item):
 
 
 @dataclass(frozen=True)
+class Triad(Item):
+    """A frame: its axes x, y, z in vermillion, green, blue, with its name beside it.
+
+    Attributes:
+        placement: Position and quaternion (x, y, z, w) over time, shape ``(n, 7)``.
+        local: The frame's placement in the moving frame, shape ``(4, 4)``.
+        length: Of an axis [m].
+        label: Its name; empty for none.
+    """
+
+    sampled: ClassVar[Shapes] = {"placement": (-1, 7)}
+
+    placement: np.ndarray
+    local: np.ndarray
+    length: float
+    label: str = ""
+
+
+@dataclass(frozen=True)
 class Readout:
     """A value shown as text beside the picture.
 

@@ -8,7 +8,7 @@ import pytest
 import scout_pin
 from scout_pin.specification import JOINT_NAMES
 from scout_pin.study.plan.cycle import plan_cycle, with_friction
-from scout_pin.study.plan.cycles import aims, nearest, search
+from scout_pin.study.plan.cycles import aims, nearest, search, shortfall
 from scout_pin.study.plan.cycles.splines import KNOTS
 from scout_pin.study.plan.request import PlanRequest
 from thesis_pin.errors import BadInput
@@ -149,6 +149,25 @@ def briefly(monkeypatch):
     monkeypatch.setattr(nearest, "_CLIMBS", 2)
 
 
+@pytest.fixture
+def offered_only(briefly, monkeypatch):
+    """Let searches for what could be met change one thing of a request alone."""
+
+    def of(name):
+        def only(*given):
+            return [one for one in nearest.changes(*given) if one.name == name]
+
+        monkeypatch.setattr(shortfall, "changes", only)
+
+    return of
+
+
+@pytest.fixture
+def unexplained(monkeypatch):
+    """Don't find out which limits stand in the way."""
+    monkeypatch.setattr(shortfall, "_near", lambda *_, **__: [])
+
+
 @pytest.mark.usefixtures("briefly")
 def test_too_large_a_margin_is_answered_by_what_binds_and_what_can_be_met(scout):
     request = PlanRequest(margin=0.05)  # the soles are 75 mm wide
@@ -170,8 +189,8 @@ def test_too_large_a_margin_is_answered_by_what_binds_and_what_can_be_met(scout)
     assert told[-1][0] == told[-1][1]
 
 
-@pytest.mark.usefixtures("briefly")
-def test_steps_that_no_leg_reaches_are_answered_by_the_knees(scout):
+def test_steps_that_no_leg_reaches_are_answered_by_the_knees(scout, offered_only):
+    offered_only("step_length")
     plan = plan_cycle(scout, PlanRequest(step_length=0.3, step_time=2.0, height=(0.215, 0.235)))
     assert not plan.met
     assert "knee" in [one.worst.kind for one in plan.shortfall.binding]
@@ -197,8 +216,9 @@ def test_an_objective_betters_what_keeps_the_limits(scout, default, objective, m
     assert plan.speed == pytest.approx(better.walking_speed)
 
 
-@pytest.mark.usefixtures("briefly")
-def test_feet_too_far_apart_are_answered_by_how_far_they_may_be(scout):
+@pytest.mark.usefixtures("unexplained")
+def test_feet_too_far_apart_are_answered_by_how_far_they_may_be(scout, offered_only):
+    offered_only("foot_spacing")
     plan = plan_cycle(scout, PlanRequest(foot_spacing=0.2))
     assert not plan.met
     assert 0.0 < plan.pace.share < 1.0, "whatever the search came to is a cycle"
@@ -207,7 +227,7 @@ def test_feet_too_far_apart_are_answered_by_how_far_they_may_be(scout):
     judged(plan_cycle(scout, offer))
 
 
-@pytest.mark.usefixtures("briefly")
+@pytest.mark.usefixtures("briefly", "unexplained")
 def test_the_fastest_walk_of_too_large_a_margin_is_answered_by_less_margin(scout):
     plan = plan_cycle(scout, PlanRequest(objective="fastest", margin=0.05))
     assert not plan.met
@@ -215,11 +235,10 @@ def test_the_fastest_walk_of_too_large_a_margin_is_answered_by_less_margin(scout
     assert plan.shortfall.nearest["margin"].objective == "fastest"
 
 
-@pytest.mark.usefixtures("briefly")
-def test_what_is_offered_was_searched_as_if_asked_for(scout, monkeypatch):
-    from scout_pin.study.plan.cycles.search import Search
-
-    first, most = Search.first, 0.015
+@pytest.mark.usefixtures("unexplained")
+def test_what_is_offered_was_searched_as_if_asked_for(scout, offered_only, monkeypatch):
+    offered_only("margin")
+    first, most = search.Search.first, 0.015
 
     def forgetful(self, request):
         found = first(self, request)
@@ -228,18 +247,17 @@ def test_what_is_offered_was_searched_as_if_asked_for(scout, monkeypatch):
         worse = {kind: replace(one, value=one.value + 0.01) for kind, one in found.excess.items()}
         return replace(found, excess={**found.excess, "margin": worse["margin"]})
 
-    monkeypatch.setattr(Search, "first", forgetful)
+    monkeypatch.setattr(search.Search, "first", forgetful)
     plan = plan_cycle(scout, PlanRequest(margin=0.05))
     assert 0.005 <= plan.shortfall.nearest["margin"].margin <= most
 
 
-@pytest.mark.usefixtures("briefly")
+@pytest.mark.usefixtures("unexplained")
 def test_interrupted_while_it_looks_for_what_could_be_met_it_keeps_what_was_asked(
-    scout, monkeypatch
+    scout, offered_only, monkeypatch
 ):
-    from scout_pin.study.plan.cycles.search import Search
-
-    first = Search.first
+    offered_only("margin")
+    first = search.Search.first
 
     def stopped(self, request):
         found = first(self, request)
@@ -248,7 +266,7 @@ def test_interrupted_while_it_looks_for_what_could_be_met_it_keeps_what_was_aske
             raise KeyboardInterrupt
         return found
 
-    monkeypatch.setattr(Search, "first", stopped)
+    monkeypatch.setattr(search.Search, "first", stopped)
     plan = plan_cycle(scout, PlanRequest(margin=0.05))
     assert plan.interrupted
     assert not plan.met

@@ -95,7 +95,7 @@ def test_slopes_are_those_of_finite_differences(scene):
     found = agree(sampler, jets, footing)
     assert (np.abs(found.knee.value) < STRAIGHT).all()
     here = sampler.state(jets, footing)
-    bound = [len(_binding(sampler.robot, here, k)) for k in range(16)]
+    bound = _binding(sampler.robot, here, np.arange(16))[1].sum(axis=1)
     assert min(bound) == 0, "wrenches inside both cones"
     assert max(bound) > 0, "and on a border"
 
@@ -154,6 +154,42 @@ def test_quantities_are_those_of_the_judge(scene):
         margin = contact.margin(dynamics.sole_wrench[alone, k]) / unit
         np.testing.assert_allclose(found.contact.value[alone].max(axis=1), -margin, atol=1e-12)
     assert (found.contact.value[DOUBLE] == -1.0).all()
+
+
+def test_samples_have_the_slopes_that_each_has_alone(scene):
+    sampler, jets, footing = scene
+    jets[:8, 12:14] *= 2.0
+    found = sampler(jets, footing)
+    here = sampler.state(jets, footing)
+    assert len(set(_binding(sampler.robot, here, np.arange(16))[1].sum(axis=1).tolist())) > 2
+    for k in range(COUNT):
+        some = slice(k, k + 1)
+        alone = Sampler(sampler.robot, sampler.branches)(jets[some], footing.part(some))
+        for name in NAMES:
+            ours, other = getattr(found, name).slope[some], getattr(alone, name).slope
+            np.testing.assert_allclose(ours, other, atol=1e-10 * np.abs(other).max(), err_msg=name)
+
+
+def test_what_was_evaluated_before_changes_nothing(scene):
+    sampler, jets, footing = scene
+
+    def as_anew(footing):
+        fresh = Sampler(sampler.robot, sampler.branches).state(jets, footing)
+        found = sampler.state(jets, footing)
+        for ours, other in zip(found.pinocchio(), fresh.pinocchio(), strict=True):
+            assert (ours == other).all()
+        assert (found.dynamics.torque == fresh.dynamics.torque).all()
+
+    as_anew(footing)
+    jets[20, 1] += 1e-9  # in place: the array is the same one
+    as_anew(footing)
+    support = footing.support.copy()
+    support[3] = True, False
+    as_anew(replace(footing, support=support))
+    for name in ("position", "velocity", "acceleration"):
+        value = getattr(footing.feet[1], name).copy()
+        value[25] += 1e-3
+        as_anew(replace(footing, feet=(footing.feet[0], replace(footing.feet[1], **{name: value}))))
 
 
 def _knee_zero(robot):

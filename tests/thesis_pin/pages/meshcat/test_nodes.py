@@ -1,0 +1,217 @@
+"""Nodes put shapes where the scene says, at its samples and between them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from thesis_pin.errors import BadInput
+from thesis_pin.pages.meshcat.drawing import Drawing, _matrix, word
+from thesis_pin.pages.meshcat.nodes import held, nodes
+from thesis_pin.pages.meshcat.shapes import look, surface, threshold, tube
+from thesis_pin.pages.meshcat.tracks import MOST_BYTES, samples
+from thesis_pin.pages.scene import Arc, Arrow, Ball, Item, Polygon, Shape, Trace
+
+NONE = np.full(3, np.nan)
+
+
+def by_path(item):
+    return {node.path: node for node in nodes(item)}
+
+
+def arrow(vector, origin=None, head=True):
+    vector = np.asarray(vector, dtype=float)
+    origin = np.zeros_like(vector) if origin is None else origin
+    return Arrow("a", "g", origin, vector, 0.5, 0.01, "#112233", head=head)
+
+
+def corners(node):
+    """A node's vertices at the origin of its parent."""
+    shape = node.shape
+    geometry = shape.geometry
+    if hasattr(geometry, "vertices"):
+        points = geometry.vertices
+    else:  # a cylinder or cone along y
+        turn = np.linspace(0, 2 * np.pi, 9)[:-1]
+        rings = [
+            np.column_stack([r * np.cos(turn), np.full(8, y), r * np.sin(turn)])
+            for r, y in (
+                (geometry.radiusBottom, -geometry.height / 2),
+                (geometry.radiusTop, geometry.height / 2),
+            )
+        ]
+        points = np.concatenate(rings)
+    return points @ shape.place[:3, :3].T + shape.place[:3, 3]
+
+
+def moved(points, *matrices):
+    for matrix in reversed(matrices):
+        points = points @ matrix[:3, :3].T + matrix[:3, 3]
+    return points
+
+
+@pytest.mark.parametrize("head", [True, False])
+def test_an_arrows_tip_is_at_origin_plus_scaled_vector_at_every_sample(head):
+    rng = np.random.default_rng(1)
+    vectors = np.concatenate([rng.normal(size=(20, 3)), [[0, 0, -2.0]], [[0, 0, 3.0]], [[1, 0, 0]]])
+    origins = rng.normal(size=vectors.shape)
+    found = by_path(arrow(vectors, origins, head))
+    part = found["head"] if head else found[""]
+    for k, (origin, vector) in enumerate(zip(origins, vectors, strict=True)):
+        outer = _matrix(found[""], k, 0.0)
+        matrices = (outer, _matrix(part, k, 0.0)) if head else (outer,)
+        drawn = moved(corners(part), *matrices)
+        tip = origin + 0.5 * vector
+        along = (drawn - origin) @ vector / np.linalg.norm(vector)
+        np.testing.assert_allclose(along.max(), 0.5 * np.linalg.norm(vector), rtol=1e-12)
+        end = drawn[along > along.max() - 1e-12].mean(axis=0)
+        np.testing.assert_allclose(end, tip, atol=1e-12)
+        if head:
+            shaft = moved(corners(found["shaft"]), outer, _matrix(found["shaft"], k, 0.0))
+            far = (shaft - origin) @ vector / np.linalg.norm(vector)
+            assert far.min() == pytest.approx(0, abs=1e-12)
+            assert far.max() == pytest.approx(along.min(), rel=1e-9)
+
+
+def test_an_arrow_hides_where_it_isnt_known_and_where_it_is_none():
+    vectors = [[0, 0, 1.0], NONE, [0, 0, 1], [0, 0, 0], [0, 0, 0], [0, 0, 2]]
+    shown = by_path(arrow(vectors))[""].visible
+    # From a sample to the next: unknown next to it, zero throughout, growing from zero.
+    assert shown.tolist() == [False, False, True, False, True, True]
+
+
+def test_held_samples_keep_the_last_known_and_the_first_for_those_before():
+    values, shown = held(np.array([[np.nan], [1.0], [2.0], [np.nan]]))
+    assert values.ravel().tolist() == [1, 1, 2, 2]
+    assert shown.tolist() == [False, True, False, False]
+
+
+def test_a_turning_body_is_halfway_between_samples():
+    turn = Rotation.from_rotvec([[0, 0, 0], [0, 0, 3.0]]).as_quat()
+    turn[1] *= -1  # the same rotation, the other sign
+    place = np.column_stack([[[0, 0, 0], [1.0, 2, 3]], turn])
+    box = {"type": "box", "size": [1, 1, 1]}
+    node = by_path(Shape("s", "g", box, place, np.eye(4)))[""]
+    middle = _matrix(node, 0, 0.5)
+    np.testing.assert_allclose(middle[:3, 3], [0.5, 1, 1.5])
+    np.testing.assert_allclose(middle[:3, :3], Rotation.from_rotvec([0, 0, 1.5]).as_matrix())
+
+
+def test_an_arc_is_as_long_as_its_angle_and_turns_the_way_of_its_sign():
+    angle = np.array([1.0, -2.0, 2 * np.pi, 0.0])
+    still = np.tile([0, 0, 0, 0, 0, 0, 1.0], (4, 1))
+    item = Arc("a", "g", still, angle, 0.3, ("#000000", "#ffffff"), np.array([0, 1, 1, 0]))
+    found = by_path(item)
+    assert found[""].visible.tolist() == [True, True, True, False]
+    assert found["ring"].colour.tolist() == [[0, 0, 0], [1, 1, 1], [1, 1, 1], [0, 0, 0]]
+    for k in range(3):
+        opacity = found["ring"].shape.geometry.color[:, 3]
+        points = found["ring"].shape.geometry.vertices[opacity >= threshold(found["ring"].share[k])]
+        drawn = moved(points, _matrix(found[""], k, 0.0))
+        swept = np.unwrap(np.arctan2(drawn[:, 1], drawn[:, 0]))
+        assert np.sign(angle[k]) == np.sign(swept[-1] - swept[0])
+        assert np.ptp(swept) == pytest.approx(abs(angle[k]), abs=2 * np.pi / 48 + 1e-9)
+        tip = moved(
+            corners(found["head"]), _matrix(found[""], k, 0.0), _matrix(found["head"], k, 0.0)
+        )
+        end = 0.3 * np.array([np.cos(angle[k]), np.sin(angle[k]), 0])
+        np.testing.assert_allclose(tip.mean(axis=0), end, atol=1e-9)
+
+
+def test_a_trace_is_bold_as_far_as_it_has_come():
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 0, 0], [1, 2, 0], NONE, [1, 2, 1.0]])
+    done = by_path(Trace("t", "g", points, 0.01, "#000000"))["done"]
+    assert done.share.tolist() == pytest.approx([0, 1 / 3, 1 / 3, 2 / 3, 2 / 3, 1])
+    assert list(nodes(Trace("t", "g", points[1:3], 0.01, "#000000"))) == []
+
+
+def test_a_tube_lies_around_its_line_also_where_that_turns_back():
+    line = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 0, 0], [1, 0, -1.0]])
+    ring = tube(line, 0.1, 6).vertices.reshape(5, 6, 3)
+    np.testing.assert_allclose(ring.mean(axis=1), line, atol=1e-7)
+    away = np.linalg.norm(ring - line[:, None], axis=-1)
+    np.testing.assert_allclose(away, 0.1, atol=1e-7)
+
+
+def test_outlines_of_a_polygon_take_turns():
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    which = np.array([0.0, 1, -1])
+    found = by_path(Polygon("p", "g", (square, square[:2]), which, "#000000", 0.01))
+    assert found["outline 0"].visible.tolist() == [True, False, False]
+    assert found["outline 1"].visible.tolist() == [False, True, False]
+    assert found["outline 1"].shape is None  # two corners have no area
+    assert found["outline 1/border"].shape is not None
+
+
+def test_a_ball_takes_its_levels_colour():
+    places = np.zeros((3, 3))
+    ball = Ball("b", "g", places, 0.1, ("#ff0000", "#0000ff"), np.array([0.0, 1, np.nan]))
+    (node,) = nodes(ball)
+    assert node.colour.tolist() == [[1, 0, 0], [0, 0, 1], [1, 0, 0]]
+
+
+@pytest.mark.parametrize(
+    ("geometry", "low", "high"),
+    [
+        ({"type": "cylinder", "radius": 0.2, "length": 2.0}, -1, 1),
+        ({"type": "cone", "radius": 0.2, "length": 2.0}, -1, 1),
+        ({"type": "capsule", "radius": 0.2, "length": 2.0}, -1.2, 1.2),
+    ],
+)
+def test_round_shapes_lie_along_z_and_a_cones_tip_is_above(geometry, low, high):
+    from meshcat.geometry import MeshLambertMaterial
+
+    shape = surface(geometry, MeshLambertMaterial(), np.eye(4))
+    points = corners(type("Node", (), {"shape": shape}))
+    assert points[:, 2].min() == pytest.approx(low, abs=1e-6)
+    assert points[:, 2].max() == pytest.approx(high, abs=1e-6)
+    top = np.linalg.norm(points[points[:, 2] > high - 1e-6][:, :2], axis=1).max()
+    assert top == pytest.approx({"cone": 0, "cylinder": 0.2}.get(geometry["type"], 0), abs=1e-6)
+
+
+def test_another_kind_of_item_is_refused_by_name():
+    with pytest.raises(BadInput, match="can't draw a Item in meshcat"):
+        next(nodes(Item("x", "g")))
+
+
+def test_names_that_javascript_or_meshcat_uses_are_no_steps_of_a_path():
+    assert word("left/foot") == "left-foot"
+    assert word("constructor") == "constructor_"
+    assert word("__proto__") == "__proto___"
+    assert word("<object>") == "<object>_"
+    assert word(" ") == "_"
+
+
+def test_two_names_never_share_a_node():
+    from meshcat.path import Path
+
+    class Tree:
+        def __init__(self, path=()):
+            self.path = Path(path)
+
+        def __getitem__(self, step):
+            return Tree(self.path.append(step).entries)
+
+    drawing = Drawing(Tree())
+    ball = Ball("a/b", "g", np.zeros((2, 3)), 0.1, ("#000000",))
+    paths = [drawing.place(replace(ball, name=name)).path.entries for name in ("a/b", "a-b", "a/b")]
+    assert paths == [("g", "a-b"), ("g", "a-b (2)"), ("g", "a-b")]
+
+
+def test_equal_shapes_look_alike_and_others_dont():
+    one, same, other = (
+        next(nodes(Ball("b", "g", np.zeros((2, 3)), r, ("#000000",)))) for r in (1, 1, 2)
+    )
+    assert look(one.shape) == look(same.shape) != look(other.shape)
+
+
+def test_a_motion_keeps_60_samples_a_second_and_no_more_bytes_than_a_page_can_hold():
+    time = np.linspace(0, 10, 10_001)
+    few = list(nodes(arrow(np.ones((10_001, 3)))))
+    keep = samples(time, few)
+    assert len(keep) == 601
+    assert keep[[0, -1]].tolist() == [0, 10_000]
+    width = 4 * (4 + 5 + 4 + 4 + 4)  # position, quaternion, two scales and the head's position
+    many = samples(time, few * 2000)
+    assert len(many) == MOST_BYTES // (2000 * width)

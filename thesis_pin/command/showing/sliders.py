@@ -1,0 +1,116 @@
+"""A robot shown with sliders that move it: any robot's, and what the robots' own commands make."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.progress import Bar
+from thesis_pin.command.results import put
+from thesis_pin.command.running import ExitCode
+from thesis_pin.command.text import say
+from thesis_pin.command.warned import warned
+from thesis_pin.errors import BadInput, ThesisPinError
+
+if TYPE_CHECKING:  # help has to be quick
+    from thesis_pin.loops.closures import ClosedRobot
+    from thesis_pin.pages.live.page import LivePage
+
+
+def show_sliders(
+    arguments: argparse.Namespace, command: str, make: Callable[[], LivePage]
+) -> ExitCode:
+    """Show a robot with sliders in the browser, or write it as a page that shows its pose.
+
+    Args:
+        arguments: With what :func:`thesis_pin.command.options.add_view` adds.
+        command: Which command asks, for the schema's name.
+        make: Makes the page.
+
+    Raises:
+        BadInput: Flags contradict each other, or belong to a motion.
+    """
+    refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
+    for flag, given in (("speed", arguments.speed != 1.0), ("meshcat", arguments.meshcat)):
+        if given:
+            raise BadInput(f"--{flag} belongs to a motion", remedy="Leave it out, or name a motion")
+    with Bar("drawing the robot"):
+        from thesis_pin.report.writers import json_bytes
+
+        with warned():
+            page = make()
+        content = page.html(served=not arguments.html)
+    for note in page.notes:
+        say(f"note: {note}")
+    shown = {
+        "schema": f"{command}/view",
+        "version": 1,
+        "title": page.title,
+        "duration": 0.0,
+        "samples": 1,
+        "sliders": [slider.name for slider in page.rig.sliders],
+        "page": arguments.html,
+    }
+    if arguments.html:
+        put(arguments.html, content)
+        if arguments.json:
+            put(arguments.json, json_bytes(shown | {"address": None}))
+        return ExitCode.DONE
+
+    from thesis_pin.pages.live.page import PATH
+    from thesis_pin.pages.serving import show_page
+
+    def ready(address: str) -> None:
+        if arguments.json:
+            put(arguments.json, json_bytes(shown | {"address": address}))
+
+    show_page(
+        content,
+        page.title,
+        port=arguments.port,
+        browser=not arguments.no_browser,
+        hold=arguments.hold,
+        say=say,
+        ready=ready,
+        answers={PATH: page.answer},
+    )
+    return ExitCode.DONE
+
+
+def any_robot(arguments: argparse.Namespace, robot: ClosedRobot) -> LivePage:
+    """The page of any robot that the arguments name.
+
+    Raises:
+        BadInput: Flags are given that belong to a motion.
+    """
+    from thesis_pin.loops.checking.assembly import assembly
+    from thesis_pin.loops.checking.poses import named_pose, neutral
+    from thesis_pin.pages.live.joints import JointRig, why_open
+    from thesis_pin.pages.live.layers import layers
+    from thesis_pin.pages.live.page import LivePage
+
+    for flag, given in (
+        ("frame", arguments.frame is not None),
+        ("euler", arguments.euler is not None),
+        ("external", bool(arguments.external)),
+        ("smooth", arguments.smooth != "auto"),
+    ):
+        if given:
+            raise BadInput(
+                f"--{flag} belongs to a motion", remedy="Name its table, or leave it out"
+            )
+    pose, why = arguments.pose, ""
+    q = neutral(robot) if pose is None else named_pose(robot, pose)
+    if robot.equations:
+        try:
+            found = assembly(robot, pose, precision=arguments.precision)
+            q, why = found.q, why_open(found)
+        except ThesisPinError as error:
+            why = f"the loops aren't kept closed: {error}"
+    drawn = layers(robot, q)
+    words = [arguments.file, *([arguments.closures] if arguments.closures else [])]
+    rig = JointRig(robot, q, drawn.size, open_because=why, precision=arguments.precision)
+    notes = [*robot.description.warnings, *([why] if why else [])]
+    return LivePage(rig, drawn, robot.model.name, f"thesis-pin view {' '.join(words)}", notes=notes)

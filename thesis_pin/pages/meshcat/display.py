@@ -1,0 +1,187 @@
+"""A scene in meshcat: its objects under one path, its motion on meshcat's own play bar."""
+
+from __future__ import annotations
+
+from types import TracebackType
+
+import numpy as np
+from meshcat import Visualizer
+from meshcat.animation import Animation
+from numpy.typing import NDArray
+
+from thesis_pin.numeric.checks import instance, real
+from thesis_pin.pages.meshcat.drawing import Drawing, word
+from thesis_pin.pages.meshcat.page import static
+from thesis_pin.pages.meshcat.shapes import grid
+from thesis_pin.pages.meshcat.tracks import SetMotion, animation, samples
+from thesis_pin.pages.meshcat.window import visualizer
+from thesis_pin.pages.scene import Item, Scene
+
+Array = NDArray[np.float64]
+
+BACKGROUND = [0.957, 0.965, 0.973]
+_CELLS = 40
+
+
+def show(
+    scene: Scene, url: str | None = None, *, speed: float = 1.0, port: int | None = None
+) -> SceneViewer:
+    """Show a scene in meshcat, and play it there. Nothing is printed and no browser opened.
+
+    Args:
+        scene: What to show. Its items stand below ``/meshcat/TITLE/GROUP/ITEM`` in meshcat's tree,
+            where meshcat's own controls hide and show them.
+        url: Address of a running server, as ``tcp://127.0.0.1:6000``; only its objects below
+            ``/meshcat/TITLE`` are touched. None starts a server of our own, on 127.0.0.1
+            alone, whose camera looks at the scene.
+        speed: Playing speed; 1 is real time.
+        port: Port of our own server's page, 0 for any; None takes the first free one from 7000.
+
+    Returns:
+        The scene's viewer; our own server ends with it.
+
+    Raises:
+        BadInput: No server answers there, the port is taken, or an item can't be drawn.
+    """
+    instance("scene", scene, Scene, "gait_scene(), path_scene() or Scene()")
+    speed = real("speed", speed, low=1e-3, high=1e3)
+    drawn = visualizer(url, port)
+    try:
+        return SceneViewer(scene, drawn, speed)
+    except BaseException:
+        drawn.close()
+        raise
+
+
+class SceneViewer:
+    """A scene in meshcat; a context manager that ends our own server.
+
+    Args:
+        scene: The scene.
+        drawn: Where it is shown.
+        speed: Playing speed.
+
+    Attributes:
+        visualizer: meshcat's own object, for all else that it can do.
+        url: Address of the page.
+    """
+
+    def __init__(self, scene: Scene, drawn: Visualizer, speed: float = 1.0) -> None:
+        self.visualizer, self.url = drawn, str(drawn.url())
+        self._time, self._speed = np.asarray(scene.time, dtype=float), speed
+        self._root = drawn[word(scene.title)]
+        self._root.delete()
+        self._drawing = Drawing(self._root)
+        self._nodes = self._drawing.laid(scene.items)
+        box = _box(scene.items)
+        if drawn.window.own:
+            _dress(drawn, scene, box)
+        if scene.floor is not None:
+            self._root["floor"].set_object(_floor(scene.floor, box))
+        self.play()
+        for group in scene.groups:
+            if not group.visible:
+                self._root[word(group.name)].set_property("visible", False)
+
+    def play(self) -> None:
+        """Play the whole motion, again and again, on the page's own play bar."""
+        for place, node in self._nodes:
+            self._drawing.put(place, node, 0)
+        keep = samples(self._time, (node for _, node in self._nodes))
+        nodes = [(place.path, node.part(keep)) for place, node in self._nodes]
+        self._send(animation(nodes, self._time[keep], self._speed), play=True)
+
+    def display(self, t: float) -> None:
+        """Stop, and show one moment.
+
+        Args:
+            t: Its time [s]; the first or last sample stands for what lies before or after.
+        """
+        t = float(np.clip(real("t", t), self._time[0], self._time[-1]))
+        k = min(int(np.searchsorted(self._time, t, side="right")) - 1, len(self._time) - 2)
+        f = float((t - self._time[k]) / (self._time[k + 1] - self._time[k]))
+        self._send(Animation(), play=False)
+        for place, node in self._nodes:
+            self._drawing.put(place, node, *((k + 1, 0.0) if f == 1.0 else (k, f)))
+
+    def static_html(self) -> str:
+        """The page as one that works alone: everything in it, and no request to the network."""
+        return static(str(self.visualizer.static_html()))
+
+    def jupyter_cell(self, height: int = 400) -> object:
+        """The page in a cell of a notebook on this machine: IPython's HTML.
+
+        Args:
+            height: Of the cell, in pixels.
+        """
+        cell: object = self.visualizer.jupyter_cell(height)
+        return cell
+
+    def close(self) -> None:
+        """Let go of the server; our own ends."""
+        self.visualizer.close()
+
+    def __enter__(self) -> SceneViewer:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"SceneViewer({self.url})"
+
+    def _send(self, motion: Animation, *, play: bool) -> None:
+        kept = self._root["animation"].path
+        self.visualizer.window.send(SetMotion(motion, kept, play=play))
+
+
+def _box(items: tuple[Item, ...]) -> Array:
+    """Least and largest corner of where things are and how far they reach, shape ``(2, 3)``."""
+    corners = [np.zeros((1, 3))] if not items else []
+    for item in items:
+        reach = np.zeros(3)
+        if (geometry := getattr(item, "geometry", None)) is not None and "vertices" in geometry:
+            reach = np.abs(geometry["vertices"] @ item.local[:3, :3].T + item.local[:3, 3]).max(0)  # type: ignore[attr-defined]
+        for name in ("placement", "position", "origin", "points"):
+            if (values := getattr(item, name, None)) is not None:
+                points = np.asarray(values)[:, :3]
+                points = points[np.isfinite(points).all(axis=1)]
+                size = float(np.linalg.norm(reach))
+                corners += [points.min(0)[None] - size, points.max(0)[None] + size] * bool(
+                    len(points)
+                )
+    found = np.concatenate(corners) if corners else np.zeros((1, 3))
+    return np.array([found.min(axis=0), found.max(axis=0)])
+
+
+def _dress(drawn: Visualizer, scene: Scene, box: Array) -> None:
+    """A quiet stage, and a camera that looks at the scene: on a server of our own."""
+    for name in ("top_color", "bottom_color"):
+        drawn["/Background"].set_property(name, BACKGROUND)
+    for name in ("/Grid", "/Axes"):
+        drawn[name].set_property("visible", False)
+    middle, size = box.mean(axis=0), max(float(np.linalg.norm(box[1] - box[0])), 0.05)
+    if scene.camera is not None:
+        eye, middle = np.asarray(scene.camera, dtype=float)
+    else:
+        x, y = scene.forward
+        way = np.array([y + 1.1 * x, -x + 1.1 * y, 0.55])
+        eye = middle + 1.2 * size * way / np.linalg.norm(way)
+    camera = drawn["/Cameras/default/rotated/<object>"]
+    camera.set_property("fov", 40)
+    camera.set_property("near", size / 500)
+    camera.set_property("far", 200 * size)
+    camera.set_property("position", [float(eye[0]), float(eye[2]), float(-eye[1])])
+    camera.set_property("target", middle.tolist())
+
+
+def _floor(height: float, box: Array) -> object:
+    wide = 3 * max(float(np.linalg.norm(box[1] - box[0])), 0.05)
+    power = 10.0 ** np.floor(np.log10(wide / _CELLS))
+    spacing = next(n * power for n in (1, 2, 5, 10) if wide / (n * power) <= _CELLS)
+    return grid(wide, spacing, box.mean(axis=0)[:2], height)
