@@ -48,6 +48,7 @@ from .sizing.motors import size_motors as size_motors
 from .pages.player import write_html as write_html
 from .pages.scene import Scene as Scene
 from .pages.serving import show as show
+from .pages.meshcat.robot import viewer as viewer
 
 # Errors
 from .errors import (

@@ -149,6 +149,7 @@ CONTRADICTIONS = {
         ["--no-browser"],
         ["--meshcat"],
         ["--branch=+-"],
+        ["--sliders"],
     ],
     "scout-pin size": [["--branch=+-"]],
     "scout-pin simulate": [
@@ -216,6 +217,7 @@ CONTRADICTIONS = {
         ["--no-browser"],
         ["--meshcat"],
         ["--duration", "3"],
+        ["--sliders"],
     ],
     "pollard-pin size": [["--duration", "3"], ["--branch=+-"], ["--actuators", "three"]],
     "pollard-pin convert": [["--json", "-", "--to", "-"], ["--units", "mm"], ["--duration", "3"]],

@@ -26,6 +26,7 @@ from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # help has to be quick
+    from thesis_pin.pages.live.page import LivePage
     from thesis_pin.pages.scene import Scene
     from thesis_pin.report.exchange.movement import Movement
     from thesis_pin.sizing.catalogue import Catalogue
@@ -65,7 +66,15 @@ def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
 
 
 def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
-    """Show a motion in the browser, or write it as a page."""
+    """Show a motion in the browser, or sliders that move the robot, or write it as a page."""
+    if arguments.sliders:
+        from thesis_pin.command.showing.sliders import show_sliders
+
+        def page() -> LivePage:
+            made: LivePage = _hook(robot, robot.sliders)(arguments, _load(robot, arguments))
+            return made
+
+        return show_sliders(arguments, robot.command, page)
 
     def make(bar: Bar) -> Scene:
         from thesis_pin.pages.scene import frames

@@ -9,7 +9,6 @@ import numpy as np
 
 from scout_pin.dynamics.scaling import DoubleSupport
 from scout_pin.report.judged.causes import CAUSES, Cause
-from thesis_pin.numeric.roots import root
 from thesis_pin.tolerances import TOLERANCES
 
 _TRIED = 12  # samples looked at for each speed tried
@@ -75,7 +74,9 @@ class Trial:
 
         ``most`` is the most that they use of a servo at the bad speed.
         """
-        ends = {bad**2: most}  # both are asked for once more
+        from scipy.optimize import brentq
+
+        ends = {bad**2: most}  # brentq asks for both once more
 
         def passed(square: float) -> float:
             if square not in ends:
@@ -85,8 +86,7 @@ class Trial:
         # Of s² torques are linear between two changes of what the programme presses against.
         if passed(fine**2) >= 0.0:
             return fine
-        low, high = sorted((fine**2, bad**2))
-        return math.sqrt(root(passed, low, high, TOLERANCES.time_unit / 2))
+        return math.sqrt(brentq(passed, fine**2, bad**2, rtol=TOLERANCES.time_unit / 2))
 
     def _few(self, s: float) -> np.ndarray:
         some = beyond(self.double, s, s)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -52,6 +53,7 @@ def show_sliders(
         "samples": 1,
         "sliders": [slider.name for slider in page.rig.sliders],
         "page": arguments.html,
+        "meshcat": None,
     }
     if arguments.html:
         put(arguments.html, content)
@@ -113,4 +115,6 @@ def any_robot(arguments: argparse.Namespace, robot: ClosedRobot) -> LivePage:
     words = [arguments.file, *([arguments.closures] if arguments.closures else [])]
     rig = JointRig(robot, q, drawn.size, open_because=why, precision=arguments.precision)
     notes = [*robot.description.warnings, *([why] if why else [])]
-    return LivePage(rig, drawn, robot.model.name, f"thesis-pin view {' '.join(words)}", notes=notes)
+    return LivePage(
+        rig, drawn, robot.model.name, f"thesis-pin view {shlex.join(words)}", notes=notes
+    )

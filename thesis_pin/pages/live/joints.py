@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import pinocchio as pin
@@ -33,6 +33,9 @@ class JointRig:
         open_because: Why its loops aren't kept closed; empty if they are.
         precision: See :func:`thesis_pin.loops.configurations.surveying.surveyed`.
         readouts: What there is to say of a configuration besides, labels and values.
+        labels: What some coordinates are called instead of their names.
+        headings: Under what some joints stand.
+        root: Under what a root's coordinates stand.
     """
 
     choices: tuple[str, ...] = ()
@@ -46,27 +49,37 @@ class JointRig:
         open_because: str = "",
         precision: float | None = None,
         readouts: Readouts = lambda _: (),
+        labels: Mapping[str, str] | None = None,
+        headings: Mapping[str, str] | None = None,
+        root: str = "root",
     ) -> None:
         self.robot, self._q, self._precision = robot, np.asarray(q, dtype=float), precision
         self._open_because, self._readouts = open_because, readouts
-        self._coordinates = coordinates(robot.model)
-        self.sliders = self._sliders(size)
+        base = 1 if is_free(robot.model) else -1
+        # The root last: who turns joints doesn't want to look for them below it.
+        every = sorted(coordinates(robot.model), key=lambda one: one.joint == base)
+        self._coordinates = tuple(every)
+        self.sliders = self._sliders(size, labels or {}, headings or {}, root)
 
-    def _sliders(self, size: float) -> tuple[Slider, ...]:
+    def _sliders(
+        self, size: float, labels: Mapping[str, str], headings: Mapping[str, str], root_heading: str
+    ) -> tuple[Slider, ...]:
         found = []
         motors = set(self.robot.actuators) if isinstance(self.robot, ClosedRobot) else set()
         root = 1 if is_free(self.robot.model) else -1
         for one, (low, high) in zip(self._coordinates, ways(self._coordinates, size), strict=True):
             heading = "joints" if not motors else "motors" if one.name in motors else "other joints"
-            note = ""
+            heading, note = headings.get(one.name, heading), ""
             if one.joint == root:
-                heading = "root"
+                heading = root_heading
             elif one.kind == "position" and not np.isfinite(one.low + one.high):
                 note = "no limits in the file"
             # Where the robot stands has to be on the slider.
             value = one.value(self._q)
             ends = min(low, value), max(high, value)
-            found.append(Slider(one.name, _UNITS[one.unit], *ends, heading, note))
+            found.append(
+                Slider(labels.get(one.name, one.name), _UNITS[one.unit], *ends, heading, note)
+            )
         return tuple(found)
 
     def start(self) -> Stand:
