@@ -16,10 +16,11 @@ from scout_pin.study.plan.request import LEAST, STEP_TIME, PlanRequest
 from thesis_pin.errors import BadInput, ThesisPinError
 
 _SHARES = (0.5, 0.25, 0.1)  # of a length, speed or margin that are tried
+_TINY = (0.01, 0.001)  # of one as far from what can be met as another unit makes it
 _CLIMBS = 10  # from the first that is met towards what was asked for
 _FIRST, _FINE = 0.16, 0.02  # relative steps of it: the first one, and when it is given up
 _FASTER, _SLOWER = 1.5, 0.4
-_CONFIRMED = 3  # how many are searched anew before none is offered
+_CONFIRMED = (1.0, 0.85, 0.6)  # of what was met from nearby: searched anew until one is met
 
 OFFERS = 4 * (2 * len(_SHARES) + _CLIMBS + ATTEMPTS)
 """Descents at most, or so."""
@@ -102,30 +103,45 @@ def nearest(
     Returns:
         The request; None if none was found.
     """
-    low, step, met = 0.0, _FIRST, list[Candidate]()
-    for share in _SHARES:
-        asked = change.request(request, share)
-        there = None if asked is None else _fresh(search, asked, found)
-        if there is not None:
-            low = share
-            met.append(there)
-            break
-    if not met:
+    begun = _begun(search, request, found, change)
+    if begun is None:
         return None
+    (low, there), step = begun, _FIRST
     # Little by little: what fails from afar is often met from nearby.
     for _ in range(_CLIMBS):
         share = low + min(low * step, (1.0 - low) / 2)
         asked = change.request(request, share)
-        there = None if asked is None else attempt(search, asked, met[-1].known)
-        if there is not None and there.kept:
-            met.append(there)
-            low, step = share, _FASTER * step
+        more = None if asked is None else attempt(search, asked, there.known)
+        if more is not None and more.kept:
+            low, there, step = share, more, _FASTER * step
         else:
-            step *= _SLOWER
+            step = _SLOWER * (share / low - 1.0)
             if step < _FINE:
                 break
-    offers = (one.request for one in met[: -_CONFIRMED - 1 : -1])
-    return next((one for one in offers if _again(search, one)), None)
+    # What is met from nearby isn't always found from afar: then a little less is.
+    offers = (change.request(request, share * low) for share in _CONFIRMED)
+    return next((one for one in offers if one is not None and _again(search, one)), None)
+
+
+def _begun(
+    search: Search, request: PlanRequest, found: Candidate, change: Change
+) -> tuple[float, Candidate] | None:
+    """A share to begin with that is met, and its cycle; None if none was found."""
+    tiny = _TINY if found.most > FAR else ()
+    first, shares = None, (*_SHARES, *tiny)
+    if not change.up:
+        # Where hardly anything fails more needn't be tried; more of time isn't easier.
+        shares = _SHARES[:-1]
+        for share in (_SHARES[-1], *tiny):
+            if there := _fresh(search, change.request(request, share), found):
+                first = share, there
+                break
+        else:
+            return None
+    for share in shares:
+        if there := _fresh(search, change.request(request, share), found):
+            return share, there
+    return first
 
 
 def _again(search: Search, request: PlanRequest) -> bool:
@@ -139,8 +155,10 @@ def _again(search: Search, request: PlanRequest) -> bool:
     return kept
 
 
-def _fresh(search: Search, request: PlanRequest, found: Candidate) -> Candidate | None:
+def _fresh(search: Search, request: PlanRequest | None, found: Candidate) -> Candidate | None:
     """A cycle that keeps a request's limits, from what was found or from the first start."""
+    if request is None:
+        return None
     length = request.first_length
     first = next(starts(search.build, search.steps, search.cyclic, length))
     beginnings = [found.known, Unknowns(first, SHARE, length)]
