@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context
+from decimal import ROUND_CEILING, ROUND_DOWN, Context
 
-from scout_pin.study.plan.cycles.feet import least_spacing
+from scout_pin.study.plan.cycles.feet import Steps
 from scout_pin.study.plan.cycles.problem import Unknowns
 from scout_pin.study.plan.cycles.search import ATTEMPTS, FAR, Candidate, Search
 from scout_pin.study.plan.cycles.starts import SHARE, starts
 from scout_pin.study.plan.limits import KINDS
-from scout_pin.study.plan.request import GAP, STEP_TIME, PlanRequest
+from scout_pin.study.plan.request import LEAST, STEP_TIME, PlanRequest
 from thesis_pin.errors import BadInput, ThesisPinError
 
 _SHARES = (0.5, 0.25, 0.1)  # of a length, speed or margin that are tried
@@ -51,13 +52,13 @@ class Change:
         Who asks for what is told then asks for the same to the last bit. None where so little,
         or so much, can't be asked for.
         """
-        rounding = Context(self.digits, ROUND_CEILING if self.up else ROUND_FLOOR)
+        rounding = Context(self.digits, ROUND_CEILING if self.up else ROUND_DOWN)
         told = float(rounding.create_decimal(f"{self.value(share) / self.unit:.12g}"))
         try:
             changed = request.changed(**{self.name: told * self.unit})
         except BadInput:
             return None
-        return changed if told * self.unit >= self.least else None
+        return changed if abs(told * self.unit) >= self.least else None
 
 
 def changes(search: Search, request: PlanRequest) -> Iterator[Change]:
@@ -65,15 +66,27 @@ def changes(search: Search, request: PlanRequest) -> Iterator[Change]:
     speed, time = request.speed, float(request.step_time or STEP_TIME)
     if speed is not None:
         yield Change("speed", lambda share: share * speed, least=1e-3)
-    if not request.free_length and (speed is None or request.step_time is None):
+    if (
+        request.first_length
+        and not request.free_length
+        and (speed is None or request.step_time is None)
+    ):
         yield Change("step_length", lambda share: share * request.first_length)
     if speed is None and request.objective != "fastest":
         yield Change("step_time", lambda share: time / share, unit=1.0, up=True)
     if request.margin > 0.0:
         yield Change("margin", lambda share: share * request.margin, digits=3)
-    given, usual = request.foot_spacing, least_spacing(search.sampler.robot) + GAP
+    for name, unit in (("side", 1e-3), ("turn", math.pi / 180)):
+        if amount := float(getattr(request, name)):
+            yield Change(name, _of(amount), unit=unit, least=LEAST[name], digits=3)
+    given = request.foot_spacing
+    usual = Steps.of(search.sampler.robot, request.changed(foot_spacing=None)).across[1] * 2
     if given is not None and given > usual:
         yield Change("foot_spacing", lambda share: usual + share * (given - usual))
+
+
+def _of(amount: float) -> Callable[[float], float]:
+    return lambda share: share * amount
 
 
 def nearest(

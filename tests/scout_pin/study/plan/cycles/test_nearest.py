@@ -87,6 +87,11 @@ def test_hardly_anything_that_fails_is_the_last_of_its_kind_but_of_time(monkeypa
         ({"speed": 0.2, "step_time": 0.3}, ["speed", "margin"]),
         ({"objective": "fastest"}, ["margin"]),
         ({"objective": "fastest", "step_length": 0.04}, ["step_length", "margin"]),
+        ({"side": -0.02}, ["step_time", "margin", "side"]),
+        (
+            {"turn": 0.2, "step_length": 0.03},
+            ["step_length", "step_time", "margin", "turn"],
+        ),
         ({"foot_spacing": 0.09}, ["step_length", "step_time", "margin", "foot_spacing"]),
     ],
 )
@@ -107,6 +112,7 @@ def test_one_thing_changes_and_all_else_stays_as_it_was_said(scout, asked, names
         (Change("margin", lambda share: share * 0.01, digits=3), 0.40699, 4.06e-3),
         (Change("step_time", lambda share: 0.8 / share, unit=1.0, up=True), 0.7, 1.143),
         (Change("step_time", lambda share: 0.8 / share, unit=1.0, up=True), 0.5, 1.6),
+        (Change("side", lambda share: share * -0.02, digits=3), 0.40699, -8.13e-3),
         (SPEED, 0.48437, 145.3e-3),
     ],
 )
