@@ -14,6 +14,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
 from thesis_pin.numeric.arrays import thinned as thinned
 
@@ -42,7 +43,7 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Item:
+class Item(Brief):
     """Common to everything that is drawn.
 
     Attributes:
@@ -211,7 +212,7 @@ class Triad(Item):
 
 
 @dataclass(frozen=True)
-class Readout:
+class Readout(Brief):
     """A value shown as text beside the picture.
 
     Attributes:
@@ -230,7 +231,7 @@ class Readout:
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(Brief):
     """Everything a page has to know.
 
     Attributes:
