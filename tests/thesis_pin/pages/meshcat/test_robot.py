@@ -153,7 +153,7 @@ def test_files_that_meshcats_page_makes_nothing_of_are_told(tmp_path):
 def test_a_body_of_mixed_collada_is_drawn_by_the_corners_that_pinocchio_has():
     robot = load("example:anymal_b_simple_description/anymal")
     mixed = [one for one in robot.visual_model.geometryObjects if is_mixed(one.meshPath)]
-    assert [Path(one.meshPath).name for one in mixed] == ["anymal_base.dae"]
+    assert Path(mixed[0].meshPath).name == "anymal_base.dae"
     drawn = RobotViewer.loadMeshFromFile(None, mixed[0])
     whole = np.array(mixed[0].geometry.vertices())
     np.testing.assert_allclose(drawn.vertices * mixed[0].meshScale, whole, atol=1e-6)
