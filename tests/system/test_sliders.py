@@ -79,6 +79,17 @@ def test_a_key_on_a_slider_moves_the_body_as_pinocchio_says_and_keeps_the_loops_
     box = robot.visual_model.geometryObjects[number].geometry.aabb_local
     np.testing.assert_allclose(own.min(axis=0), box.min_, atol=2e-4)
     np.testing.assert_allclose(own.max(axis=0), box.max_, atol=2e-4)
+    # A frame's bars end on its axes.
+    triad = next(one for one in page.layers.hung if one.item.group == "frames" and one.joint == 3)
+    tips = browser.run(
+        f"player.items[{page.layers.hung.index(triad)}].object.children[0].children.slice(0, 3)"
+        ".map((bar) => bar.localToWorld(new MeshCat.THREE.Vector3("
+        f"0, {triad.item.length}, 0)).toArray())"
+    )
+    frame = data.oMi[3].homogeneous @ triad.item.local
+    for k, tip in enumerate(tips):
+        wanted = frame[:3, 3] + triad.item.length * frame[:3, k]
+        np.testing.assert_allclose(tip, wanted, atol=1e-5)
     # What the text fields hold is the pose, and reads back.
     (tmp_path / "pose.toml").write_text(browser.run("document.querySelector('textarea').value"))
     np.testing.assert_allclose(named_pose(robot, str(tmp_path / "pose.toml")), q, atol=1e-12)
