@@ -1,0 +1,1 @@
+"""Where the verb ``view`` can show a scene besides the browser's own page."""
