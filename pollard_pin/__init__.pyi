@@ -37,6 +37,9 @@ from .report.document import trajectory_report as trajectory_report
 from .study.size import size as size
 from .study.simulate.draws import simulate_path as simulate_path
 
+# Viewer
+from .report.drawn.viewer import viewer as viewer
+
 # Only Pollard
 from .specification import ACTUATOR_NAMES as ACTUATOR_NAMES
 from .model import CLOSURE_PATH as CLOSURE_PATH

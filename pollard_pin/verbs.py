@@ -17,6 +17,7 @@ from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import Answer, give, write_results
 from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.showing.words import refuse_set, shown_by
 from thesis_pin.command.simulating import tried
 from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.report.tables import Table
@@ -24,6 +25,7 @@ from thesis_pin.report.tables import Table
 if TYPE_CHECKING:  # reports need none of it
     from pollard_pin.report.document import TrajectoryReport
     from pollard_pin.study.simulate.conditions import Conditions
+    from thesis_pin.pages.live.page import LivePage
     from thesis_pin.report.exchange.movement import Movement
 
 
@@ -92,6 +94,20 @@ def motion(arguments: argparse.Namespace, robot: Pollard) -> Movement:
         raise BadInput("a motion is written for six motors", remedy="Leave --actuators out")
     path = _path(arguments, robot.specification)
     return path_movement(robot, path, samples=arguments.samples, branch=_branch(arguments))
+
+
+def sliders(arguments: argparse.Namespace, robot: Pollard) -> LivePage:
+    """The robot whose tool is moved by sliders, at first on the branch that the arguments say.
+
+    Raises:
+        BadInput: Something is asked of a path.
+    """
+    from pollard_pin.report.drawn.sliders import slider_page
+
+    motion = ("path", "duration", "timing", "euler", "feed", "placement")
+    refuse_beside(arguments, "sliders", motion)
+    refuse_set(arguments, "sliders", smooth="auto", actuators="six")
+    return slider_page(robot, _branch(arguments), shown_by(arguments, "pollard-pin"))
 
 
 def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:

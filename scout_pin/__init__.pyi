@@ -34,6 +34,9 @@ from .report.document import gait_report as gait_report
 from .study.size import size as size
 from .study.simulate.draws import simulate_gait as simulate_gait
 
+# Viewer
+from .report.drawn.viewer import viewer as viewer
+
 # Only Scout
 from .study.plan.planning import plan_gait as plan_gait
 from .study.plan.request import PlanRequest as PlanRequest

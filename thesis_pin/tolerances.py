@@ -70,6 +70,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
         branch_tie: Difference of two branches' distance from the neutral pose below which
             neither is the nearer; less than a hobby servo's dead band [rad].
         seam: Jump of value accepted where segments of a curve meet [m], [rad].
+        turned_curve: How far angles of a body that is turned about the vertical may be off between
+            the knots of their new curves [rad]: a ten-thousandth of what a standing sole may tilt.
         rate_jump: Jump of rate that counts as smooth [m/s], [rad/s]: spread over a servo's
             period of 10 ms it moves the zero-moment point of a robot of 0.2 m by 0.2 mm.
         closed_acceleration: Jump of acceleration where a cycle begins anew that isn't told
@@ -217,6 +219,7 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     overload: float = 200.0
     branch_tie: float = 1e-3
     seam: float = 1e-4
+    turned_curve: float = 1e-7
     rate_jump: float = 1e-4
     closed_acceleration: float = 0.05
     closed_turning: float = 0.5

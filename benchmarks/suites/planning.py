@@ -14,6 +14,7 @@ from peers.common import rnea
 
 import scout_pin
 from scout_pin.coordinates import free_flyer_state
+from scout_pin.dynamics.inverse import joint_friction
 from suites.scout_dynamics import EXAMPLES, FORCES, unexplained
 from thesis_pin.numeric.workers import silent
 
@@ -159,9 +160,10 @@ def yardstick(robot: scout_pin.Scout) -> Callable[[Count], None]:
 
 
 def _explained(robot: scout_pin.Scout, plan: scout_pin.Plan, scale: Scale) -> float:
-    """The walk's torques and wrenches must give RNEA's forces again."""
+    """The walk's torques, friction left out, and wrenches must give RNEA's forces again."""
     report = plan.walk.report
     few = slice(None, None, max(1, len(report.motion.t) // scale.few))
     state = free_flyer_state(report.motion.torso.part(few), report.joints.part(few))
     found = report.dynamics
-    return unexplained(robot, state, found.torque[few], found.wrench[few])
+    torque = found.torque[few] - joint_friction(robot, report.joints.part(few).v)
+    return unexplained(robot, state, torque, found.wrench[few])

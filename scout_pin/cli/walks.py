@@ -10,7 +10,9 @@ from thesis_pin.command.options import add_json
 from thesis_pin.command.registry import Words
 
 _STEPS = (
-    ("--step-length", "MM", True, "way from one footfall to the next (default: 30)"),
+    ("--step-length", "MM", True, "from one footfall to the next (default: 30; none if aside)"),
+    ("--side", "MM", False, "way aside of two steps, to the right; negative: to the left"),
+    ("--turn", "DEG", False, "turn of two steps, to the left; negative: to the right"),
     ("--step-time", "SECONDS", True, "time from one footfall to the next (default: 0.8)"),
     ("--walking-speed", "MM/S", True, "speed of the walk, instead of --step-time"),
     ("--foot-spacing", "MM", True, "from sole to sole across (default: 12 mm between them)"),

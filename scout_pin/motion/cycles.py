@@ -16,11 +16,13 @@ import numpy as np
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.over_floor import OverFloor, turned_jets
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance, whole
 from thesis_pin.numeric.interpolation import join
 from thesis_pin.numeric.piecewise import Piecewise
+from thesis_pin.numeric.rotations import euler_placement, rotation
 from thesis_pin.tolerances import TOLERANCES
 
 if TYPE_CHECKING:  # exact gaits need no smoothing
@@ -61,12 +63,20 @@ class Closure:
     """How a gait's end fits its start.
 
     Attributes:
-        displacement: What a cycle moves the robot by, x and y [m].
+        displacement: What a cycle moves the robot by, x and y [m]; of one that turns, the
+            middle of its feet.
         gaps: What doesn't fit, largest first as a multiple of its tolerance.
+        motion: What takes its start to its end.
     """
 
     displacement: tuple[float, float]
     gaps: tuple[Gap, ...]
+    motion: OverFloor
+
+    @property
+    def turn(self) -> float:
+        """What a cycle turns the robot by, to the left [rad]."""
+        return self.motion.turn
 
     @property
     def places_fit(self) -> bool:
@@ -106,8 +116,8 @@ def state(gait: Gait, t: float, time_unit: float) -> np.ndarray:
 def closure(gait: Gait, time_unit: float | None = None) -> Closure:
     """How the end of a gait fits its start.
 
-    A cycle may move the robot over the floor; the displacement is the one that at least two
-    of torso and feet agree on. A gait that turns doesn't close.
+    A cycle may move the robot over the floor, and turn it; how far is what at least two of
+    torso and feet agree on. Samples of finite resolution that turn don't close.
 
     Args:
         gait: The gait.
@@ -117,9 +127,12 @@ def closure(gait: Gait, time_unit: float | None = None) -> Closure:
     unit = gait.time_unit if time_unit is None else time_unit
     # The last piece, not one that a curve may have beyond the gait's end.
     late = np.nextafter(gait.end, -np.inf)
-    gaps = state(gait, late, unit) - state(gait, gait.start, unit)
+    start, end = state(gait, gait.start, unit), state(gait, late, unit)
+    turn = 0.0 if gait.variants is not None else _turn(start, end)
+    gaps = end - (_turned(start, turn) if turn else start)
     step = np.sort(gaps[:, :2, 0], axis=0)[1]  # the median of three
     gaps[:, :2, 0] -= step
+    way = (end - start)[1:, :2, 0].mean(axis=0) if turn else step
     open_ = _left_open(gait, late, unit)
     found = [
         (abs(gaps[b, c, n]) / (allowed(coordinate, what) + open_[b, c, n]), b, c, n)
@@ -128,13 +141,35 @@ def closure(gait: Gait, time_unit: float | None = None) -> Closure:
         for n, what in enumerate(WHATS)
     ]
     return Closure(
-        (float(step[0]), float(step[1])),
+        (float(way[0]), float(way[1])),
         tuple(
             Gap(BODIES[b], POSE_NAMES[c], WHATS[n], float(gaps[b, c, n]))
             for share, b, c, n in sorted(found, reverse=True)
             if share > 1
         ),
+        OverFloor(float(step[0]), float(step[1]), turn),
     )
+
+
+def _turn(start: np.ndarray, end: np.ndarray) -> float:
+    """The turn that two of torso and feet agree on; zero if it is within tolerance [rad]."""
+    found = []
+    for before, after in zip(start[:, 3:], end[:, 3:], strict=True):
+        one, other = (euler_placement("xyz", *angles.T)[0] for angles in (before, after))
+        m = other @ one.T
+        turn = float(np.arctan2(m[1, 0] - m[0, 1], m[0, 0] + m[1, 1]))
+        whole_turns = round((float(after[2, 0] - before[2, 0]) - turn) / (2 * np.pi))
+        found.append(turn + 2 * np.pi * whole_turns)
+    turn = float(np.median(found))
+    return turn if abs(turn) > allowed("yaw", "position") else 0.0
+
+
+def _turned(start: np.ndarray, turn: float) -> np.ndarray:
+    """A state turned about the world's origin, ``(bodies, 6, 3)``."""
+    found, turns = start.copy(), np.full(len(start), turn)
+    found[:, :3] = rotation("z", turn) @ start[:, :3]
+    found[:, 3:] = turned_jets(start[:, 3:].transpose(2, 0, 1), turns).transpose(1, 2, 0)
+    return found
 
 
 def _left_open(gait: Gait, late: float, unit: float) -> np.ndarray:
@@ -178,6 +213,8 @@ def repeat_gait(gait: Gait, times: int) -> Gait:
             where=f"gait {gait.name!r}",
             allowed=f"at most {LIMITS.phases:,}",
         )
+    if found.turn:
+        return _turning(gait, found.motion, times)
     steps = {c: found.displacement[k] for k, c in enumerate("xy")}
     curves = {
         body: tuple(
@@ -188,6 +225,19 @@ def repeat_gait(gait: Gait, times: int) -> Gait:
     }
     phases = tuple(_phases(gait, times))
     return replace(gait, curves=curves, phases=phases, variants=_variants(gait, steps, times))
+
+
+def _turning(gait: Gait, motion: OverFloor, times: int) -> Gait:
+    """A gait several times over, moved and turned each time."""
+    length, curves = gait.end - gait.start, {}
+    for body in BODIES:
+        six = [_again(curve, gait.start, gait.end, 0.0, 1) for curve in gait.curves[body]]
+        moved = [motion.times(k).moved(six) for k in range(times)]
+        curves[body] = tuple(
+            join([Piecewise(each[c].c, each[c].x + k * length) for k, each in enumerate(moved)])
+            for c in range(len(POSE_NAMES))
+        )
+    return replace(gait, curves=curves, phases=tuple(_phases(gait, times)))
 
 
 def _variants(gait: Gait, steps: dict[str, float], times: int) -> Variants | None:

@@ -12,9 +12,11 @@ import numpy as np
 from scout_pin.implausible import implausible
 from scout_pin.model import Scout, load
 from scout_pin.specification import NEW_PATH, SIDES
+from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import Answer, check_new, put, put_new
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.showing.words import refuse_set, shown_by
 from thesis_pin.command.simulating import tried
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
@@ -27,6 +29,7 @@ if TYPE_CHECKING:  # inverse kinematics alone needs none of them
     from scout_pin.report.document import GaitReport
     from scout_pin.study.servo import ServoGains
     from scout_pin.study.simulate.conditions import Conditions
+    from thesis_pin.pages.live.page import LivePage
     from thesis_pin.pages.scene import Scene
     from thesis_pin.report.exchange.movement import Movement
 
@@ -64,6 +67,19 @@ def still(arguments: argparse.Namespace, robot: Scout) -> Scene | None:
     if arguments.gait is not None or arguments.specification is None:
         return None
     return neutral_scene(robot)
+
+
+def sliders(arguments: argparse.Namespace, robot: Scout) -> LivePage:
+    """The biped moved by sliders.
+
+    Raises:
+        BadInput: Something is asked of a gait.
+    """
+    from scout_pin.report.drawn.sliders import slider_page
+
+    refuse_beside(arguments, "sliders", ("gait", "interpolation", "time-unit", "cycle", "branch"))
+    refuse_set(arguments, "sliders", smooth="auto", repeat=1)
+    return slider_page(robot, shown_by(arguments, "scout-pin"))
 
 
 def motion(arguments: argparse.Namespace, robot: Scout) -> Movement:

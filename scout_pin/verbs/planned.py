@@ -27,6 +27,8 @@ if TYPE_CHECKING:  # help has to be quick
 _MILLI, _PART, _DEGREE = 1e-3, 1e-2, math.pi / 180
 _UNITS = {
     "step_length": _MILLI,
+    "side": _MILLI,
+    "turn": _DEGREE,
     "step_time": 1.0,
     "walking_speed": _MILLI,
     "foot_spacing": _MILLI,
@@ -44,11 +46,11 @@ _UNITS = {
 """Numbers of a request, and what one is on the command line."""
 
 _WORDS = {
-    **dict.fromkeys(("step_length", "foot_spacing", "lift", "margin"), "mm"),
+    **dict.fromkeys(("step_length", "side", "foot_spacing", "lift", "margin"), "mm"),
     "step_time": "s",
     "walking_speed": "mm/s",
     **dict.fromkeys(("torque_reserve", "speed_reserve", "line_reserve"), "percent"),
-    **dict.fromkeys(("pitch", "roll", "yaw", "knee"), "degrees"),
+    **dict.fromkeys(("turn", "pitch", "roll", "yaw", "knee"), "degrees"),
 }
 """The same in words."""
 
@@ -132,6 +134,8 @@ def _request(arguments: argparse.Namespace) -> PlanRequest:
 
 
 _LEAST = {
+    "side": (0.1, "mm", "20"),
+    "turn": (0.5, "degrees", "10"),
     "margin": (0.1, "mm", "10"),
     "walking_speed": (1.0, "mm/s", "100"),
     "torque_reserve": (1.0, "percent", "10"),
@@ -151,11 +155,12 @@ def _refuse_other_units(arguments: argparse.Namespace) -> None:
     """
     for name, (least, unit, usual) in _LEAST.items():
         value = getattr(arguments, name)
-        if value is not None and 0 < value < least:
+        if value is not None and 0 < abs(value) < least:
             raise BadInput(
                 f"--{name.replace('_', '-')} is {value:g} {unit}",
                 allowed=f"0 or at least {least:g} {unit}"
-                if name in ("margin", "torque_reserve", "speed_reserve", "line_reserve")
+                if name
+                in ("side", "turn", "margin", "torque_reserve", "speed_reserve", "line_reserve")
                 else f"at least {least:g} {unit}",
                 remedy=f"Write it in {unit}, as {usual}",
             )

@@ -124,6 +124,7 @@ NUMBERS = {
     "--height": set(),
     "--steps": set(),
     "--servo-rate": {"2.5"},
+    "--meshcat": set(),
 }
 """What of :data:`JUNK` each flag that takes numbers has a use for."""
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
@@ -145,7 +146,14 @@ FILES = {
 
 CONTRADICTIONS = {
     "scout-pin gait": [["--json", "-", "--html", "-"], ["--branch=+-"]],
-    "scout-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--branch=+-"]],
+    "scout-pin view": [
+        ["--port", "0"],
+        ["--hold", "1"],
+        ["--no-browser"],
+        ["--meshcat"],
+        ["--branch=+-"],
+        ["--sliders"],
+    ],
     "scout-pin size": [["--branch=+-"]],
     "scout-pin simulate": [
         ["--json", "-", "--html", "-"],
@@ -206,7 +214,14 @@ CONTRADICTIONS = {
         ["--actuators", "three"],
         ["--branch=+-"],
     ],
-    "pollard-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--duration", "3"]],
+    "pollard-pin view": [
+        ["--port", "0"],
+        ["--hold", "1"],
+        ["--no-browser"],
+        ["--meshcat"],
+        ["--duration", "3"],
+        ["--sliders"],
+    ],
     "pollard-pin size": [["--duration", "3"], ["--branch=+-"], ["--actuators", "three"]],
     "pollard-pin convert": [["--json", "-", "--to", "-"], ["--units", "mm"], ["--duration", "3"]],
     "pollard-pin ik": [["--branch=+-"]],
@@ -234,7 +249,13 @@ CONTRADICTIONS = {
         ["--euler", "ZYX"],
     ],
     "thesis-pin size": [["--frame", "tool_tip"], ["--external", "nowhere=0,0,1"]],
-    "thesis-pin view": [["--port", "0"], ["--hold", "1"], ["--no-browser"], ["--euler", "ZYX"]],
+    "thesis-pin view": [
+        ["--port", "0"],
+        ["--hold", "1"],
+        ["--no-browser"],
+        ["--meshcat"],
+        ["--euler", "ZYX"],
+    ],
     "thesis-pin workspace": [
         ["--along", "x", "0", "1"],
         ["--along", "z_mm", "3", "-3"],

@@ -15,6 +15,7 @@ SAYS = {
     "talos_lean": "It stands from 1.5° to 11.0° of its ankle.",
     "any_robot_torques": "the closest is chain1_shoulder with 8%",
     "delta_workspace": "No motor exceeds its limits; the closest is motor_1",
+    "meshcat_viewer": "its tool has moved by 100 mm, its loops stayed closed",
     "scout_explicit_model": "8.81468 N stay unbalanced",
     "scout_inverse_kinematics": "reach the target to",
     "scout_gait_report": "Scout can walk this gait",
@@ -46,11 +47,11 @@ def test_example_is_under_60_lines(script):
     assert len(script.read_text().splitlines()) < 60
 
 
-def test_single_configurations_go_to_pinocchios_meshcat_viewer_as_documented():
+def test_scenes_and_single_configurations_go_to_meshcat_as_documented():
     text = (EXAMPLES.parent / "docs" / "viewer.md").read_text(encoding="utf-8")
-    section = text.split("## One configuration at a time")[1]
-    code = section.split("```python")[1].split("```")[0].replace("open=True", "open=False")
-    code += "print(len(robot.wrapper.viewer.static_html()))"
+    section = text.split("## In meshcat")[1]
+    code = "".join(part.split("```")[0] for part in section.split("```python")[1:3])
+    code += "assert len(page) > 500_000\nprint(len(viewer.static_html()))"
     done = subprocess.run(
         [sys.executable, "-c", code],
         capture_output=True,

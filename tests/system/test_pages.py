@@ -58,10 +58,11 @@ def test_the_animation_runs_by_itself_and_starts_again_at_its_end(view):
     assert view.run("document.querySelector('button.play').textContent").endswith("pause")
 
 
-def test_a_reader_who_wants_less_motion_gets_a_page_at_rest(browser, view_file):
-    browser.open(view_file.as_uri(), reduced_motion="reduce")
-    browser.until("window.player && player.framesDrawn > 0")
-    assert browser.run("player.playing") is False
+def test_a_page_plays_by_itself_unless_its_reader_wants_less_motion(browser, view_file):
+    for wish, plays in (("no-preference", True), ("reduce", False)):
+        browser.open(view_file.as_uri(), reduced_motion=wish)
+        browser.until("window.player && player.framesDrawn > 0")
+        assert browser.run("player.playing") is plays
 
 
 def test_every_group_can_be_hidden_and_shown_again(view):
@@ -273,7 +274,7 @@ def test_the_live_page_draws_says_when_it_drops_frames_and_ends_cleanly_on_ctrl_
     try:
         address = line.split(" at ")[1].split()[0]
         assert address.startswith("http://127.0.0.1:")
-        browser.open(address)
+        browser.open(address, reduced_motion="no-preference")
         browser.until("window.player && player.framesDrawn > 5")
         assert browser.run("player.playing") is True
         assert browser.run("document.querySelector('.bar select').value") == "0.5"

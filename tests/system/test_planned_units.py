@@ -18,6 +18,12 @@ PLAN = [
     (["--pitch", "0.15"], "--pitch is 0.15 degrees; allowed: at least 0.5 degrees. Write it in"),
     (["--roll", "0.2"], "--roll is 0.2 degrees"),
     (["--yaw", "0.1"], "--yaw is 0.1 degrees"),
+    (["--side", "-0.02"], "--side is -0.02 mm; allowed: 0 or at least 0.1 mm. Write it in mm, as"),
+    (["--turn", "0.17"], "--turn is 0.17 degrees; allowed: 0 or at least 0.5 degrees"),
+    (["--turn", "200"], "--turn is 200.0; allowed: "),
+    (["--side", "20000"], "--side is 20000"),
+    (["--turn", "10", "--steps", "51"], "51 steps that turn"),
+    (["--turn", "15", "--foot-spacing", "62"], "the soles touch where the feet are 62 mm apart"),
 ]
 SIMULATE = [
     (["--floor-tilt", "80", "0"], "--floor-tilt is '80'; allowed: -45 to 45 degrees"),

@@ -9,8 +9,10 @@ import pinocchio as pin
 
 from thesis_pin.command.results import Answer, deliver, give, put_folder
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.showing.sliders import any_robot, show_sliders
 from thesis_pin.command.verbs import deliver_sizes, show_scene
 from thesis_pin.command.warned import warned
+from thesis_pin.command.words import closures_and_motion
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.loops.checking import soundness
 from thesis_pin.loops.checking.assembly import assembly
@@ -67,7 +69,12 @@ def size(arguments: argparse.Namespace) -> ExitCode:
 
 
 def view(arguments: argparse.Namespace) -> ExitCode:
-    """Show a motion of any robot in the browser, or write it as a page."""
+    """Show any robot in the browser, on a motion or moved by sliders, or write it as a page."""
+    arguments.closures, arguments.motion = closures_and_motion(arguments)
+    if arguments.motion is None:
+        return show_sliders(
+            arguments, "thesis-pin", lambda: any_robot(arguments, loaded(arguments))
+        )
     from thesis_pin.pages.reports.torque_scene import scene
 
     return show_scene(arguments, "thesis-pin", lambda _: scene(_report(arguments)))

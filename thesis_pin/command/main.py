@@ -7,7 +7,10 @@ from functools import partial
 
 from thesis_pin.command.options import add_json, add_report, add_sizing, add_view
 from thesis_pin.command.registry import Command, Parser, Verb
+from thesis_pin.command.showing.film import add_film
+from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.words import (
+    perhaps_motion,
     strictly,
     where_to,
     which_grid,
@@ -91,14 +94,22 @@ COMMAND = Command(
         ),
         Verb(
             "view",
-            "watch any robot move in the browser",
-            "Show any robot on a motion with its loops, their forces and the motors' torques, on "
-            "127.0.0.1.",
+            "any robot in the browser, moved by sliders or on a motion",
+            "Show any robot on 127.0.0.1: with a slider for each joint, loops kept closed, frames, "
+            "masses and limits; or on a motion with its loops' forces and the motors' torques.",
             "view urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
             "examples/pollard_motors.csv --html view.html",
             "thesis_pin.pages.reports.torque_scene:scene",
             "thesis_pin.command.any_robot:view",
-            (which_robot, which_motion, which_pose, which_wrenches, add_view),
+            (
+                which_robot,
+                perhaps_motion,
+                which_pose,
+                which_wrenches,
+                add_view,
+                add_meshcat,
+                add_film,
+            ),
         ),
         Verb(
             "workspace",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from thesis_pin.command.results import deliver
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.warned import warned
+from thesis_pin.command.words import closures_and_motion
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.finding import find_feet
 from thesis_pin.contacts.soles.foot import Foot
@@ -31,8 +31,6 @@ from thesis_pin.smoothing.stated import stated
 
 Array = NDArray[np.float64]
 
-_TABLES = (".csv", ".tsv", ".txt", ".dat")
-
 
 def balance(arguments: argparse.Namespace) -> ExitCode:
     """Report on a robot on its feet."""
@@ -48,9 +46,7 @@ def balance(arguments: argparse.Namespace) -> ExitCode:
 
 def _report(arguments: argparse.Namespace) -> BalanceReport:
     stated(arguments.smooth)  # also where a pose is held, which has no samples
-    closures, file = arguments.closures, arguments.motion
-    if file is None and closures is not None and Path(closures).suffix.lower() in _TABLES:
-        closures, file = None, closures  # one file beside the robot's, a table
+    closures, file = closures_and_motion(arguments)
     with warnings.catch_warnings(action="ignore", category=ModelWarning):  # the report says them
         robot = load(arguments.file, closures, root_joint=pin.JointModelFreeFlyer())
     with warned():

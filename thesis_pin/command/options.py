@@ -6,7 +6,6 @@ import argparse
 
 from thesis_pin.command.numbers import add_count, add_number
 from thesis_pin.command.registry import Words
-from thesis_pin.command.showing.film import add_film
 from thesis_pin.errors import BadInput
 
 
@@ -132,7 +131,6 @@ def add_view(words: Words) -> None:
     words.add_argument(
         "--html", metavar="FILE|-", help="write one self-contained page instead of serving it"
     )
-    add_film(words)
     add_json(words, "what is shown, and where")
 
 

@@ -188,6 +188,8 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
         info_page: The same as a page.
         still: What to show where no motion is asked for: a function of the arguments and the
             robot that returns a scene, or None to show the usual motion; empty for that.
+        sliders: The robot with sliders, a function of the arguments and the robot that returns a
+            :class:`thesis_pin.pages.live.page.LivePage`, and refuses what belongs to a motion.
         urdf, files: Its URDF in one reading, and everything generated from it.
         conditions: What a simulation is tried under, as the arguments say.
         simulation: A simulation of a report of the motion; the rest of its room,
@@ -216,6 +218,7 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     info: str = "report.info:document"
     info_page: str = "report.info:page"
     still: str = ""
+    sliders: str = "verbs:sliders"
     urdf: str = "urdf:urdf"
     files: str = "urdf:files"
     size: str = "study.size:size"

@@ -27,6 +27,7 @@ from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # help has to be quick
+    from thesis_pin.pages.live.page import LivePage
     from thesis_pin.pages.scene import Scene
     from thesis_pin.report.exchange.movement import Movement
     from thesis_pin.sizing.catalogue import Catalogue
@@ -66,7 +67,15 @@ def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
 
 
 def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
-    """Show a motion in the browser, or write it as a page."""
+    """Show a motion in the browser, or sliders that move the robot, or write it as a page."""
+    if arguments.sliders:
+        from thesis_pin.command.showing.sliders import show_sliders
+
+        def page() -> LivePage:
+            made: LivePage = _hook(robot, robot.sliders)(arguments, _load(robot, arguments))
+            return made
+
+        return show_sliders(arguments, robot.command, page)
 
     def make(bar: Bar) -> Scene:
         from thesis_pin.pages.scene import frames
@@ -92,8 +101,12 @@ def show_scene(
         make: Makes the scene.
     """
     for written in ("html", "film", "picture"):
-        refuse_beside(arguments, written, ("port", "hold", "no-browser"))
+        refuse_beside(arguments, written, ("port", "hold", "no-browser", "meshcat"))
     check_film(arguments)
+    if isinstance(arguments.meshcat, str):  # a server that runs already
+        refuse_beside(arguments, "meshcat", ("port", "hold"))
+    if arguments.meshcat is not None and arguments.look != "3d":
+        raise BadInput("--look means nothing beside --meshcat", remedy="Leave one of them out")
     with Bar("working out the motion") as bar:
         from thesis_pin.report.writers import json_bytes
 
@@ -107,7 +120,12 @@ def show_scene(
         "page": arguments.html,
         "film": arguments.film,
         "picture": arguments.picture,
+        "meshcat": None,
     }
+    if arguments.meshcat is not None:
+        from thesis_pin.command.showing.meshcat import show_in_meshcat
+
+        return show_in_meshcat(arguments, scene, shown)
     from thesis_pin.pages import player, serving
 
     if arguments.html:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
+from pathlib import Path
+
 from thesis_pin.command.numbers import add_number, slope, wrench
 from thesis_pin.command.options import (
     LISTS,
@@ -39,6 +42,30 @@ def which_motion(words: Words) -> None:
     add_smooth(words)
     add_frame(words)
     add_euler(words)
+
+
+def perhaps_motion(words: Words) -> None:
+    """The same, where a robot may stand still."""
+    words.add_argument(
+        "motion",
+        nargs="?",
+        metavar="MOTION",
+        help="CSV as for torque (default: sliders move the robot, its loops stay closed)",
+    )
+    add_smooth(words)
+    add_frame(words)
+    add_euler(words)
+
+
+def closures_and_motion(arguments: argparse.Namespace) -> tuple[str | None, str | None]:
+    """The two files that may stand behind the robot's: one alone is told by its ending."""
+    closures, motion = arguments.closures, arguments.motion
+    if motion is None and closures is not None and Path(closures).suffix.lower() in _TABLES:
+        return None, closures
+    return closures, motion
+
+
+_TABLES = (".csv", ".tsv", ".txt", ".dat")
 
 
 def which_list(words: Words) -> None:

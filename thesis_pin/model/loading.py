@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import sys
 import weakref
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -12,10 +13,12 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import pinocchio as pin
 
-from thesis_pin.errors import ModelError, UnknownName
+from thesis_pin.errors import BadInput, ModelError, UnknownName
 from thesis_pin.numeric.checks import instance, shown
 
 if TYPE_CHECKING:  # robots that ship are known to be sound, and loaded without their readers
+    from pinocchio.visualize import MeshcatVisualizer
+
     from thesis_pin.model.mechanism.description import Description
 
 RootJoint: TypeAlias = pin.JointModel | Sequence[tuple[str, pin.JointModel]] | None
@@ -282,6 +285,26 @@ class LoadedRobot:
             if parents[first] == second or parents[second] == first:
                 geometry.removeCollisionPair(pair)
         return geometry
+
+    def viewer(self, url: str | None = None) -> MeshcatVisualizer:
+        """Pinocchio's ``MeshcatVisualizer``, ready for ``display(q)``; opens no browser.
+
+        It draws beside the bodies what this kind of robot has: loops, the support polygon,
+        margins. See :class:`thesis_pin.pages.meshcat.robot.RobotViewer`.
+
+        Args:
+            url: Address of a running meshcat server, as ``tcp://127.0.0.1:6000``; None starts
+                one of our own on 127.0.0.1, which ends with the viewer.
+
+        Raises:
+            BadInput: No server answers there, or the robot is of a kind that nothing draws.
+        """
+        # What draws robots stands above them, and a robot's package knows it by its front door.
+        for kind in type(self).__mro__:
+            package = sys.modules[kind.__module__.partition(".")[0]]
+            if callable(draw := getattr(package, "viewer", None)):
+                return draw(self, url)
+        raise BadInput(f"no viewer is known for a {type(self).__name__}")
 
     @functools.cached_property
     def wrapper(self) -> pin.RobotWrapper:

@@ -51,6 +51,31 @@ def with_mesh_paths(
     return canonical(root)
 
 
+def with_meshes_there(description: Description, tag: str) -> tuple[str, tuple[str, ...]]:
+    """The same without the shapes whose meshes aren't found.
+
+    Args:
+        description: The robot.
+        tag: ``visual`` or ``collision``: whose meshes; nothing else of these is kept.
+
+    Returns:
+        The text, and for each mesh that is missing where it was looked for.
+    """
+    root, _ = parse_xml("URDF", description.text, where=description.where)
+    missing: dict[str, str] = {}
+    for link in root.iter("link"):
+        for shape in list(link.iter(tag)):
+            for mesh in shape.iter("mesh"):
+                name = mesh.get("filename", "")
+                where = f"{description.where}: link {link.get('name', '')!r}"
+                try:
+                    mesh.set("filename", _found(name, description.mesh_folders, os.environ, where))
+                except ModelError as error:
+                    missing.setdefault(name, str(error))
+                    link.remove(shape)
+    return canonical(root), tuple(missing.values())
+
+
 def with_absolute_meshes(description: Description) -> str:
     """The URDF's text, in which relative names of meshes that are there are absolute.
 

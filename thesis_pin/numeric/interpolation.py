@@ -109,6 +109,31 @@ def free_quintic(t: ArrayLike, value: ArrayLike) -> Piecewise:
     return _ours(PPoly.from_spline(make_interp_spline(nodes, values, k=5)))
 
 
+def hermite(t: ArrayLike, ends: Sequence[tuple[np.ndarray, np.ndarray]]) -> Piecewise:
+    """Quintic pieces with given values, rates and accelerations at both of their ends.
+
+    Args:
+        t: Knots, strictly increasing, shape ``(n + 1,)``.
+        ends: Values, then rates, then accelerations, each where pieces begin and where they
+            end, ``(n,)``.
+    """
+    knots = np.asarray(t, dtype=float)
+    h = np.diff(knots)
+    (a, b), (da, db), (dda, ddb) = ends
+    rise = (b - a - da * h - dda * h**2 / 2) / h**3
+    slope = (db - da - dda * h) / h**2
+    bend = (ddb - dda) / h
+    rows = [
+        (6 * rise - 3 * slope + bend / 2) / h**2,
+        (-15 * rise + 7 * slope - bend) / h,
+        10 * rise - 4 * slope + bend / 2,
+        dda / 2,
+        da,
+        a,
+    ]
+    return Piecewise(np.stack(rows), knots)
+
+
 def _ours(curve: Any) -> Piecewise:
     """One of SciPy's splines as one of ours, without its pieces of no length."""
     lasts = np.diff(curve.x) > 0

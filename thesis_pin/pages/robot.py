@@ -40,7 +40,22 @@ def items_of(robot: ClosedRobot, q: Array) -> Iterator[Item]:
     """A robot at configurations ``(n, nq)``: its shapes where they are known, else bars; loops."""
     moves = joint_placements(robot.model, q)
     size = size_of(moves)
-    yield from _bodies(robot, q) or _bars(robot, q, moves, size)
+    bodies = _bodies(robot, q)
+    yield from bodies
+    yield from around(robot, q, size, bars=not bodies)
+
+
+def around(robot: ClosedRobot, q: Array, size: float, *, bars: bool = False) -> Iterator[Item]:
+    """What is drawn of a robot besides its shapes: its loops, and bars for want of shapes.
+
+    Args:
+        robot: The robot.
+        q: Configurations, shape ``(n, nq)``.
+        size: How large it looks [m].
+        bars: Whether to draw a bar from joint to joint.
+    """
+    if bars:
+        yield from _bars(robot, q, joint_placements(robot.model, q), size)
     yield from _loops(robot, q, size)
 
 

@@ -23,6 +23,9 @@ Look = Literal["3d", "front", "side", "top"]
 """From where a scene is seen."""
 LOOKS: tuple[Look, ...] = get_args(Look)
 
+AXES = ("#D55E00", "#009E73", "#0072B2")
+"""Colours of a frame's axes x, y, z; colour-blind readers can tell them apart."""
+
 Shapes = Mapping[str, tuple[int, ...]]
 
 
@@ -193,6 +196,25 @@ class Arc(Item):
     radius: float
     colours: tuple[str, ...]
     level: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
+class Triad(Item):
+    """A frame: its axes x, y, z in vermillion, green, blue, with its name beside it.
+
+    Attributes:
+        placement: Position and quaternion (x, y, z, w) over time, shape ``(n, 7)``.
+        local: The frame's placement in the moving frame, shape ``(4, 4)``.
+        length: Of an axis [m].
+        label: Its name; empty for none.
+    """
+
+    sampled: ClassVar[Shapes] = {"placement": (-1, 7)}
+
+    placement: np.ndarray
+    local: np.ndarray
+    length: float
+    label: str = ""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""A scene's page on the loopback interface: one GET for it, one POST for its frame rate."""
+"""Pages on the loopback interface: one GET for the page, POSTs for its frame rate and questions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import errno
 import json
 import logging
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 from thesis_pin.errors import BadInput
@@ -25,8 +25,13 @@ TRIED = 20
 SMOOTH = 30.0
 """Frames a second below which the viewer says that it drops frames."""
 
+Answer = Callable[[bytes], bytes | None]
+"""What a posted body is answered, JSON; None if it makes no sense."""
+
 LONGEST = 1000
 """Bytes of a request's body that are read; a frame rate needs a few dozen."""
+LONGEST_QUESTION = 50_000
+"""The same of a question: a configuration of 200 joints has that many letters ten times over."""
 PATIENCE = 10.0
 """Seconds a connection may stand still."""
 _PIECE = 1 << 16
@@ -60,8 +65,38 @@ def show(
     Raises:
         BadInput: The port is taken or not allowed.
     """
-    with PageServer(html(scene, speed=speed, look=look), port, say) as server:
-        say(f"showing {scene.title} at {server.address} (Ctrl-C ends)")
+    page = html(scene, speed=speed, look=look)
+    show_page(page, scene.title, port=port, browser=browser, hold=hold, say=say, ready=ready)
+
+
+def show_page(
+    page: bytes,
+    title: str,
+    *,
+    port: int | None = None,
+    browser: bool = True,
+    hold: float | None = None,
+    say: Callable[[str], None] = _LOG.warning,
+    ready: Callable[[str], None] | None = None,
+    answers: Mapping[str, Answer] | None = None,
+) -> None:
+    """Serve a page as :func:`show` does a scene's.
+
+    Args:
+        page: The page.
+        title: What it shows.
+        port: See :func:`show`.
+        browser: The same.
+        hold: The same.
+        say: The same.
+        ready: The same.
+        answers: What the page may ask: path → what a posted body is answered.
+
+    Raises:
+        BadInput: The port is taken or not allowed.
+    """
+    with PageServer(page, port, say, answers) as server:
+        say(f"showing {title} at {server.address} (Ctrl-C ends)")
         if ready is not None:
             ready(server.address)
         if browser:
@@ -78,13 +113,20 @@ class PageServer:
         page: The page.
         port: Port to listen on; None takes the first free one from the default on.
         say: Told once when the browser draws fewer than :data:`SMOOTH` frames a second.
+        answers: See :func:`show_page`.
 
     Raises:
         BadInput: The port is taken or not allowed.
     """
 
-    def __init__(self, page: bytes, port: int | None, say: Callable[[str], None]) -> None:
-        self._server = _listen(page, self._frames, port)
+    def __init__(
+        self,
+        page: bytes,
+        port: int | None,
+        say: Callable[[str], None],
+        answers: Mapping[str, Answer] | None = None,
+    ) -> None:
+        self._server = _listen(page, port, {"/frames": self._frames, **(answers or {})})
         self._say, self._said = say, False
         self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
 
@@ -113,32 +155,36 @@ class PageServer:
         except KeyboardInterrupt:
             self._say("stopped")
 
-    def _frames(self, rate: float) -> None:
+    def _frames(self, body: bytes) -> bytes | None:
+        rate = _rate(body)
+        if rate is None:
+            return None
         if rate < SMOOTH and not self._said:
             self._said = True
             self._say(
                 f"the browser draws {rate:.0f} of {SMOOTH:.0f} frames a second: frames are "
                 "dropped, the motion keeps its pace"
             )
+        return b""
 
 
 class _Server(ThreadingHTTPServer):
     daemon_threads = True
     request_queue_size = 512  # connections that may wait while a thread is made for each
 
-    def __init__(self, page: bytes, frames: Callable[[float], None], port: int) -> None:
-        self.page, self.frames = page, frames
+    def __init__(self, page: bytes, port: int, answers: Mapping[str, Answer]) -> None:
+        self.page, self.answers = page, answers
         super().__init__((HOST, port), _Handler)
 
     def handle_error(self, request: object, client_address: object) -> None:
         """What goes wrong in a request ends it; its text is a stranger's and isn't printed."""
 
 
-def _listen(page: bytes, frames: Callable[[float], None], port: int | None) -> _Server:
+def _listen(page: bytes, port: int | None, answers: Mapping[str, Answer]) -> _Server:
     last = min(DEFAULT_PORT + TRIED, 65536)
     for candidate in (port,) if port is not None else range(DEFAULT_PORT, last):
         try:
-            return _Server(page, frames, candidate)
+            return _Server(page, candidate, answers)
         except (OSError, OverflowError) as error:
             busy = isinstance(error, OSError) and error.errno == errno.EADDRINUSE
             if port is None and busy:
@@ -165,18 +211,20 @@ class _Handler(BaseHTTPRequestHandler):
             self._answer(404)
 
     def do_POST(self) -> None:
-        if not self._is_ours() or self.path != "/frames":
+        answer = self.server.answers.get(self.path)
+        if answer is None or not self._is_ours():
             self._answer(404)
             return
         length = self.headers.get("Content-Length", "0")
-        if not (length.isascii() and length.isdecimal() and len(length) <= 4):
+        if not (length.isascii() and length.isdecimal() and len(length) <= 5):
             self._answer(400)
-        elif int(length) > LONGEST:
+        elif int(length) > (LONGEST if self.path == "/frames" else LONGEST_QUESTION):
             self._answer(413)
-        elif (rate := _rate(self.rfile.read(int(length)))) is None:
+        elif (body := answer(self.rfile.read(int(length)))) is None:
             self._answer(400)
+        elif body:
+            self._answer(200, body, "application/json")
         else:
-            self.server.frames(rate)
             self._answer(204)
 
     def _is_ours(self) -> bool:
@@ -189,9 +237,9 @@ class _Handler(BaseHTTPRequestHandler):
         origin = self.headers.get("Origin", f"http://{host}")
         return host.rsplit(":", 1)[0] in (HOST, "localhost") and origin == f"http://{host}"
 
-    def _answer(self, status: int, body: bytes = b"") -> None:
+    def _answer(self, status: int, body: bytes = b"", kind: str = "text/html") -> None:
         self.send_response(status)
-        self.send_header("Content-Type", "text/html; charset=utf-8")
+        self.send_header("Content-Type", f"{kind}; charset=utf-8")
         self.send_header("Content-Length", str(len(body)))
         self.send_header("Cache-Control", "no-store")
         self.send_header("X-Content-Type-Options", "nosniff")

@@ -34,7 +34,7 @@ from thesis_pin.report.curves import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLIO
 YELLOW, BLACK, BASE = "#F0E442", "#1A1A1A", "#5F6B76"
 _CHAIN = {"chain1": ORANGE, "chain2": GREEN, "base": BASE, "tool": BLACK}
 
-_MARGIN_COLOURS = (VERMILLION, YELLOW, BLUE)
+MARGIN_COLOURS = (VERMILLION, YELLOW, BLUE)
 _MARGIN_TEXTS = ("nearly singular", "near a singularity", "far from singularities")
 
 _WORK_COLOURS = (ORANGE, BLUE)
@@ -96,7 +96,7 @@ def _groups(largest: tuple[float, float], force_scale: float) -> tuple[Group, ..
         Group(
             "tip",
             "spray tip, by its distance from singularities",
-            tuple(zip(_MARGIN_COLOURS, _MARGIN_TEXTS, strict=True)),
+            tuple(zip(MARGIN_COLOURS, _MARGIN_TEXTS, strict=True)),
         ),
         Group("trace", "trace of the tip", ((PURPLE, ""),)),
         Group("spray", "spray direction", ((PURPLE, ""),)),
@@ -133,7 +133,7 @@ def _tool(
     place = frame_placements(report.robot.model, TOOL_FRAME, q)
     tip, along = place[:, :3], report.solutions.posture.tool_rotation[keep, :, 0]
     items: list[Item] = [
-        Ball("tip", "tip", tip, 8e-3, _MARGIN_COLOURS, zone),
+        Ball("tip", "tip", tip, 8e-3, MARGIN_COLOURS, zone),
         Trace("trace", "trace", tip, 2e-3, PURPLE),
         Arrow("spray", "spray", tip, along, 0.08, 3e-3, PURPLE),
     ]

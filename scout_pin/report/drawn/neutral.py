@@ -20,13 +20,9 @@ def neutral_scene(robot: Scout) -> Scene:
         robot: The biped.
     """
     instance("robot", robot, Scout, "scout_pin.load()")
-    feet = robot.neutral_feet()
-    lowest = min(float(robot.sole_vertices(side, feet[side])[:, 2].min()) for side in SIDES)
-    torso = np.eye(4)
-    torso[2, 3] = -lowest
-    q = np.concatenate([torso[:3, 3], [0.0, 0.0, 0.0, 1.0], np.zeros(12)])
-    q = np.tile(q, (2, 1))
-    com = np.tile(_centre(robot) - (0.0, 0.0, lowest), (2, 1))
+    rest = standing(robot)
+    q = np.tile(rest, (2, 1))
+    com = np.tile(_centre(robot) + rest[:3], (2, 1))
     size = max(float(com[0, 2]), 1e-3) / 0.11
     floor = com * (1.0, 1.0, 0.0)
     name = robot.specification.name
@@ -47,6 +43,13 @@ def neutral_scene(robot: Scout) -> Scene:
         ),
         readouts=(),
     )
+
+
+def standing(robot: Scout) -> np.ndarray:
+    """The neutral configuration on a free flyer, the lowest sole on the floor, shape ``(19,)``."""
+    feet = robot.neutral_feet()
+    lowest = min(float(robot.sole_vertices(side, feet[side])[:, 2].min()) for side in SIDES)
+    return np.concatenate([[0.0, 0.0, -lowest, 0.0, 0.0, 0.0, 1.0], np.zeros(12)])
 
 
 def _centre(robot: Scout) -> np.ndarray:

@@ -30,6 +30,8 @@ from thesis_pin.report.curves import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLIO
 from thesis_pin.tolerances import GRAVITY
 
 YELLOW, BLACK, TORSO = "#F0E442", "#1A1A1A", "#5F6B76"
+SEEN_THROUGH = 0.55
+"""Opacity of soles: what happens on the floor has to be seen through the plates that lie on it."""
 
 MARGIN_BOUNDS = (0.0, 5e-3)
 """ZMP margins [m] at which its colour changes: outside, thin, safe."""
@@ -113,14 +115,22 @@ def robot_colours(robot: Scout, q: np.ndarray) -> list[Item]:
     """The robot's bodies along free-flyer configurations ``(n, 19)``, a colour a leg."""
 
     def group(name: str) -> str:
-        return "soles" if "_sole" in name else "robot"
+        return "soles" if is_sole(name) else "robot"
 
-    def colour(name: str) -> str:
-        return {"left": SKY, "right": ORANGE}.get(name.split("_")[0], TORSO)
+    bodies = robot_items(robot.model, robot.visual_model, q, group=group, colour=colour_of_body)
+    return [
+        replace(body, opacity=SEEN_THROUGH) if body.group == "soles" else body for body in bodies
+    ]
 
-    bodies = robot_items(robot.model, robot.visual_model, q, group=group, colour=colour)
-    # What happens on the floor has to be seen through the plates that lie on it.
-    return [replace(body, opacity=0.55) if body.group == "soles" else body for body in bodies]
+
+def is_sole(name: str) -> bool:
+    """Whether a body is a sole, by its name."""
+    return "_sole" in name
+
+
+def colour_of_body(name: str) -> str:
+    """Colour of a body by its name, leg by leg."""
+    return {"left": SKY, "right": ORANGE}.get(name.split("_")[0], TORSO)
 
 
 def _balance(report: GaitReport, keep: np.ndarray, zone: np.ndarray, size: float) -> list[Item]:

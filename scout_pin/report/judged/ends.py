@@ -83,6 +83,7 @@ class Ends:
             "within_file_only": self.qualified,
             "closed": self.closure.closed,
             "displacement": list(self.closure.displacement),
+            "turn": self.closure.turn,
             "gaps": [vars(gap) for gap in self.closure.gaps],
             **{
                 name: {
@@ -133,6 +134,9 @@ def sentences(ends: Ends) -> list[str]:
     if ends.kind == "cycles":
         x, y = (1e3 * part for part in closing.displacement)
         said = f"It is a cycle: each time it moves on by {x:z.1f} mm in x and {y:z.1f} mm in y"
+        if closing.turn:
+            side = "left" if closing.turn > 0 else "right"
+            said += f" and turns by {np.degrees(abs(closing.turn)):.1f}° to the {side}"
         return [f"{said}, and jumps in {gaps}." if closing.gaps else f"{said}."]
     if ends.kind == "open cycle":
         return [f"It is called a cycle, but its end doesn't fit its start: {gaps}."]

@@ -29,6 +29,7 @@ from scout_pin.study.plan.cycles.search import ATTEMPTS, Candidate, Search
 from scout_pin.study.plan.cycles.shortfall import ALTERNATIVES, Shortfall, shortfall
 from scout_pin.study.plan.limits import Worst
 from scout_pin.study.plan.request import PlanRequest
+from scout_pin.study.plan.way import Way
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report.branches import label
@@ -67,8 +68,13 @@ class CyclePlan:
 
     @property
     def speed(self) -> float:
-        """Speed of the walk [m/s]."""
-        return self.pace.step_length / self.pace.step_time
+        """Speed of the walk along its way [m/s]."""
+        return self.way.length / self.pace.step_time
+
+    @property
+    def way(self) -> Way:
+        """The way of each step."""
+        return self.candidate.problem.steps.way(self.pace.step_length)
 
     @property
     def branches(self) -> tuple[int, int]:
@@ -85,7 +91,7 @@ class CyclePlan:
         """The cycle as exact piecewise polynomials of time in seconds, two steps long."""
         problem, pace = self.candidate.problem, self.pace
         known = self.candidate.known
-        torso = problem.cyclic.curves(known.coefficients, pace.step_time, pace.step_length)
+        torso = problem.cyclic.curves(known.coefficients, pace.step_time, self.way)
         names = [label(BRANCHES[k]) for k in self.branches]
         return Gait(
             name="planned",

@@ -8,15 +8,17 @@ from dataclasses import replace
 from scout_pin.dynamics.inverse import walking
 from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait
+from scout_pin.motion.over_floor import OverFloor
 from scout_pin.report.document import gait_report
 from scout_pin.study.plan.cycle import CyclePlan, plan_cycle
 from scout_pin.study.plan.cycles.feet import least_spacing
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.results.judged import Judged
 from scout_pin.study.plan.results.result import Plan, Walk
+from scout_pin.study.plan.results.telling import way_words
 from scout_pin.study.plan.walks.course import start_course, stop_course
 from scout_pin.study.plan.walks.transitions import ATTEMPTS, Transition, plan_transition
-from scout_pin.study.plan.walks.walk import chained, steps_of
+from scout_pin.study.plan.walks.walk import Stretch, chained, steps_of
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import function, instance, whole
 from thesis_pin.numeric.workers import silent
@@ -26,6 +28,9 @@ LEAST_SAMPLES = 800
 
 MOST_STEPS = 100
 """Steps of a walk at most, so that its file can be read: a longer one is its cycle, repeated."""
+
+MOST_TURNS = 50
+"""The same of a walk that turns: its curves have more pieces."""
 
 A_STEP = 80
 """Samples of each step of a walk at which it is judged at least."""
@@ -66,10 +71,11 @@ def plan_gait(
         KeyboardInterrupt: Before there was anything to keep.
     """
     walking(robot)
-    if whole("steps", steps, 1) > MOST_STEPS:
+    most = MOST_TURNS if isinstance(request, PlanRequest) and request.turn else MOST_STEPS
+    if whole("steps", steps, 1) > most:
         raise BadInput(
-            f"{steps:,} steps",
-            allowed=f"at most {MOST_STEPS}",
+            f"{steps:,} steps" + (" that turn" if most < MOST_STEPS else ""),
+            allowed=f"at most {most}",
             remedy="Repeat the cycle instead: scout-pin gait --repeat, scout_pin.repeat_gait()",
         )
     samples = whole("samples", samples, LEAST_SAMPLES)
@@ -140,23 +146,28 @@ def walk(cycle: CyclePlan, start: Transition, stop: Transition, steps: int) -> G
         steps: Steps in all but for the one that draws the foot behind up.
     """
     first = start.course.stretch(start.free)
+    if start.course.heading:
+        first = first.moved(0.0, OverFloor(turn=start.course.heading))
     between, last = steps_of(cycle.gait, FIRST, steps - 1)
-    between = between.moved(
-        first.end - between.start,
-        first.foot(FIRST, first.end) - between.foot(FIRST, between.start),
-    )
-    end = stop.course.stretch(stop.free)
-    end = end.moved(
-        between.end - end.start, between.foot(last, between.end) - end.foot(last, end.start)
-    )
+    between = _joined(between, first, FIRST)
+    end = _joined(stop.course.stretch(stop.free), between, last)
     gait = chained("walk", origin(cycle), [first, between, end])
     return replace(gait, branch=cycle.gait.branch)
+
+
+def _joined(later: Stretch, earlier: Stretch, side: str) -> Stretch:
+    """A stretch moved to where and when another one ends with a foot that has just landed."""
+    there, here = earlier.foot(side, earlier.end), later.foot(side, later.start)
+    return later.moved(earlier.end - later.start, there.after(here.inverse))
 
 
 def origin(cycle: CyclePlan) -> str:
     """Where a planned gait comes from, in words."""
     pace, name = cycle.pace, cycle.robot.specification.name
+    how = f"{pace.step_length * 1e3:.4g} mm a step"
+    if not cycle.way.straight:
+        how = f"{way_words(pace, cycle.candidate.problem.steps)} in two steps"
     return (
-        f"planned for {name}: {pace.step_length * 1e3:.4g} mm a step of {pace.step_time:.4g} s, "
+        f"planned for {name}: {how} of {pace.step_time:.4g} s, "
         f"margin {cycle.request.margin * 1e3:.3g} mm"
     )

@@ -33,6 +33,8 @@ FASTEST_LINE_RESERVE = 0.05
 
 RANGES: dict[str, tuple[float, float, str]] = {
     **dict.fromkeys(("step_length", "foot_spacing", "lift"), (1e-4, 10.0, "m")),
+    "side": (-10.0, 10.0, "m"),
+    "turn": (-math.pi, math.pi, "rad"),
     "margin": (0.0, 10.0, "m"),
     "step_time": (0.01, 100.0, "s"),
     "speed": (1e-4, 10.0, "m/s"),
@@ -43,6 +45,9 @@ RANGES: dict[str, tuple[float, float, str]] = {
 }
 """Least and greatest value of each number of a request, and its unit."""
 
+LEAST = {"side": 1e-4, "turn": math.radians(0.5)}
+"""What is too little of a way aside [m], or round [rad], to be meant; zero is none."""
+
 _OPEN = frozenset({"step_length", "foot_spacing", "step_time", "speed", "line_reserve", "friction"})
 """Those that may be left open."""
 
@@ -52,13 +57,17 @@ class PlanRequest:
     """What a walk is asked to be.
 
     Attributes:
-        step_length: Way from one footfall to the next [m]; None for 30 mm, or for what suits
-            best where a speed is given or ``objective`` is ``"fastest"``.
+        step_length: Way from one footfall to the next [m]; None for 30 mm, for none where it goes
+            aside or round, or for what suits best where a speed is given or ``objective`` is
+            ``"fastest"``.
+        side: Way aside of two steps, to the right [m]; to the left it is negative.
+        turn: Turn of two steps, to the left [rad]; to the right it is negative. A way ahead or
+            aside goes round with it: it is the length of an arc.
         step_time: Time from one footfall to the next [s]; None for 0.8 s, or for what the speed
             says.
         speed: Of the walk [m/s], instead of ``step_time``.
-        foot_spacing: Distance of the soles' origins across [m]; None leaves 12 mm between the
-            soles.
+        foot_spacing: Distance of the soles' origins across where the feet stand side by side [m];
+            None leaves 12 mm between the soles where they come nearest.
         lift: How high the swinging foot goes [m].
         margin: Least distance of the zero-moment point inside the support polygon [m].
         torque_reserve: Share of the servos' stall torque that isn't used.
@@ -79,6 +88,8 @@ class PlanRequest:
     """
 
     step_length: float | None = None
+    side: float = 0.0
+    turn: float = 0.0
     step_time: float | None = None
     speed: float | None = None
     foot_spacing: float | None = None
@@ -106,6 +117,12 @@ class PlanRequest:
         for name, (low, high, unit) in RANGES.items():
             if (value := getattr(self, name)) is not None or name not in _OPEN:
                 real(name, value, low=low, high=high, unit=unit)
+        for name, least in LEAST.items():
+            if 0.0 < abs(value := getattr(self, name)) < least:
+                raise BadInput(
+                    f"{name} is {value:g} {RANGES[name][2]}",
+                    allowed=f"0, or at least {least:.3g} {RANGES[name][2]} either way",
+                )
         if not isinstance(self.servo_line, bool | np.bool_):
             raise BadInput(f"servo_line is {shown(self.servo_line)}", allowed="True or False")
         choice("objective", self.objective, OBJECTIVES)
@@ -150,10 +167,17 @@ class PlanRequest:
         return self.step_length is None and (chosen or self.objective == "fastest")
 
     @property
+    def aside(self) -> bool:
+        """Whether it goes aside or round, too or only."""
+        return bool(self.side or self.turn)
+
+    @property
     def first_length(self) -> float:
         """Length of a step [m]; where it is free, what the search begins with."""
         if self.step_length is not None:
             return float(self.step_length)
+        if self.aside and self.speed is None and not self.free_length:
+            return 0.0
         if self.speed is not None and self.step_time is not None:
             return self.speed * self.step_time
         return STEP_LENGTH

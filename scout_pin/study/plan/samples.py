@@ -20,6 +20,7 @@ from scout_pin.dynamics.inverse import walking
 from scout_pin.model import Scout
 from scout_pin.study.plan.footing import Footing
 from scout_pin.study.plan.sampling.floor import contacts, pressed
+from scout_pin.study.plan.sampling.jets import Heading
 from scout_pin.study.plan.sampling.reach import STRAIGHT
 from scout_pin.study.plan.sampling.sloped import Sloped
 from scout_pin.study.plan.sampling.slopes import state_slopes
@@ -91,7 +92,14 @@ class Sampler:
         self.weight, self.straight = robot.mass * GRAVITY, straight
         self._last: _Kept | None = None
 
-    def __call__(self, jets: np.ndarray, footing: Footing, *, slopes: bool = True) -> Quantities:
+    def __call__(
+        self,
+        jets: np.ndarray,
+        footing: Footing,
+        *,
+        slopes: bool = True,
+        heading: Heading | None = None,
+    ) -> Quantities:
         """Evaluate samples.
 
         Args:
@@ -99,6 +107,7 @@ class Sampler:
                 accelerations, shape ``(n, 18)``.
             footing: The feet.
             slopes: Whether to work out derivatives; else each slope is None.
+            heading: What the torso's angles count from; None for the world's y.
 
         Raises:
             SingularPose: A leg's Jacobian loses rank otherwise than by a straight knee.
@@ -107,8 +116,8 @@ class Sampler:
         jets = finite_array("jets", jets, None, 18)
         if len(jets) != footing.count:
             raise WrongShape("jets", jets.shape, f"({footing.count}, 18), as the footing")
-        here = self.state(jets, footing)
-        of = state_slopes(self.robot, jets, footing, here, self.straight) if slopes else None
+        here, rate = self.state(jets, footing, heading), heading.rate if heading else 0.0
+        of = state_slopes(self.robot, jets, footing, here, self.straight, rate) if slopes else None
 
         def known(value: np.ndarray, name: str) -> Sloped:
             return Sloped(value, None if of is None else getattr(of, name))
@@ -133,12 +142,12 @@ class Sampler:
             known(here.knee, "knee"),
         )
 
-    def state(self, jets: np.ndarray, footing: Footing) -> State:
+    def state(self, jets: np.ndarray, footing: Footing, heading: Heading | None = None) -> State:
         """Joints, torques and wrenches of samples."""
         # A search asks for slopes where it has just been: every fourth state is the one before.
-        if self._last is None or not self._last.of(jets, footing):
-            found = state(self.robot, self.branches, jets, footing, self.straight)
-            self._last = _Kept(jets.copy(), footing, found)
+        if self._last is None or not self._last.of(jets, footing, heading):
+            found = state(self.robot, self.branches, jets, footing, self.straight, heading)
+            self._last = _Kept(jets.copy(), footing, heading, found)
         return self._last.state
 
 
@@ -148,16 +157,24 @@ class _Kept:
 
     jets: np.ndarray
     footing: Footing
+    heading: Heading | None
     state: State
 
-    def of(self, jets: np.ndarray, footing: Footing) -> bool:
-        """Whether it is that of these jets and feet."""
+    def of(self, jets: np.ndarray, footing: Footing, heading: Heading | None) -> bool:
+        """Whether it is that of these jets, feet and heading."""
         mine = self.footing
         return (
             np.array_equal(jets, self.jets)
+            and _same_heading(heading, self.heading)
             and np.array_equal(footing.support, mine.support)
             and all(map(_alike, footing.feet, mine.feet))
         )
+
+
+def _same_heading(one: Heading | None, other: Heading | None) -> bool:
+    if one is None or other is None:
+        return one is other
+    return one.rate == other.rate and np.array_equal(one.angle, other.angle)
 
 
 def _alike(one: BodyMotion, other: BodyMotion) -> bool:

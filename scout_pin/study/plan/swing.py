@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from thesis_pin.numeric.interpolation import constant, join
 from thesis_pin.numeric.piecewise import Piecewise
 
 
@@ -28,3 +29,13 @@ def swing_curves(
     z = 64.0 * lift * np.array([-1.0, 3.0, -3.0, 1.0, 0.0, 0.0, 0.0]) / powers
     knots = np.array([off, lands])
     return Piecewise(y[:, None], knots), Piecewise(z[:, None], knots)
+
+
+def held(start: float, end: float, curve: Piecewise, before: float, after: float) -> Piecewise:
+    """A curve from a time to another, constant before and after it."""
+    off, lands = (float(one) for one in curve.x)
+    parts = [constant(start, off, before)] if off > start else []
+    parts.append(curve)
+    if lands < end:
+        parts.append(constant(lands, end, after))
+    return join(parts)

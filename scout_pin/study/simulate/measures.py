@@ -56,10 +56,13 @@ class Measures:
     """A try in numbers; lengths [m], angles [rad], times [s] from the gait's start.
 
     Attributes:
-        distance: How far the middle of both feet came, along the planned way if there is one.
-        planned_distance: How far it was to come.
+        distance: How far the middle of both feet came, along the planned way if there is one. Of a
+            plan that turns: the planned distance, and by how much farther it came along the
+            last of its way.
+        planned_distance: How far it was to come: straight on, or round where the plan turns.
         sideways: How far it came off the planned way; to its left is negative.
         heading: How far the torso is turned from the planned heading at the end.
+        planned_turn: By how much it was to turn, to the left.
         slips: Of every stance of every foot, in the order of their landings.
         tilt, tilt_time: Farthest that the torso tips from the plan, and when.
         tips_at: When it first tips farther than ``walked_tilt``; None if it never does.
@@ -75,6 +78,7 @@ class Measures:
     planned_distance: float
     sideways: float
     heading: float
+    planned_turn: float
     slips: tuple[Slip, ...]
     tilt: float
     tilt_time: float
@@ -105,19 +109,20 @@ def measures(robot: Scout, plan: Planned, walked: Walked) -> Measures:
         walked: What happened.
     """
     begun = int(np.searchsorted(plan.time, -1e-9))
-    middle, meant = walked.soles[:, :, :2, 3].mean(axis=0), plan.feet[..., :2].mean(axis=0)
-    way, asked = middle[-1] - middle[begun], meant[-1] - meant[begun]
-    length = float(np.linalg.norm(asked))
-    # Where it is to stay, whatever it comes is off its way.
-    ahead = asked / length if length > TOLERANCES.walked_place else _unit(way)
+    planned_turn = _planned_turn(plan, begun)
+    if abs(planned_turn) > TOLERANCES.walked_heading:
+        came, length, aside = _round(plan, walked, begun, planned_turn)
+    else:
+        came, length, aside = _straight(plan, walked, begun)
     tilt, heading = turns(plan, walked)
     tips = np.flatnonzero(tilt > TOLERANCES.walked_tilt)
     meets = np.flatnonzero(walked.meeting)
     return Measures(
-        float(way @ ahead),
+        came,
         length,
-        float(way @ (ahead[1], -ahead[0])),
+        aside,
         float(heading[-1] - heading[begun]),
+        planned_turn,
         tuple(_slips(robot, plan, walked)),
         float(tilt.max()),
         float(plan.time[tilt.argmax()]),
@@ -128,6 +133,49 @@ def measures(robot: Scout, plan: Planned, walked: Walked) -> Measures:
         float(plan.time[meets[0]]) if meets.size else None,
         _stumble(robot, plan, walked),
     )
+
+
+def _middles(plan: Planned, walked: Walked) -> tuple[np.ndarray, np.ndarray]:
+    """Middles of both feet as they were and as planned, each ``(n, 2)``."""
+    return walked.soles[:, :, :2, 3].mean(axis=0), plan.feet[..., :2].mean(axis=0)
+
+
+def _straight(plan: Planned, walked: Walked, begun: int) -> tuple[float, float, float]:
+    """Distance, the planned one, and what came aside, along the line from start to end."""
+    middle, meant = _middles(plan, walked)
+    way, asked = middle[-1] - middle[begun], meant[-1] - meant[begun]
+    length = float(np.linalg.norm(asked))
+    # Where it is to stay, whatever it comes is off its way.
+    ahead = asked / length if length > TOLERANCES.walked_place else _unit(way)
+    return float(way @ ahead), length, float(way @ (ahead[1], -ahead[0]))
+
+
+def _round(plan: Planned, walked: Walked, begun: int, turn: float) -> tuple[float, float, float]:
+    """The same of a plan that turns, along what lies between its landings.
+
+    Where a foot lands the middle is alternately ahead and behind, even if the robot turns in
+    its place, as one does whose way's radius is less than half the distance of its feet.
+    """
+    middle, meant = _middles(plan, walked)
+    off = (middle[-1] - middle[begun]) - (meant[-1] - meant[begun])
+    landings = sorted(start for one in plan.stances for start, _ in one if start > 0.0)
+    at = np.minimum(np.searchsorted(plan.time, landings), len(meant) - 1)
+    between = (meant[at[1:]] + meant[at[:-1]]) / 2
+    places = np.concatenate([meant[[begun]], between, meant[[-1]]])
+    sections = np.diff(places, axis=0)
+    length = float(np.linalg.norm(sections, axis=1).sum())
+    apart = float(np.linalg.norm(plan.feet[1, begun, :2] - plan.feet[0, begun, :2]))
+    if length <= abs(turn) * apart / 2:  # round a place between its feet
+        return float(np.linalg.norm(off)), 0.0, 0.0
+    last = sections[np.linalg.norm(sections, axis=1) > 0.0][-1]
+    ahead = _unit(last)
+    return length + float(off @ ahead), length, float(off @ (ahead[1], -ahead[0]))
+
+
+def _planned_turn(plan: Planned, begun: int) -> float:
+    matrix = rotations(plan.q[begun:, :7])
+    heading = np.unwrap(np.arctan2(-matrix[:, 0, 1], matrix[:, 1, 1]))
+    return float(heading[-1] - heading[0])
 
 
 def _unit(vector: np.ndarray) -> np.ndarray:

@@ -104,6 +104,7 @@ class Simulation(Tally):
             "start": self.start,
             **tallied(self.tries, self.spread),
             "planned_distance": self.draws[0].planned_distance,
+            "planned_turn": self.draws[0].planned_turn,
             "planned_peak_torque": self.planned_peak,
             "planned_line": self.plan.line,
             "report_within_limits": self.report.within_limits,

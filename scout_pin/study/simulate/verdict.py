@@ -62,21 +62,26 @@ def sentences(found: Measures) -> list[str]:
 
 
 def _distance(found: Measures) -> Criterion:
+    turns = abs(found.planned_turn) > TOLERANCES.walked_heading
     if found.stays:
         met = abs(found.distance) <= TOLERANCES.walked_place
+        stays = "turns in its place" if turns else "stays in its place"
         return Criterion(
             "distance",
             met,
-            f"It {'stays in its place' if met else 'leaves its place'}: it strays by "
+            f"It {stays if met else 'leaves its place'}: it strays by "
             f"{abs(found.distance) * 1e3:.2f} mm.",
         )
-    share = found.distance / found.planned_distance
+    share, whither = found.distance / found.planned_distance, "far"
+    if turns:
+        side = "left" if found.planned_turn > 0 else "right"
+        whither = f"far, round to the {side}"
     met = abs(share - 1) <= TOLERANCES.walked_share
     return Criterion(
         "distance",
         met,
-        f"It comes {found.distance * 1e3:z.1f} mm of {found.planned_distance * 1e3:.1f} mm far "
-        f"({share:.1%}), {abs(found.sideways) * 1e3:.1f} mm aside.",
+        f"It comes {found.distance * 1e3:z.1f} mm of {found.planned_distance * 1e3:.1f} mm "
+        f"{whither} ({share:.1%}), {abs(found.sideways) * 1e3:.1f} mm aside.",
     )
 
 

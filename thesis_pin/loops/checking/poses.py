@@ -7,6 +7,7 @@ them. Joints that aren't named are neutral.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Literal
@@ -20,7 +21,7 @@ from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.joints import singles
 from thesis_pin.model.limits import LIMITS
-from thesis_pin.model.loading import joint_id
+from thesis_pin.model.loading import LoadedRobot, joint_id
 from thesis_pin.model.specification import Key, Strict, read_toml
 
 Array = NDArray[np.float64]
@@ -85,6 +86,24 @@ def named_pose(robot: ClosedRobot, pose: str) -> Array:
     }
     values |= {name: (float(np.radians(value)),) for name, value in file.joints_deg.items()}
     return configuration(robot, values, where=pose)
+
+
+def pose_text(robot: LoadedRobot, q: Array) -> str:
+    """A configuration ``(nq,)`` as a pose's file: :func:`named_pose` reads it back.
+
+    Args:
+        robot: The robot.
+        q: The configuration, shape ``(nq,)``.
+    """
+    known, lines = singles(robot.model), ["format = 1", "[joints]"]
+    for name, joint in zip(list(robot.model.names)[1:], list(robot.model.joints)[1:], strict=True):
+        values = q[joint.idx_q : joint.idx_q + joint.nq].tolist()
+        if name in known and known[name].continuous:
+            values = [float(known[name].position(q))]
+        if values:
+            key = json.dumps(name, ensure_ascii=False).replace("\x7f", "\\u007f")
+            lines.append(f"{key} = {values[0] if len(values) == 1 else values}")
+    return "\n".join(lines) + "\n"
 
 
 def configuration(

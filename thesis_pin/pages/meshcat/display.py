@@ -12,15 +12,12 @@ from numpy.typing import NDArray
 from thesis_pin.numeric.checks import instance, real
 from thesis_pin.pages.meshcat.drawing import Drawing, word
 from thesis_pin.pages.meshcat.page import static
-from thesis_pin.pages.meshcat.shapes import grid
+from thesis_pin.pages.meshcat.stage import box_of, dress, floor_grid
 from thesis_pin.pages.meshcat.tracks import SetMotion, animation, samples
 from thesis_pin.pages.meshcat.window import visualizer
-from thesis_pin.pages.scene import Item, Scene
+from thesis_pin.pages.scene import Scene
 
 Array = NDArray[np.float64]
-
-BACKGROUND = [0.957, 0.965, 0.973]
-_CELLS = 40
 
 
 def show(
@@ -69,15 +66,15 @@ class SceneViewer:
     def __init__(self, scene: Scene, drawn: Visualizer, speed: float = 1.0) -> None:
         self.visualizer, self.url = drawn, str(drawn.url())
         self._time, self._speed = np.asarray(scene.time, dtype=float), speed
+        box = box_of(scene.items)
+        if drawn.window.own:
+            dress(drawn, box, scene.forward, scene.camera)
         self._root = drawn[word(scene.title)]
         self._root.delete()
         self._drawing = Drawing(self._root)
         self._nodes = self._drawing.laid(scene.items)
-        box = _box(scene.items)
-        if drawn.window.own:
-            _dress(drawn, scene, box)
         if scene.floor is not None:
-            self._root["floor"].set_object(_floor(scene.floor, box))
+            self._root["floor"].set_object(floor_grid(scene.floor, box))
         self.play()
         for group in scene.groups:
             if not group.visible:
@@ -138,50 +135,3 @@ class SceneViewer:
     def _send(self, motion: Animation, *, play: bool) -> None:
         kept = self._root["animation"].path
         self.visualizer.window.send(SetMotion(motion, kept, play=play))
-
-
-def _box(items: tuple[Item, ...]) -> Array:
-    """Least and largest corner of where things are and how far they reach, shape ``(2, 3)``."""
-    corners = [np.zeros((1, 3))] if not items else []
-    for item in items:
-        reach = np.zeros(3)
-        if (geometry := getattr(item, "geometry", None)) is not None and "vertices" in geometry:
-            reach = np.abs(geometry["vertices"] @ item.local[:3, :3].T + item.local[:3, 3]).max(0)  # type: ignore[attr-defined]
-        for name in ("placement", "position", "origin", "points"):
-            if (values := getattr(item, name, None)) is not None:
-                points = np.asarray(values)[:, :3]
-                points = points[np.isfinite(points).all(axis=1)]
-                size = float(np.linalg.norm(reach))
-                corners += [points.min(0)[None] - size, points.max(0)[None] + size] * bool(
-                    len(points)
-                )
-    found = np.concatenate(corners) if corners else np.zeros((1, 3))
-    return np.array([found.min(axis=0), found.max(axis=0)])
-
-
-def _dress(drawn: Visualizer, scene: Scene, box: Array) -> None:
-    """A quiet stage, and a camera that looks at the scene: on a server of our own."""
-    for name in ("top_color", "bottom_color"):
-        drawn["/Background"].set_property(name, BACKGROUND)
-    for name in ("/Grid", "/Axes"):
-        drawn[name].set_property("visible", False)
-    middle, size = box.mean(axis=0), max(float(np.linalg.norm(box[1] - box[0])), 0.05)
-    if scene.camera is not None:
-        eye, middle = np.asarray(scene.camera, dtype=float)
-    else:
-        x, y = scene.forward
-        way = np.array([y + 1.1 * x, -x + 1.1 * y, 0.55])
-        eye = middle + 1.2 * size * way / np.linalg.norm(way)
-    camera = drawn["/Cameras/default/rotated/<object>"]
-    camera.set_property("fov", 40)
-    camera.set_property("near", size / 500)
-    camera.set_property("far", 200 * size)
-    camera.set_property("position", [float(eye[0]), float(eye[2]), float(-eye[1])])
-    camera.set_property("target", middle.tolist())
-
-
-def _floor(height: float, box: Array) -> object:
-    wide = 3 * max(float(np.linalg.norm(box[1] - box[0])), 0.05)
-    power = 10.0 ** np.floor(np.log10(wide / _CELLS))
-    spacing = next(n * power for n in (1, 2, 5, 10) if wide / (n * power) <= _CELLS)
-    return grid(wide, spacing, box.mean(axis=0)[:2], height)

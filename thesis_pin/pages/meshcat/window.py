@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import json
 import os
-import re
 import subprocess
 import sys
 import weakref
@@ -17,6 +16,7 @@ from meshcat.visualizer import ViewerWindow
 
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import shown
+from thesis_pin.pages.meshcat.address import ALLOWED, is_address
 
 FIRST_ANSWER = 4.0
 """Seconds within which a server that was named must answer."""
@@ -24,10 +24,6 @@ ANSWER = 60.0
 """Seconds within which a server must have taken what it is sent."""
 START = 30.0
 """Seconds that our own server may take to start."""
-
-ADDRESS = re.compile(r"tcp://(\[[0-9A-Fa-f:.]+\]|[\w.-]+):[0-9]{1,5}|ipc://.+", re.ASCII)
-"""What a server is named by; see :data:`ALLOWED`."""
-ALLOWED = "tcp://HOST:PORT, as meshcat-server prints it (zmq_url)"
 
 
 class Window(ViewerWindow):  # type: ignore[misc] # meshcat has no types
@@ -55,7 +51,7 @@ class Window(ViewerWindow):  # type: ignore[misc] # meshcat has no types
             self.zmq_url, self.web_url = str(told["zmq"]), str(told["web"])
             self.connect_zmq()
         else:
-            if not isinstance(url, str) or not ADDRESS.fullmatch(url):
+            if not is_address(url):
                 raise BadInput(f"{shown(url)} is no address of a meshcat server", allowed=ALLOWED)
             self.zmq_url = url
             self.connect_zmq()
@@ -111,7 +107,7 @@ class Window(ViewerWindow):  # type: ignore[misc] # meshcat has no types
         self._patience(FIRST_ANSWER)
         try:
             self.zmq_socket.send(b"url")
-            web: bytes = self.zmq_socket.recv()
+            web = self.zmq_socket.recv().decode("utf-8", "replace")
         except zmq.ZMQError:
             self._closing()
             raise BadInput(
@@ -120,7 +116,9 @@ class Window(ViewerWindow):  # type: ignore[misc] # meshcat has no types
                 remedy="Start one with meshcat-server and name its zmq_url, or leave the address "
                 "out: a server of our own is started",
             ) from None
-        return web.decode("utf-8", "replace")
+        if not (web.startswith(("http://", "https://")) and web.isprintable() and " " not in web):
+            raise BadInput("what answers there is no meshcat server", where=self.zmq_url)
+        return str(web)
 
     def _patience(self, seconds: float) -> None:
         for option in (zmq.RCVTIMEO, zmq.SNDTIMEO):

@@ -215,5 +215,41 @@ function makers(THREE) {
     };
   }
 
-  return { shape, ball, arrow, trace, polygon, arc };
+  function label(text, height) {
+    const canvas = document.createElement("canvas"), pen = canvas.getContext("2d");
+    const font = "28px system-ui, sans-serif";
+    pen.font = font;
+    canvas.width = Math.ceil(pen.measureText(text).width) + 12;
+    canvas.height = 40;
+    pen.font = font;
+    pen.fillStyle = "rgba(255, 255, 255, .75)";
+    pen.fillRect(0, 0, canvas.width, canvas.height);
+    pen.fillStyle = "#1a1a1a";
+    pen.fillText(text, 6, 29);
+    const map = new THREE.CanvasTexture(canvas);
+    map.encoding = THREE.sRGBEncoding;
+    map.minFilter = THREE.LinearFilter;
+    const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map, depthTest: false }));
+    sprite.scale.set(height * canvas.width / canvas.height, height, 1);
+    sprite.center.set(-0.08, 0.5);
+    return sprite;
+  }
+
+  function triad(item) {
+    const object = new THREE.Group(), axes = new THREE.Group(), r = item.length;
+    axes.matrixAutoUpdate = false;
+    axes.matrix.fromArray(item.local).transpose();  // sent by rows
+    object.add(axes);
+    // Vermillion, bluish green, blue: x, y, z for colour-blind readers too.
+    for (const [axis, colour] of [["x", "#D55E00"], ["y", "#009E73"], ["z", "#0072B2"]]) {
+      const bar = new THREE.CylinderGeometry(0.035 * r, 0.035 * r, r, 6).translate(0, r / 2, 0);
+      const one = new THREE.Mesh(bar, flatPaint(colour));
+      one.rotation[axis === "x" ? "z" : "x"] = { x: -1, y: 0, z: 1 }[axis] * Math.PI / 2;
+      axes.add(one);
+    }
+    if (item.label) axes.add(label(item.label, 0.45 * r));
+    return { object, update: (at) => place(item.samples.placement, at, object) };
+  }
+
+  return { shape, ball, arrow, trace, polygon, arc, triad };
 }

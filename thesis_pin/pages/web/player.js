@@ -20,7 +20,8 @@ function locate(time, t) {
   return { k: low, f, nearest: f < 0.5 ? low : high };
 }
 
-// The player: stage, items, controls, clock. Returns what a page may use.
+// The player: stage, items, controls, clock. Returns what a page may use. With options.still there
+// is no clock: the page changes the items' samples and calls refresh.
 function makePlayer(root, scene, options = {}) {
   const make = (tag, more, ...children) => {
     const element = Object.assign(document.createElement(tag), more);
@@ -134,7 +135,8 @@ function makePlayer(root, scene, options = {}) {
   }
   const status = make("p", { className: "status" });
   status.setAttribute("role", "status");
-  root.append(make("div", { className: "bar" }, play, slider, output, rate, views, status));
+  root.append(make("div", { className: "bar" },
+    ...(options.still ? [] : [play, slider, output, rate]), views, status));
 
   // -- clock
   let now = start, playing = false, last = null, frames = 0, since = null, slow = 0, drawn = 0;
@@ -186,7 +188,7 @@ function makePlayer(root, scene, options = {}) {
 
   // -- keys
   const step = (end - start) / 100;
-  const keys = {
+  const keys = options.still ? {} : {
     " ": () => setPlaying(!playing), ArrowRight: () => set(now + step),
     ArrowLeft: () => set(now - step), Home: () => set(start), End: () => set(end),
   };
@@ -213,11 +215,13 @@ function makePlayer(root, scene, options = {}) {
     pause: () => setPlaying(false),
     toggle: (name) => boxes.get(name).click(),
     look: stage.look,
+    refresh: () => apply(now),
     onTime: (listener) => listeners.push(listener),
   };
 
   // The camera has to see the robot all along, so frame it at three times; without one, all there is.
-  const box = new THREE.Box3(), bodies = items.filter((item) => item.kind === "shape");
+  const box = new THREE.Box3(), bodies = items.filter(
+    (item) => item.kind === "shape" && groups.get(item.group).visible);
   for (const t of [start, (start + end) / 2, end]) {
     apply(t);
     stage.world.updateMatrixWorld(true);
@@ -233,7 +237,7 @@ function makePlayer(root, scene, options = {}) {
   stage.resize();
   stage.look(options.look || "3d");
   set(start);
-  setPlaying(!window.matchMedia("(prefers-reduced-motion: reduce)").matches);
+  setPlaying(!options.still && !window.matchMedia("(prefers-reduced-motion: reduce)").matches);
   requestAnimationFrame(tick);
   return player;
 }

@@ -19,7 +19,9 @@ function makeStage(THREE, element, scene) {
   stage.frame = (box) => {
     stage.box = box;
     stage.middle = box.getCenter(new THREE.Vector3());
-    stage.size = Math.max(0.05, box.getSize(new THREE.Vector3()).length());
+    stage.size = Math.max(1e-4, box.getSize(new THREE.Vector3()).length());
+    Object.assign(camera, { near: 2e-3 * stage.size, far: 100 * stage.size });
+    camera.updateProjectionMatrix();
     const sun = new THREE.DirectionalLight(0xffffff, 0.7);
     sun.position.copy(stage.middle).add(new THREE.Vector3(0.8, 0.5, 1.6).setLength(2 * stage.size));
     sun.target.position.copy(stage.middle);

@@ -74,9 +74,11 @@ class Descending:
         problem = self.problem
         pace, count = problem.pace(known), problem.cyclic.size
         scale = pace.step_time ** -np.arange(3.0)[:, None]
-        basis = problem.cyclic.basis(problem.moments.times(pace.share))
+        u = problem.moments.times(pace.share)
+        basis = problem.cyclic.basis(u)
         found = np.zeros((len(samples), 6 * count + 1 + problem.free_length))
-        slopes = jets.reshape(-1, 3, 6) * scale
+        way = problem.steps.way(pace.step_length)
+        slopes = way.from_world(jets.reshape(-1, 3, 6) * scale, u[samples])
         product = np.einsum("mdc,mdck->mck", slopes, basis[samples]) * _UNITS
         found[:, : 6 * count] = product.reshape(-1, 6 * count)
         return found

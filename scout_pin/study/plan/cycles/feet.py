@@ -7,6 +7,8 @@ rest and without acceleration at both ends.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,12 +18,20 @@ from scout_pin.motion.contact import Phase, Support
 from scout_pin.motion.gait import BODIES
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.request import GAP, PlanRequest
-from scout_pin.study.plan.swing import swing_curves
+from scout_pin.study.plan.swing import held, swing_curves
+from scout_pin.study.plan.way import Way, turns
+from thesis_pin.contacts.feet import sole_corners
+from thesis_pin.contacts.polygons import least_distance
 from thesis_pin.errors import BadInput
-from thesis_pin.numeric.interpolation import constant, join
+from thesis_pin.numeric.interpolation import constant
 from thesis_pin.numeric.piecewise import Piecewise
+from thesis_pin.numeric.rotations import rotation
 from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
+
+_SEEN = 33  # samples of a swing at which soles are held against each other
+_NEARER = 12  # times that feet are brought nearer: soles come as much nearer, or a little less
+_NEAR = 1e-6  # [m]
 
 
 @dataclass(frozen=True)
@@ -90,40 +100,70 @@ class Moments:
 class Steps:
     """Where the feet of a cycle go, but for its pace.
 
+    Footfall k is where the foot would stand side by side with the other one, gone k steps of
+    the way.
+
     Attributes:
-        across: x of each sole's origin [m], left then right.
+        across: x of each sole's origin [m], left then right, side by side.
         lift: How high the swinging foot goes [m].
+        aside: Way aside of a step, to the right [m].
+        turn: Turn of a step, to the left [rad].
     """
 
     across: tuple[float, float]
     lift: float
+    aside: float = 0.0
+    turn: float = 0.0
 
     @classmethod
     def of(cls, robot: Scout, request: PlanRequest) -> Steps:
         """The feet of a request; where it doesn't say how far apart, the soles leave a gap.
 
+        Of a walk that goes aside or round that is where they come nearest: there it takes more
+        than where they stand side by side.
+
         Raises:
             BadInput: The soles would touch.
         """
+
+        def of(spacing: float) -> Steps:
+            across = (-spacing / 2, spacing / 2)
+            return cls(across, request.lift, request.side / 2, request.turn / 2)
+
         least = least_spacing(robot)
-        spacing = request.foot_spacing or least + GAP
+        usual = least + GAP
+        if request.aside:
+            least, usual = (_apart(robot, of, request, gap) for gap in (0.0, GAP))
+        spacing = request.foot_spacing or usual
         if spacing < least + TOLERANCES.sole_gap:
             raise BadInput(
                 f"the soles touch where the feet are {spacing * 1e3:.4g} mm apart",
                 where="foot_spacing",
                 allowed=f"more than {least * 1e3:.4g} mm",
-                remedy=f"Ask for {(least + GAP) * 1e3:.4g} mm, which leaves {GAP * 1e3:g} mm "
+                remedy=f"Ask for {usual * 1e3:.4g} mm, which leaves {GAP * 1e3:g} mm "
                 "between them, or leave it out",
             )
-        return cls((-spacing / 2, spacing / 2), request.lift)
+        return of(spacing)
+
+    def way(self, step_length: float) -> Way:
+        """The way of a step."""
+        return Way(self.aside, step_length, self.turn)
+
+    def footfall(self, number: np.ndarray, step_length: float, foot: int) -> np.ndarray:
+        """Where a foot stands at a footfall: x, y [m], yaw [rad], ``(n, 3)``."""
+        place, heading = self.way(step_length).after(number)
+        found = np.concatenate([place, heading[..., None]], axis=-1)
+        across = np.array([self.across[foot], 0.0])
+        found[..., :2] += turns(heading) @ across if self.turn else across
+        return found
 
     def feet(self, moments: Moments, pace: Pace) -> tuple[BodyMotion, BodyMotion]:
         """Motions of both soles at n moments."""
         count, step, swings = len(moments.step), moments.step, moments.swings
         s = np.where(swings, moments.part, 0.0)
         time = (1.0 - pace.share) * pace.step_time
-        way, height = 2.0 * pace.step_length, 64.0 * self.lift
-        along = way * np.stack(
+        height = 64.0 * self.lift
+        share = np.stack(
             [
                 s**3 * (10 - 15 * s + 6 * s**2),
                 30 * s**2 * (1 - s) ** 2 / time,
@@ -137,19 +177,23 @@ class Steps:
                 6 * s * (1 - s) * (1 - 5 * s + 5 * s**2) / time**2,
             ]
         )
-        along[1:, ~swings] = up[:, ~swings] = 0.0
+        share[1:, ~swings] = up[:, ~swings] = 0.0
         made = []
         for k in (0, 1):
             goes = step % 2 != k  # the left foot stands in even steps
-            jets = np.zeros((3, count, 3))
-            jets[0, :, 0] = self.across[k]
             # Where it stood last, or stands: the left one at every even step.
-            jets[0, :, 1] = pace.step_length * np.where(goes, step - 1.0, step)
-            jets[:, goes, 1] += along[:, goes]
+            last = np.where(goes, step - 1.0, step)
+            stood = self.footfall(last, pace.step_length, k)
+            way = self.footfall(last + 2.0, pace.step_length, k) - stood
+            jets, yaw = np.zeros((3, count, 3)), np.zeros((3, count))
+            jets[0, :, :2], yaw[0] = stood[:, :2], stood[:, 2]
+            jets[:, goes, :2] += (share[:, :, None] * way[:, :2])[:, goes]
             jets[:, goes, 2] = up[:, goes]
-            turn = np.broadcast_to(np.eye(3), (count, 3, 3))
-            still = np.zeros((count, 3))
-            made.append(BodyMotion(turn, jets[0], jets[1], jets[2], still, still))
+            yaw[:, goes] += (share * way[:, 2])[:, goes]
+            spin = np.zeros((2, count, 3))
+            spin[:, :, 2] = yaw[1:]
+            turn = rotation("z", yaw[0]) if self.turn else np.broadcast_to(np.eye(3), (count, 3, 3))
+            made.append(BodyMotion(turn, jets[0], jets[1], jets[2], spin[0], spin[1]))
         return made[0], made[1]
 
     def curves(self, pace: Pace) -> dict[str, tuple[Piecewise, ...]]:
@@ -159,16 +203,18 @@ class Steps:
         made = {}
         for k in (0, 1):
             begins = 0.0 if k else time  # of the step in which it swings
-            start = -length if k else 0.0
-            y, z = swing_curves(begins + off, begins + time, start, start + 2.0 * length, self.lift)
-            lands = begins + time
-            before = constant(0.0, begins + off, start), constant(0.0, begins + off, 0.0)
-            y_all, z_all = [before[0], y], [before[1], z]
-            if lands < end:
-                y_all.append(constant(lands, end, start + 2.0 * length))
-                z_all.append(constant(lands, end, 0.0))
-            fixed = [constant(0.0, end, value) for value in (self.across[k], 0, 0, 0, 0, 0)]
-            fixed[1], fixed[2] = join(y_all), join(z_all)
+            stood, ends = (
+                self.footfall(np.array(number - 1.0 if k else number + 0.0), length, k)
+                for number in (0, 2)
+            )
+            lands, fixed = begins + time, [constant(0.0, end, 0.0) for _ in range(6)]
+            for column, (a, b) in zip((0, 1, 5), zip(stood, ends, strict=True), strict=True):
+                fixed[column] = constant(0.0, end, float(a))
+                if a != b:
+                    y, z = swing_curves(begins + off, lands, float(a), float(b), self.lift)
+                    fixed[column] = held(0.0, end, y, float(a), float(b))
+            y, z = swing_curves(begins + off, lands, 0.0, 0.0, self.lift)
+            fixed[2] = held(0.0, end, z, 0.0, 0.0)
             made[BODIES[1 + k]] = tuple(fixed)
         return made
 
@@ -191,3 +237,31 @@ def least_spacing(robot: Scout) -> float:
     """Distance of the soles' origins across at which the soles touch [m]."""
     left, right = (np.array(robot.specification.leg(side).sole) for side in SIDES)
     return float(left[:, 0].max() - right[:, 0].min())
+
+
+def sole_gap(robot: Scout, steps: Steps, step_length: float) -> float:
+    """How near to each other the soles come over a cycle, seen from above [m]."""
+    moments = Moments.even(2, 2, _SEEN)
+    feet = steps.feet(moments, Pace(step_length, 1.0, 0.0))
+    seen = []
+    for side, foot in zip(SIDES, feet, strict=True):
+        place = foot.placement
+        place[:, 2, 3] = 0.0
+        seen.append(sole_corners(np.array(robot.specification.leg(side).sole), place))
+    found = least_distance(seen[0], seen[1])
+    return 0.0 if found is None else found[0]
+
+
+def _apart(robot: Scout, of: Callable[[float], Steps], request: PlanRequest, gap: float) -> float:
+    """How far apart feet stand side by side so that their soles leave a gap everywhere [m]."""
+    length, spacing = request.first_length, least_spacing(robot) + GAP
+    soles = np.concatenate([robot.specification.leg(side).sole for side in SIDES])
+    radius = float(np.hypot(*soles.T).max())
+    spacing += abs(request.side) + 2 * radius * abs(math.sin(request.turn / 2))
+    spacing += length * abs(math.sin(request.turn / 4)) * 4
+    for _ in range(_NEARER):
+        less = sole_gap(robot, of(spacing), length) - gap
+        if abs(less) < _NEAR:
+            break
+        spacing -= less
+    return spacing

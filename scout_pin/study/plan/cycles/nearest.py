@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context
+from decimal import ROUND_CEILING, ROUND_DOWN, Context
 
-from scout_pin.study.plan.cycles.feet import least_spacing
+from scout_pin.study.plan.cycles.feet import Steps
 from scout_pin.study.plan.cycles.problem import Unknowns
 from scout_pin.study.plan.cycles.search import ATTEMPTS, FAR, Candidate, Search
 from scout_pin.study.plan.cycles.starts import SHARE, starts
 from scout_pin.study.plan.limits import KINDS
-from scout_pin.study.plan.request import GAP, STEP_TIME, PlanRequest
+from scout_pin.study.plan.request import LEAST, STEP_TIME, PlanRequest
 from thesis_pin.errors import BadInput, ThesisPinError
 
 _SHARES = (0.5, 0.25, 0.1)  # of a length, speed or margin that are tried
+_TINY = (0.01, 0.001)  # of one as far from what can be met as another unit makes it
 _CLIMBS = 10  # from the first that is met towards what was asked for
 _FIRST, _FINE = 0.16, 0.02  # relative steps of it: the first one, and when it is given up
 _FASTER, _SLOWER = 1.5, 0.4
-_CONFIRMED = 3  # how many are searched anew before none is offered
+_CONFIRMED = (1.0, 0.85, 0.6)  # of what was met from nearby: searched anew until one is met
 
 OFFERS = 4 * (2 * len(_SHARES) + _CLIMBS + ATTEMPTS)
 """Descents at most, or so."""
@@ -50,13 +52,13 @@ class Change:
         Who asks for what is told then asks for the same to the last bit. None where so little,
         or so much, can't be asked for.
         """
-        rounding = Context(self.digits, ROUND_CEILING if self.up else ROUND_FLOOR)
+        rounding = Context(self.digits, ROUND_CEILING if self.up else ROUND_DOWN)
         told = float(rounding.create_decimal(f"{self.value(share) / self.unit:.12g}"))
         try:
             changed = request.changed(**{self.name: told * self.unit})
         except BadInput:
             return None
-        return changed if told * self.unit >= self.least else None
+        return changed if abs(told * self.unit) >= self.least else None
 
 
 def changes(search: Search, request: PlanRequest) -> Iterator[Change]:
@@ -64,15 +66,27 @@ def changes(search: Search, request: PlanRequest) -> Iterator[Change]:
     speed, time = request.speed, float(request.step_time or STEP_TIME)
     if speed is not None:
         yield Change("speed", lambda share: share * speed, least=1e-3)
-    if not request.free_length and (speed is None or request.step_time is None):
+    if (
+        request.first_length
+        and not request.free_length
+        and (speed is None or request.step_time is None)
+    ):
         yield Change("step_length", lambda share: share * request.first_length)
     if speed is None and request.objective != "fastest":
         yield Change("step_time", lambda share: time / share, unit=1.0, up=True)
     if request.margin > 0.0:
         yield Change("margin", lambda share: share * request.margin, digits=3)
-    given, usual = request.foot_spacing, least_spacing(search.sampler.robot) + GAP
+    for name, unit in (("side", 1e-3), ("turn", math.pi / 180)):
+        if amount := float(getattr(request, name)):
+            yield Change(name, _of(amount), unit=unit, least=LEAST[name], digits=3)
+    given = request.foot_spacing
+    usual = Steps.of(search.sampler.robot, request.changed(foot_spacing=None)).across[1] * 2
     if given is not None and given > usual:
         yield Change("foot_spacing", lambda share: usual + share * (given - usual))
+
+
+def _of(amount: float) -> Callable[[float], float]:
+    return lambda share: share * amount
 
 
 def nearest(
@@ -89,30 +103,45 @@ def nearest(
     Returns:
         The request; None if none was found.
     """
-    low, step, met = 0.0, _FIRST, list[Candidate]()
-    for share in _SHARES:
-        asked = change.request(request, share)
-        there = None if asked is None else _fresh(search, asked, found)
-        if there is not None:
-            low = share
-            met.append(there)
-            break
-    if not met:
+    begun = _begun(search, request, found, change)
+    if begun is None:
         return None
+    (low, there), step = begun, _FIRST
     # Little by little: what fails from afar is often met from nearby.
     for _ in range(_CLIMBS):
         share = low + min(low * step, (1.0 - low) / 2)
         asked = change.request(request, share)
-        there = None if asked is None else attempt(search, asked, met[-1].known)
-        if there is not None and there.kept:
-            met.append(there)
-            low, step = share, _FASTER * step
+        more = None if asked is None else attempt(search, asked, there.known)
+        if more is not None and more.kept:
+            low, there, step = share, more, _FASTER * step
         else:
-            step *= _SLOWER
+            step = _SLOWER * (share / low - 1.0)
             if step < _FINE:
                 break
-    offers = (one.request for one in met[: -_CONFIRMED - 1 : -1])
-    return next((one for one in offers if _again(search, one)), None)
+    # What is met from nearby isn't always found from afar: then a little less is.
+    offers = (change.request(request, share * low) for share in _CONFIRMED)
+    return next((one for one in offers if one is not None and _again(search, one)), None)
+
+
+def _begun(
+    search: Search, request: PlanRequest, found: Candidate, change: Change
+) -> tuple[float, Candidate] | None:
+    """A share to begin with that is met, and its cycle; None if none was found."""
+    tiny = _TINY if found.most > FAR else ()
+    first, shares = None, (*_SHARES, *tiny)
+    if not change.up:
+        # Where hardly anything fails more needn't be tried; more of time isn't easier.
+        shares = _SHARES[:-1]
+        for share in (_SHARES[-1], *tiny):
+            if there := _fresh(search, change.request(request, share), found):
+                first = share, there
+                break
+        else:
+            return None
+    for share in shares:
+        if there := _fresh(search, change.request(request, share), found):
+            return share, there
+    return first
 
 
 def _again(search: Search, request: PlanRequest) -> bool:
@@ -126,8 +155,10 @@ def _again(search: Search, request: PlanRequest) -> bool:
     return kept
 
 
-def _fresh(search: Search, request: PlanRequest, found: Candidate) -> Candidate | None:
+def _fresh(search: Search, request: PlanRequest | None, found: Candidate) -> Candidate | None:
     """A cycle that keeps a request's limits, from what was found or from the first start."""
+    if request is None:
+        return None
     length = request.first_length
     first = next(starts(search.build, search.steps, search.cyclic, length))
     beginnings = [found.known, Unknowns(first, SHARE, length)]

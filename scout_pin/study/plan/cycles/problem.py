@@ -14,7 +14,9 @@ from scout_pin.study.plan.footing import Footing
 from scout_pin.study.plan.limits import KINDS, TORSO_UNITS, Limits
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.samples import Sampler
+from scout_pin.study.plan.sampling.jets import Heading
 from scout_pin.study.plan.sampling.sloped import Sloped
+from scout_pin.study.plan.way import BEHIND
 
 _UNITS = TORSO_UNITS[:, None]  # of coefficients
 SHARE_UNIT, LENGTH_UNIT = 0.1, 0.01
@@ -103,11 +105,12 @@ class CycleProblem:
         """Jets of the torso, ``(n, 18)``."""
         pace = self.pace(known)
         jets = np.einsum("ndck,ck->ndc", basis, known.coefficients)
-        jets[:, 0, 1] += pace.step_length * u
-        jets[:, 1, 1] += pace.step_length
-        jets[:, 1] /= pace.step_time
-        jets[:, 2] /= pace.step_time**2
-        return np.asarray(jets.reshape(len(u), 18))
+        return self.steps.way(pace.step_length).into_world(jets, u, pace.step_time)
+
+    def heading(self, u: np.ndarray, pace: Pace) -> Heading | None:
+        """The heading that the torso's angles count from; None if it is always the same."""
+        turn = self.steps.turn
+        return Heading(turn * (u - BEHIND), turn / pace.step_time) if turn else None
 
     def excess(
         self, known: Unknowns, *, slopes: bool = False, moments: Moments | None = None
@@ -123,7 +126,9 @@ class CycleProblem:
         u = moments.times(pace.share)
         footing = self._footing(moments, pace)
         jets = self.jets(known, self.cyclic.basis(u), u)
-        return self.limits.excess(self.robot, self.sampler(jets, footing, slopes=slopes))
+        return self.limits.excess(
+            self.robot, self.sampler(jets, footing, slopes=slopes, heading=self.heading(u, pace))
+        )
 
     def _footing(self, moments: Moments, pace: Pace) -> Footing:
         """The feet; their support polygons are kept, for only the length of steps changes them."""

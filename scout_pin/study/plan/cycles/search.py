@@ -21,7 +21,7 @@ from scout_pin.study.plan.cycles.starts import SHARE, STARTS, Build, standing_br
 from scout_pin.study.plan.cycles.symmetry import mirrored
 from scout_pin.study.plan.limits import KINDS, Limits, Worst, worsts
 from scout_pin.study.plan.newton import Descent, descend
-from scout_pin.study.plan.request import PlanRequest
+from scout_pin.study.plan.request import STEP_TIME, PlanRequest
 from scout_pin.study.plan.samples import Sampler
 from scout_pin.study.plan.sampling.reach import STRAIGHT
 from scout_pin.study.plan.sampling.sloped import Sloped
@@ -109,7 +109,7 @@ class Search:
             alike = mirrored(self.sampler, self.steps, first, request.first_length)
         except SingularPose:
             alike = False
-        self.cyclic = Cyclic(1 if alike else 2)
+        self.cyclic = Cyclic(1 if alike and not request.aside else 2)
         self.latest: Candidate | None = None
 
     def problem(self, request: PlanRequest) -> CycleProblem:
@@ -123,7 +123,7 @@ class Search:
             Limits.of(self.sampler.robot, request),
             bounds(request, self.build.height),
             request.walking_speed if free else None,
-            None if free else request.first_length / request.walking_speed,
+            None if free else _step_time(request),
             free,
             BACK_OFF,
         )
@@ -223,6 +223,13 @@ class Search:
         if self.latest is None or found.most < self.latest.most:
             self.latest = found
         return found.kept
+
+
+def _step_time(request: PlanRequest) -> float:
+    """Time of a step whose length is fixed [s]."""
+    if not request.first_length:  # in place, there is no speed ahead
+        return float(request.step_time or STEP_TIME)
+    return request.first_length / request.walking_speed
 
 
 ATTEMPTS = STARTS + 2

@@ -12,6 +12,9 @@ from math import comb, factorial
 
 import numpy as np
 
+from scout_pin.motion.over_floor import turned_jets
+from scout_pin.study.plan.way import BEHIND, Way
+from thesis_pin.numeric.interpolation import hermite
 from thesis_pin.numeric.piecewise import Piecewise
 
 DEGREE = 5
@@ -22,7 +25,6 @@ CYCLE = 2
 """Steps of a cycle."""
 
 _CHANGES = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])  # of x, y, z, pitch, roll, yaw
-_Y = 1
 
 
 @dataclass(frozen=True)
@@ -78,15 +80,13 @@ class Cyclic:
             return coefficients
         return np.concatenate([coefficients, self._signs[:, None] * coefficients], axis=1)
 
-    def curves(
-        self, coefficients: np.ndarray, step_time: float, step_length: float
-    ) -> tuple[Piecewise, ...]:
+    def curves(self, coefficients: np.ndarray, step_time: float, way: Way) -> tuple[Piecewise, ...]:
         """The curves over a whole cycle by time in seconds, exact piecewise polynomials.
 
         Args:
             coefficients: Shape ``(6, size)``.
             step_time: Of a step [s].
-            step_length: Way along y that each step adds [m].
+            way: The way of each step.
         """
         whole, pieces = self.spread(coefficients), _pieces()
         count = KNOTS * CYCLE
@@ -97,11 +97,28 @@ class Cyclic:
             c = np.stack(
                 [whole[k, (j - np.arange(DEGREE + 1)) % count] @ pieces for j in range(count)]
             )
-            if k == _Y:
-                c[:, -1] += step_length * np.arange(count) / KNOTS
-                c[:, -2] += step_length / KNOTS
+            each = (way.aside, way.ahead)[k] if k < 2 and not way.turn else 0.0
+            if each:
+                c[:, -1] += each * np.arange(count) / KNOTS
+                c[:, -2] += each / KNOTS
             made.append(Piecewise((c * scale).T, knots))
-        return tuple(made)
+        return _round(made, way, step_time) if way.turn else tuple(made)
+
+
+def _round(curves: list[Piecewise], way: Way, step_time: float) -> tuple[Piecewise, ...]:
+    """Curves counted in the frame that goes a way, as such in the world.
+
+    Quintic pieces, exact with their rates and accelerations at all ends.
+    """
+    u = np.linspace(0.0, CYCLE, KNOTS * CYCLE + 1)
+    jets = np.array([[one(step_time * u, n) for one in curves] for n in range(3)])
+    scale = step_time ** np.arange(3.0)[:, None, None]
+    local = (jets * scale).transpose(2, 0, 1)
+    world = way.into_world(local, u, step_time).reshape(-1, 3, 6).transpose(1, 0, 2)
+    rate = way.turn / step_time
+    world[:, :, 3:] = turned_jets(world[:, :, 3:], way.turn * (u - BEHIND), rate)
+    knots = step_time * u
+    return tuple(hermite(knots, [(one[:-1], one[1:]) for one in world[:, :, k]]) for k in range(6))
 
 
 @cache

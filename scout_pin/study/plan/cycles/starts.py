@@ -56,7 +56,7 @@ def starts(build: Build, steps: Steps, cyclic: Cyclic, step_length: float) -> It
     """Coefficients ``(6, size)`` to begin with, one after the other."""
     u = np.arange(cyclic.size) / KNOTS
     sway = np.sin(np.pi * (u - SHARE / 2))
-    size, middle = build.height / _HIGH, sum(steps.across) / 2
+    size, middle = build.height / _HIGH, sum(steps.across) / 2 - steps.aside / 2
     for sign, (roll, aside, lower) in product((1.0, -1.0), _GUESSES):
         wanted = np.zeros((cyclic.size, 6))
         wanted[:, 0] = middle - sway * aside * 1e-3 * size

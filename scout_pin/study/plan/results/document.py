@@ -39,6 +39,8 @@ def document(plan: Plan) -> dict[str, object]:
             "step_time": cycle.pace.step_time,
             "double_support": cycle.pace.share,
             "speed": cycle.speed,
+            "aside": cycle.way.aside,
+            "turn": cycle.way.turn,
         },
         "branches": [label(BRANCHES[k]) for k in cycle.branches],
         "limits": [_worst(one) for one in cycle.worst],
@@ -57,9 +59,13 @@ def document(plan: Plan) -> dict[str, object]:
 
 
 def _walk(walk: Walk, plan: Plan) -> dict[str, object]:
+    way = plan.cycle.way
+    whole = way.motion(plan.steps)
     return {
         "duration": walk.duration,
-        "distance": plan.steps * plan.cycle.pace.step_length,
+        "distance": plan.steps * way.length,
+        "displacement": [whole.x, whole.y],
+        "turn": whole.turn,
         "planned_margin": walk.margin,
         **walk.judged.document(),
     }

@@ -10,7 +10,7 @@ from scout_pin.report.document import GaitReport
 from scout_pin.study.plan.cycle import CyclePlan
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.results.judged import Judged
-from scout_pin.study.plan.results.telling import nearest_words, passed_words
+from scout_pin.study.plan.results.telling import nearest_words, passed_words, way_words
 from scout_pin.study.plan.walks.transitions import Transition
 
 BINDS = -0.03
@@ -117,11 +117,15 @@ class Plan:
             said = [f"{name} can't walk as asked, as far as was found."]
             said += [f"{why[0].upper()}{why[1:]}." for why in self.failures()]
             return said + list(self._instead())
-        pace = self.cycle.pace
+        pace, steps = self.cycle.pace, self.cycle.candidate.problem.steps
+        how = (
+            f"walks {pace.step_length * 1e3:.4g} mm a step of {pace.step_time:.4g} s, "
+            f"{self.cycle.speed * 1e3:.4g} mm/s"
+            if self.cycle.way.straight
+            else f"goes {way_words(pace, steps)} in two steps of {pace.step_time:.4g} s each"
+        )
         said = [
-            f"{name} walks {pace.step_length * 1e3:.4g} mm a step of {pace.step_time:.4g} s, "
-            f"{self.cycle.speed * 1e3:.4g} mm/s, with both feet on the floor for "
-            f"{pace.share:.0%} of it.",
+            f"{name} {how}, with both feet on the floor for {pace.share:.0%} of it.",
             f"As a cycle: {self._numbers(judged)}.",
             f"From rest to rest, {self.steps} {'step' if self.steps == 1 else 'steps'} in "
             f"{walk.duration:.4g} s: {self._numbers(walk.judged)}.",

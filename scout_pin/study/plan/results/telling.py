@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from scout_pin.study.plan.cycles.feet import Pace, Steps
 from scout_pin.study.plan.limits import KINDS, UNITS, Worst
 from scout_pin.study.plan.request import PlanRequest
 
@@ -13,6 +14,8 @@ _FIELDS = {
     "step_time": ("a step of {:.4g} s", 1.0),
     "speed": ("a speed of {:.4g} mm/s", 1e3),
     "margin": ("a margin of {:.3g} mm", 1e3),
+    "side": ("a way aside of {:.3g} mm", 1e3),
+    "turn": ("a turn of {:.3g}°", 180 / math.pi),
     "foot_spacing": ("feet {:.4g} mm apart", 1e3),
 }
 
@@ -26,6 +29,18 @@ def passed_words(one: Worst) -> str:
         about.append(f"passed by {one.value - one.limit:.2g} of the weight times a sole's length")
     about.append(f"at t = {one.t:.3g} s")
     return f"{KINDS[one.kind]} ({', '.join(about)})"
+
+
+def way_words(pace: Pace, steps: Steps) -> str:
+    """How far two steps that aren't straight ahead go, as in "60 mm ahead, 20 mm to the right"."""
+    parts = [f"{2 * pace.step_length * 1e3:.4g} mm ahead"] if pace.step_length else []
+    if steps.aside:
+        side = "right" if steps.aside > 0 else "left"
+        parts.append(f"{2 * abs(steps.aside) * 1e3:.4g} mm to the {side}")
+    if steps.turn:
+        side = "left" if steps.turn > 0 else "right"
+        parts.append(f"{math.degrees(2 * abs(steps.turn)):.4g}° round to the {side}")
+    return ", ".join(parts)
 
 
 def nearest_words(request: PlanRequest, nearest: Mapping[str, PlanRequest]) -> list[str]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thesis_pin.numeric.arrays import skew
-from thesis_pin.numeric.rotations import euler_parts
+from thesis_pin.numeric.rotations import euler_parts, rotation
 from thesis_pin.numeric.sparing import spread
 from thesis_pin.numeric.trajectory import BodyMotion
 
@@ -22,11 +22,30 @@ _PITCH, _ROLL, _YAW = 3, 4, 5
 _SLOPES = slice(3, 6)  # of the angles, in each six of a jet
 
 
-def torso_motion(jets: np.ndarray) -> BodyMotion:
-    """The torso's motion in the world: jets ``(n, 18)``."""
+@dataclass(frozen=True)
+class Heading:
+    """A heading that angles count from, which turns evenly.
+
+    Attributes:
+        angle: To the left [rad], ``(n,)``.
+        rate: [rad/s].
+    """
+
+    angle: np.ndarray
+    rate: float
+
+
+def torso_motion(jets: np.ndarray, heading: Heading | None = None) -> BodyMotion:
+    """The torso's motion in the world: jets ``(n, 18)``, whose angles count from a heading."""
     count, columns = len(jets), list(jets.T)
     turned = euler_parts("xyz", columns[3:6], columns[9:12], columns[15:18])
     turn, omega, alpha = (spread(part, (count,)) for part in turned)
+    if heading is not None:
+        about = rotation("z", heading.angle)
+        up = np.array([[0.0], [0.0], [heading.rate]])
+        alpha = np.einsum("nij,jn->in", about, alpha + np.cross(up, omega, axis=0))
+        omega = np.einsum("nij,jn->in", about, omega) + up
+        turn = np.einsum("nij,jkn->ikn", about, turn.reshape(3, 3, count))
     return BodyMotion(
         turn.reshape(3, 3, count).transpose(2, 0, 1),
         jets[:, :3],
@@ -52,8 +71,14 @@ class RootSlopes:
     a: np.ndarray
 
 
-def root_slopes(jets: np.ndarray, torso: BodyMotion) -> RootSlopes:
-    """Derivatives of Pinocchio's root by the jets ``(n, 18)`` of a torso."""
+def root_slopes(jets: np.ndarray, torso: BodyMotion, rate: float = 0.0) -> RootSlopes:
+    """Derivatives of Pinocchio's root by the jets ``(n, 18)`` of a torso.
+
+    Args:
+        jets: The jets.
+        torso: Its motion.
+        rate: Of the heading that angles count from [rad/s].
+    """
     count, back = len(jets), np.swapaxes(torso.rotation, 1, 2)
     angle_rates, angle_seconds = jets[:, 9:12], jets[:, 15:18]
     w, w_of, w_of_of = _rate_matrix(jets[:, _ROLL], jets[:, _YAW])
@@ -65,18 +90,28 @@ def root_slopes(jets: np.ndarray, torso: BodyMotion) -> RootSlopes:
 
     def turned(vector: np.ndarray) -> np.ndarray:
         """How the components of a world vector change with the angles, ``(n, 3, 3)``."""
+        vector = np.broadcast_to(vector, (count, 3))
         return np.asarray(skew(np.einsum("nij,nj->ni", back, vector)) @ w)
 
     v = np.zeros((count, 6, JET))
     v[:, :3, 3:6], v[:, :3, 6:9] = turned(torso.velocity), back
     v[:, 3:, 3:6] = np.einsum("knij,nj->nik", w_of, angle_rates)
     v[:, 3:, 9:12] = w
+    spun = v[:, 3:, 3:6].copy()  # of the angles' own angular velocity
+    if rate:  # the vertical turns in the torso's axes
+        v[:, 3:, 3:6] += rate * turned(np.array([0.0, 0.0, 1.0]))
 
     a = np.zeros((count, 6, JET))
     a[:, 3:, 3:6] = np.einsum("knij,nj->nik", w_of, angle_seconds)
     a[:, 3:, 3:6] += np.einsum("klnij,ln,nj->nik", w_of_of, angle_rates.T, angle_rates)
     a[:, 3:, 9:12] = drift + np.einsum("knij,nj->nik", w_of, angle_rates)
     a[:, 3:, 15:18] = w
+    if rate:
+        vertical, own = back[:, :, 2], np.einsum("nij,nj->ni", w, angle_rates)
+        a[:, 3:, 3:6] += rate * (
+            skew(vertical) @ spun - skew(own) @ turned(np.array([0.0, 0.0, 1.0]))
+        )
+        a[:, 3:, 9:12] += rate * skew(vertical) @ w
     # The spatial acceleration leaves ω × v out.
     linear = np.einsum("nij,nj->ni", back, torso.velocity)
     omega = np.einsum("nij,nj->ni", back, torso.omega)

@@ -69,7 +69,12 @@ class FrameSlopes:
 
 
 def state_slopes(
-    robot: Scout, jets: np.ndarray, footing: Footing, here: State, straight: float
+    robot: Scout,
+    jets: np.ndarray,
+    footing: Footing,
+    here: State,
+    straight: float,
+    rate: float = 0.0,
 ) -> StateSlopes:
     """Derivatives of a state.
 
@@ -79,9 +84,10 @@ def state_slopes(
         footing: Its feet.
         here: The state of these jets.
         straight: Cosine of a knee's angle up to which angles are exact.
+        rate: Of the heading that the torso's angles count from [rad/s].
     """
     of = _frame_slopes(robot, here)
-    root = root_slopes(jets, here.torso)
+    root = root_slopes(jets, here.torso, rate)
     inverses = [np.linalg.inv(of.jacobian[:, k, :, mine]) for k, mine in enumerate(LEGS)]
     q, v, a = np.zeros((3, len(jets), 18, JET))
     q[:, ROOT], v[:, ROOT], a[:, ROOT] = root.q, root.v, root.a

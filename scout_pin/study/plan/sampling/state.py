@@ -20,7 +20,7 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.footing import Footing
-from scout_pin.study.plan.sampling.jets import torso_motion
+from scout_pin.study.plan.sampling.jets import Heading, torso_motion
 from scout_pin.study.plan.sampling.reach import STRAIGHT, soft_angles
 from thesis_pin.contacts.dynamics import ContactDynamics
 from thesis_pin.numeric.trajectory import BodyMotion, JointTrajectory
@@ -63,6 +63,7 @@ def state(
     jets: np.ndarray,
     footing: Footing,
     straight: float = STRAIGHT,
+    heading: Heading | None = None,
 ) -> State:
     """The robot at some samples.
 
@@ -72,12 +73,13 @@ def state(
         jets: The torso's, shape ``(n, 18)``.
         footing: Its feet.
         straight: Cosine of a knee's angle up to which angles are exact.
+        heading: What the torso's angles count from; None for the world's y.
 
     Raises:
         SingularPose: A leg's Jacobian loses rank otherwise than by a straight knee.
     """
     walking(robot)
-    torso, count = torso_motion(jets), len(jets)
+    torso, count = torso_motion(jets, heading), len(jets)
     q, v, a = (np.empty((12, count)) for _ in range(3))
     knee, short = np.empty((count, 2)), np.zeros((count, 2, 3))
     feet = list(footing.feet)

@@ -8,8 +8,6 @@ lies between is free. Values, rates and accelerations are linear in what is free
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
-from math import perm
 
 import numpy as np
 
@@ -18,7 +16,6 @@ from thesis_pin.numeric.piecewise import Piecewise
 
 DEGREE = 5
 COORDINATES = len(POSE_NAMES)
-_POWERS = np.arange(DEGREE, -1, -1)
 
 
 @dataclass(frozen=True)
@@ -42,17 +39,18 @@ class Clamped:
         """Free numbers of each coordinate."""
         return self.intervals
 
+    @property
+    def knots(self) -> np.ndarray:
+        """Knots, the outermost six times, ``(intervals + 11,)``."""
+        inner = np.linspace(0.0, self.duration, self.intervals + 1)
+        return np.concatenate([[0.0] * DEGREE, inner, [self.duration] * DEGREE])
+
     def basis(self, t: np.ndarray, order: int = 0) -> np.ndarray:
         """Values of every B-spline's derivative, ``(n,)`` → ``(n, intervals + 5)``."""
-        u = t * (self.intervals / self.duration)
-        first = np.clip(np.floor(u), 0, self.intervals - 1).astype(int)
-        powers = (u - first)[:, None] ** np.maximum(_POWERS - order, 0)
-        powers *= [perm(power, order) for power in _POWERS.tolist()]
-        found = np.zeros((len(t), self.intervals + DEGREE))
-        values = np.einsum("nk,nsk->ns", powers, _pieces(self.intervals)[first])
-        rows = np.arange(len(t))[:, None]
-        found[rows, first[:, None] + np.arange(DEGREE + 1)] = values
-        return found * (self.intervals / self.duration) ** order
+        from scipy.interpolate import BSpline
+
+        splines = BSpline(self.knots, np.eye(self.intervals + DEGREE), DEGREE)
+        return np.asarray(splines(t, nu=order))
 
     def spread(self) -> tuple[np.ndarray, np.ndarray]:
         """Coefficients as a linear function of what is free.
@@ -110,36 +108,12 @@ class Clamped:
 
     def curves(self, free: np.ndarray) -> tuple[Piecewise, ...]:
         """The curves themselves, exact piecewise polynomials."""
-        ends = np.linspace(0.0, self.duration, self.intervals + 1)
-        numbers = np.arange(self.intervals)[:, None] + np.arange(DEGREE + 1)
-        mine = self.coefficients(free)[numbers]
-        pieces = np.einsum("jsk,jsp->kpj", mine, _pieces(self.intervals))
-        scale = (self.intervals / self.duration) ** _POWERS[:, None]
-        return tuple(Piecewise(c * scale, ends) for c in pieces)
+        from scipy.interpolate import BSpline, PPoly
 
-
-@cache
-def _pieces(intervals: int) -> np.ndarray:
-    """Of each interval the six B-splines that reach into it, as polynomials from its beginning.
-
-    Intervals have the length 1. SciPy's makes the same, but its import takes a fifth of a plan.
-
-    Returns:
-        Shape ``(intervals, 6, 6)``: interval, spline, power, the highest first.
-
-    Source: C. de Boor, "On calculating with B-splines", Journal of Approximation Theory 6 (1972).
-    """
-    begins = np.arange(intervals)[:, None]
-    found = np.ones((intervals, 1, 1))
-    for degree in range(1, DEGREE + 1):
-        # The splines of one degree less that reach into each interval, and the knots they span.
-        splines = begins + np.arange(DEGREE - degree + 1, DEGREE + 1)
-        low, high = (np.clip(one - DEGREE, 0, intervals) for one in (splines, splines + degree))
-        share = found / (high - low)[..., None]
-        more = np.zeros((intervals, degree + 1, degree + 1))
-        more[:, 1:, :-1] += share
-        more[:, 1:, 1:] += (begins - low)[..., None] * share
-        more[:, :-1, :-1] -= share
-        more[:, :-1, 1:] += (high - begins)[..., None] * share
-        found = more
-    return found
+        coefficients = self.coefficients(free)
+        made = []
+        for k in range(COORDINATES):
+            whole = PPoly.from_spline(BSpline(self.knots, coefficients[:, k], DEGREE))
+            inner = slice(DEGREE, DEGREE + self.intervals)
+            made.append(Piecewise(whole.c[:, inner], whole.x[DEGREE : DEGREE + self.intervals + 1]))
+        return tuple(made)

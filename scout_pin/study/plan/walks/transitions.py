@@ -136,7 +136,8 @@ def _planned(
     effort: float = 0.0,
 ) -> Transition:
     """Plan one course: a search, and again with samples where the check finds more."""
-    sampler, bounds = cycle.candidate.problem.sampler, cycle.candidate.problem.bounds
+    sampler = cycle.candidate.problem.sampler
+    bounds = _widened(cycle.candidate.problem.bounds, course.heading)
     t, support = spaced(course, SAMPLES)
     check = Grid.of(sampler, course, *spaced(course, CHECKED))
     x = ((course.guess if guess is None else guess) / _UNITS).ravel()
@@ -163,6 +164,17 @@ def _planned(
         t = np.concatenate([t, check.t[more]])
         support = np.concatenate([support, check.footing.support[more]])
     return replace(min(found, key=lambda one: one.most), iterations=iterations)
+
+
+def _widened(bounds: np.ndarray, heading: float) -> np.ndarray:
+    """Bounds for angles counted from a heading that is off the torso's own by so much at most."""
+    if not heading:
+        return bounds
+    more, turned = np.zeros(bounds.shape), abs(math.sin(heading))
+    pitch, roll = bounds[1, 3:5]
+    more[:, 3:] = turned * roll, turned * pitch, abs(heading)
+    more[0] *= -1.0
+    return np.asarray(bounds + more)
 
 
 @dataclass(frozen=True)

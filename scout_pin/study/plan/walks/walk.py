@@ -12,11 +12,11 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, Phased
 from scout_pin.motion.cycles import repeat_gait
 from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.over_floor import OverFloor
 from thesis_pin.numeric.interpolation import join
 from thesis_pin.numeric.piecewise import Piecewise
 
 Curves = dict[str, tuple[Piecewise, ...]]
-_Y = POSE_NAMES.index("y")
 
 
 @dataclass(frozen=True)
@@ -31,17 +31,15 @@ class Stretch(Phased):
     curves: Curves
     phases: tuple[Phase, ...]
 
-    def moved(self, later: float, forward: float) -> Stretch:
+    def moved(self, later: float, by: OverFloor) -> Stretch:
         """The same at another time and place.
 
         Args:
             later: By how much later.
-            forward: By how much farther along y [m].
+            by: How it is moved over the floor.
         """
         curves = {
-            body: tuple(
-                _moved(curve, later, forward if k == _Y else 0.0) for k, curve in enumerate(six)
-            )
+            body: by.moved([Piecewise(curve.c, curve.x + later) for curve in six])
             for body, six in self.curves.items()
         }
         phases = tuple(
@@ -50,9 +48,10 @@ class Stretch(Phased):
         )
         return Stretch(curves, phases)
 
-    def foot(self, side: str, t: float) -> float:
-        """Where a foot is along y at a time [m]."""
-        return float(self.curves[f"{side}_foot"][_Y](t))
+    def foot(self, side: str, t: float) -> OverFloor:
+        """Where a foot is at a time: what brings it there from x = 0, y = 0, not turned."""
+        six = self.curves[f"{side}_foot"]
+        return OverFloor(*(float(six[k](t)) for k in (0, 1, 5)))
 
 
 def cut(gait: Gait, start: float, end: float) -> Stretch:
@@ -116,12 +115,6 @@ def chained(name: str, source: str, stretches: Sequence[Stretch]) -> Gait:
             phase = Phase(start=phases[-1].end, end=phase.end, support=phase.support)
         phases.append(phase)
     return Gait(name, source, 1.0, curves, tuple(phases))
-
-
-def _moved(curve: Piecewise, later: float, by: float) -> Piecewise:
-    coefficients = curve.c.copy()
-    coefficients[-1] += by
-    return Piecewise(coefficients, curve.x + later)
 
 
 def _cut(curve: Piecewise, start: float, end: float) -> Piecewise:

@@ -14,6 +14,10 @@ from thesis_pin.errors import BadInput
         ({"step_length": 0.0}, "step_length"),
         ({"step_length": float("nan")}, "step_length"),
         ({"step_time": -1.0}, "step_time"),
+        ({"side": 5e-5}, "side"),
+        ({"side": -11.0}, "side"),
+        ({"turn": 0.001}, "turn"),
+        ({"turn": 4.0}, "turn"),
         ({"speed": "fast"}, "speed"),
         ({"foot_spacing": 0.0}, "foot_spacing"),
         ({"lift": 0.0}, "lift"),
@@ -53,6 +57,15 @@ def test_length_time_and_speed_follow_from_each_other():
     assert not timed.free_length
     assert PlanRequest(objective="fastest").free_length
     assert not PlanRequest(objective="fastest", step_length=0.04).free_length
+
+
+def test_side_steps_and_turns_are_in_place_unless_told_how_far_ahead():
+    for asked in ({"side": -0.02}, {"turn": 0.1}):
+        assert PlanRequest(**asked).first_length == 0.0
+        assert PlanRequest(step_length=0.02, **asked).first_length == 0.02
+        assert PlanRequest(objective="fastest", **asked).first_length == STEP_LENGTH
+        ahead = PlanRequest(speed=0.1, **asked)
+        assert (ahead.first_length, ahead.free_length) == (STEP_LENGTH, True)
 
 
 def test_a_request_is_json_and_comes_back():

@@ -13,7 +13,7 @@ from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
 from scout_pin.study.plan.footing import Footing
 from scout_pin.study.plan.samples import Quantities, Sampler
-from scout_pin.study.plan.sampling.jets import torso_motion
+from scout_pin.study.plan.sampling.jets import Heading, torso_motion
 from scout_pin.study.plan.sampling.reach import STRAIGHT, soft_angles, softened
 from scout_pin.study.plan.sampling.sharing import _binding
 from thesis_pin.errors import BadInput, SingularPose, TrajectoryError
@@ -62,14 +62,14 @@ def scene(biped, rng):
     return Sampler(biped, branches), jets, Footing.of(biped, feet, support)
 
 
-def differences(sampler, jets, footing):
+def differences(sampler, jets, footing, heading=None):
     """Central differences of all quantities, and the values."""
     slopes = {name: [] for name in NAMES}
     for k, step in enumerate(STEPS):
         ends = [jets.copy(), jets.copy()]
         ends[0][:, k] += step
         ends[1][:, k] -= step
-        more, less = (sampler(one, footing, slopes=False) for one in ends)
+        more, less = (sampler(one, footing, slopes=False, heading=heading) for one in ends)
         for name in NAMES:
             with np.errstate(invalid="ignore"):  # ∞ − ∞ where there is no edge
                 change = (getattr(more, name).value - getattr(less, name).value) / (2 * step)
@@ -77,9 +77,10 @@ def differences(sampler, jets, footing):
     return {name: np.stack(parts, axis=-1) for name, parts in slopes.items()}
 
 
-def agree(sampler, jets, footing, but=()):
+def agree(sampler, jets, footing, but=(), heading=None):
     """Slopes of all quantities, but of ``contact`` at some samples."""
-    found, expected = sampler(jets, footing), differences(sampler, jets, footing)
+    found = sampler(jets, footing, heading=heading)
+    expected = differences(sampler, jets, footing, heading)
     for name in NAMES:
         ours, other = getattr(found, name).slope, expected[name]
         if name == "contact":  # facets in any order
@@ -98,6 +99,35 @@ def test_slopes_are_those_of_finite_differences(scene):
     bound = _binding(sampler.robot, here, np.arange(16))[1].sum(axis=1)
     assert min(bound) == 0, "wrenches inside both cones"
     assert max(bound) > 0, "and on a border"
+
+
+def test_slopes_by_angles_that_count_from_a_turning_heading_are_those_of_differences(scene, rng):
+    sampler, jets, footing = scene
+    heading = Heading(rng.uniform(-0.05, 0.05, COUNT), 0.7)
+    agree(sampler, jets, footing, heading=heading)
+    straight = sampler(jets, footing, slopes=False).torque.value
+    turning = sampler(jets, footing, slopes=False, heading=heading).torque.value
+    assert np.abs(straight - turning).max() > 1e-3
+
+
+def test_a_torso_whose_heading_turns_moves_as_its_turned_angles(rng):
+    """Against SciPy's rotations, differenced twice."""
+    from scipy.spatial.transform import Rotation
+
+    angles = rng.uniform(-0.3, 0.3, (3, 3))  # of 1, t, t²
+    rate, h = 0.8, 1e-3
+
+    def turned(t):
+        own = Rotation.from_euler("XYZ", angles[0] + angles[1] * t + angles[2] * t**2)
+        return Rotation.from_euler("z", 0.4 + rate * t) * own
+
+    jets = np.zeros((1, 18))
+    jets[0, 3:6], jets[0, 9:12], jets[0, 15:18] = angles[0], angles[1], 2 * angles[2]
+    found = torso_motion(jets, Heading(np.array([0.4]), rate))
+    np.testing.assert_allclose(found.rotation[0], turned(0.0).as_matrix(), atol=1e-12)
+    spins = [(turned(t + h / 2) * turned(t - h / 2).inv()).as_rotvec() / h for t in (-h, 0.0, h)]
+    np.testing.assert_allclose(found.omega[0], spins[1], atol=1e-6)
+    np.testing.assert_allclose(found.alpha[0], (spins[2] - spins[0]) / (2 * h), atol=1e-5)
 
 
 def test_slopes_where_no_wrenches_are_admissible_are_those_of_finite_differences(scene):

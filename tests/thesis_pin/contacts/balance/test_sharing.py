@@ -6,7 +6,7 @@ import pinocchio as pin
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.optimize import minimize
+from scipy.optimize import brentq, minimize
 from standing_robots import random_pose, random_states, standing
 
 from thesis_pin.contacts import programme
@@ -205,12 +205,9 @@ def test_near_the_border_forces_stay_in_their_cones_whenever_the_floor_can_give_
         a[0, :2] = size * np.array([np.cos(seed), np.sin(seed)])
         return foot_dynamics(robot, feet, q, still, a)
 
-    low, high = 0.0, 8.0  # the push along the floor [m/s²] at which the margin is off, or −off
     wanted = off * rng.choice([-1, 1])
-    for _ in range(50):
-        middle = (low + high) / 2
-        low, high = (middle, high) if pushed(middle).margin[0] > wanted else (low, middle)
-    found = pushed(low)
+    # The push along the floor [m/s²] at which the margin is off, or −off.
+    found = pushed(brentq(lambda size: pushed(size).margin[0] - wanted, 0.0, 8.0, xtol=1e-15))
     assert found.margin[0] == pytest.approx(wanted, abs=1e-12)
     if found.admissible[0]:
         worst = np.nan_to_num(found.contact_margin[0], nan=1.0).min()

@@ -211,4 +211,4 @@ def test_what_is_no_address_is_refused(url):
 
 def test_an_address_that_cannot_be_connected_to_is_refused():
     with pytest.raises(BadInput, match="can't connect: File name too long"):
-        Window("ipc:///" + "x" * 300)
+        Window("ipc:///" + "x" * 150)

@@ -10,6 +10,7 @@ from scout_pin.study.plan.cycles.search import Search
 from scout_pin.study.plan.request import PlanRequest
 
 SPEED = Change("speed", lambda share: share * 0.3)
+ASKED = PlanRequest(speed=0.3)
 
 
 @dataclass
@@ -18,6 +19,7 @@ class Found:
 
     request: PlanRequest
     kept: bool
+    most: float = 0.1
 
     @property
     def known(self):
@@ -31,7 +33,7 @@ def of_speeds(monkeypatch, most, met_anew):
         return Found(request, request.speed <= min(1.35 * start, most))
 
     def fresh(search, request, found):
-        return Found(request, True) if request.speed < 0.1 else None
+        return Found(request, True) if request is not None and request.speed < 0.1 else None
 
     monkeypatch.setattr(module, "attempt", attempt)
     monkeypatch.setattr(module, "_fresh", fresh)
@@ -40,15 +42,39 @@ def of_speeds(monkeypatch, most, met_anew):
 
 def test_what_fails_from_afar_is_met_step_by_step(monkeypatch):
     of_speeds(monkeypatch, 0.18, 1.0)
-    met = nearest(None, PlanRequest(speed=0.3), None, SPEED)
+    met = nearest(None, ASKED, Found(ASKED, False), SPEED)
     assert 0.97 * 0.18 < met.speed <= 0.18
 
 
 def test_what_is_not_met_anew_is_not_offered_but_the_next_less_ambitious(monkeypatch):
     of_speeds(monkeypatch, 0.18, 0.175)
-    assert 0.14 < nearest(None, PlanRequest(speed=0.3), None, SPEED).speed <= 0.175
+    assert 0.14 < nearest(None, ASKED, Found(ASKED, False), SPEED).speed <= 0.175
     of_speeds(monkeypatch, 0.18, 0.0)
-    assert nearest(None, PlanRequest(speed=0.3), None, SPEED) is None
+    assert nearest(None, ASKED, Found(ASKED, False), SPEED) is None
+
+
+def test_a_request_is_offered_where_only_much_less_than_the_edge_is_met_anew(monkeypatch):
+    of_speeds(monkeypatch, 0.18, 0.12)
+    assert 0.1 < nearest(None, ASKED, Found(ASKED, False), SPEED).speed <= 0.12
+
+
+def test_a_request_in_another_unit_is_led_back_to_what_can_be_met(monkeypatch):
+    of_speeds(monkeypatch, 0.18, 1.0)
+    asked = PlanRequest(speed=10.0)
+    change = Change("speed", lambda share: share * 10.0)
+    assert 0.01 <= nearest(None, asked, Found(asked, False, 50.0), change).speed <= 0.18
+
+
+def test_hardly_anything_that_fails_is_the_last_of_its_kind_but_of_time(monkeypatch):
+    tried = []
+    monkeypatch.setattr(module, "_fresh", lambda search, request, found: tried.append(request))
+    assert nearest(None, ASKED, Found(ASKED, False), SPEED) is None
+    assert [one.speed for one in tried] == [0.03]
+    slower = Change("step_time", lambda share: 0.8 / share, unit=1.0, up=True)
+    asked, tried = PlanRequest(step_time=0.8), []
+    monkeypatch.setattr(module, "_fresh", lambda search, request, found: tried.append(request))
+    assert nearest(None, asked, Found(asked, False), slower) is None
+    assert [one.step_time for one in tried] == [1.6, 3.2, 8.0]
 
 
 @pytest.mark.parametrize(
@@ -61,6 +87,11 @@ def test_what_is_not_met_anew_is_not_offered_but_the_next_less_ambitious(monkeyp
         ({"speed": 0.2, "step_time": 0.3}, ["speed", "margin"]),
         ({"objective": "fastest"}, ["margin"]),
         ({"objective": "fastest", "step_length": 0.04}, ["step_length", "margin"]),
+        ({"side": -0.02}, ["step_time", "margin", "side"]),
+        (
+            {"turn": 0.2, "step_length": 0.03},
+            ["step_length", "step_time", "margin", "turn"],
+        ),
         ({"foot_spacing": 0.09}, ["step_length", "step_time", "margin", "foot_spacing"]),
     ],
 )
@@ -81,6 +112,7 @@ def test_one_thing_changes_and_all_else_stays_as_it_was_said(scout, asked, names
         (Change("margin", lambda share: share * 0.01, digits=3), 0.40699, 4.06e-3),
         (Change("step_time", lambda share: 0.8 / share, unit=1.0, up=True), 0.7, 1.143),
         (Change("step_time", lambda share: 0.8 / share, unit=1.0, up=True), 0.5, 1.6),
+        (Change("side", lambda share: share * -0.02, digits=3), 0.40699, -8.13e-3),
         (SPEED, 0.48437, 145.3e-3),
     ],
 )

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as some
-from scipy.interpolate import BSpline
 
 from scout_pin.study.plan.walks.clamped import Clamped
 
@@ -44,19 +43,6 @@ def test_jets_are_those_of_the_curves(first):
     for k, curve in enumerate(clamped.curves(free)):
         for order in range(3):
             np.testing.assert_allclose(jets[:, 6 * order + k], curve(t, order), atol=1e-9)
-
-
-@pytest.mark.parametrize("intervals", [1, 2, 5, 14])
-def test_splines_are_scipy_s(intervals):
-    clamped = Clamped(0.7, intervals, np.zeros((6, 3)), True)
-    inner = np.linspace(0.0, 0.7, intervals + 1)
-    knots = np.concatenate([[0.0] * 5, inner, [0.7] * 5])
-    splines = BSpline(knots, np.eye(intervals + 5), 5)
-    t = np.concatenate([np.linspace(0.0, 0.7, 101), inner])
-    for order in range(5):  # the fifth derivative jumps at knots
-        expected = splines(t, nu=order)
-        found = clamped.basis(t, order)
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
 
 
 def test_curves_are_smooth_to_the_fourth_derivative():

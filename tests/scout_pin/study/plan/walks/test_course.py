@@ -10,6 +10,11 @@ from scout_pin.study.plan.walks.walk import chained, steps_of
 from ..steps import DOUBLE, H, L, W, cycle, states
 
 
+def joined(later, earlier, side):
+    here, there = later.foot(side, later.start), earlier.foot(side, earlier.end)
+    return later.moved(earlier.end - later.start, there.after(here.inverse))
+
+
 def walk(foot, count, shift=0.5, settle=0.7):
     rng = np.random.default_rng(0)
     start = start_course(cycle(), foot, shift, 0.012)
@@ -19,12 +24,8 @@ def walk(foot, count, shift=0.5, settle=0.7):
         one.stretch(one.guess + 1e-3 * rng.normal(size=one.guess.shape)) for one in (start, stop)
     ]
     first = parts[0]
-    steps = steps.moved(
-        first.end - steps.start, first.foot(foot, first.end) - steps.foot(foot, steps.start)
-    )
-    end = parts[1].moved(
-        steps.end - parts[1].start, steps.foot(last, steps.end) - parts[1].foot(last, 0.0)
-    )
+    steps = joined(steps, first, foot)
+    end = joined(parts[1], steps, last)
     return chained("walk", "", [first, steps, end]), (steps.start, steps.end)
 
 

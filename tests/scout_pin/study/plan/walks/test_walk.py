@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from scout_pin.motion.contact import Phase, check_stance
+from scout_pin.motion.over_floor import OverFloor
 from scout_pin.study.plan.walks.walk import Stretch, chained, cut, steps_of
 
 from ..steps import H, L, cycle, states
@@ -16,20 +17,24 @@ def test_steps_begin_and_end_at_landings(first, count):
     assert found.end - found.start == pytest.approx(count * H)
     other = {"left": "right", "right": "left"}
     assert last == (first if count % 2 == 0 else other[first])
-    assert found.foot(last, found.end) - found.foot(first, found.start) == pytest.approx(count * L)
+    assert found.foot(last, found.end).y - found.foot(first, found.start).y == pytest.approx(
+        count * L
+    )
     assert [p.support for p in found.phases][:2] == ["double", first]
 
 
 def test_no_steps_are_an_instant():
     found, last = steps_of(cycle(), "left", 0)
     assert (found.end - found.start, last) == (0.0, "left")
-    assert found.foot("left", found.start) - found.foot("right", found.start) == pytest.approx(L)
+    assert found.foot("left", found.start).y - found.foot("right", found.start).y == pytest.approx(
+        L
+    )
 
 
 def test_stretches_that_follow_each_other_go_on_exactly():
     whole = cycle()
     parts = [cut(whole, 0.0, 0.3), cut(whole, 0.3, H), cut(whole, H, 2 * H)]
-    gait = chained("walk", "", [one.moved(3.0, 0.5) for one in parts])
+    gait = chained("walk", "", [one.moved(3.0, OverFloor(y=0.5)) for one in parts])
     assert (gait.start, gait.end) == (3.0, 3.0 + 2 * H)
     assert [p.support for p in gait.phases] == ["double", "right", "double", "left"]
     for t in np.linspace(0.0, 2 * H - 1e-6, 31):

@@ -1,0 +1,1 @@
+"""Any robot moved one coordinate after another, its loops closed all the way."""
