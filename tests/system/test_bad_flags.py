@@ -109,6 +109,8 @@ NUMBERS = {
     "--floor-height": {"0", "-1", "2.5"},
     "--slope": {"0", "2.5"},
     "--step-length": {"2.5"},
+    "--side": {"0", "-1", "2.5"},
+    "--turn": {"0", "-1", "2.5"},
     "--step-time": {"2.5"},
     "--walking-speed": {"2.5"},
     "--foot-spacing": set(),
