@@ -4,25 +4,12 @@ from __future__ import annotations
 
 import io
 import json
-import shutil
-import subprocess
 import time
 from pathlib import Path
 
 import numpy as np
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-
-
-def find() -> str | None:
-    """Path of a Chromium on this machine that runs, None without one."""
-    for name in NAMES:
-        path = shutil.which(name)
-        # Some distributions install a stub that only says where to get the browser.
-        if path and subprocess.run([path, "--version"], capture_output=True).returncode == 0:
-            return path
-    return None
-
+from thesis_pin.pages.film.chromium import find as find
 
 _FLAGS = (
     "--no-sandbox",
