@@ -23,7 +23,7 @@ EXAMPLES = ROOT / "examples"
 PLANS = {
     "quasi_static": "--step-time 2 --foot-spacing 60.4 --margin 5 --torque-reserve 19 --pitch 8 "
     "--roll 12 --yaw 8 --steps 4",
-    "cruise": "--foot-spacing 72 --lift 20 --margin 15",
+    "cruise": "--step-length 36 --step-time 0.4 --foot-spacing 72 --lift 20 --margin 15",
     "fast": "--walking-speed 160 --margin 5",
     "lopsided_plan": "--specification=examples/lopsided.toml --steps 4",
 }

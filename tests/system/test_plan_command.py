@@ -55,7 +55,8 @@ def test_what_is_written_is_judged_well_by_the_other_commands(tmp_path, capfd):
 def test_every_option_reaches_the_request(plan, monkeypatch, capfd):
     asked = instead(monkeypatch, plan)
     words = (
-        "--step-length 25 --step-time 0.7 --foot-spacing 70 --lift 12 --margin 4 "
+        "--step-length 25 --side -20 --turn -10 --step-time 0.7 --foot-spacing 70 --lift 12 "
+        "--margin 4 "
         "--torque-reserve 15 --speed-reserve 5 --line-reserve 20 --pitch 9 --roll 10 --yaw 11 "
         "--knee 12 --height 190 230 --friction 0.4 --no-servo-line --objective least-torque "
         "--branch=backward --steps 7 --samples 900"
@@ -67,6 +68,8 @@ def test_every_option_reaches_the_request(plan, monkeypatch, capfd):
     found = request.document()
     want = {
         "step_length": 0.025,
+        "side": -0.02,
+        "turn": np.radians(-10),
         "step_time": 0.7,
         "speed": None,
         "foot_spacing": 0.07,
@@ -95,7 +98,8 @@ def test_every_option_reaches_the_request(plan, monkeypatch, capfd):
 
 def test_the_command_in_the_head_asks_for_the_same(plan, monkeypatch, tmp_path, capfd):
     asked = instead(monkeypatch, plan)
-    words = "--margin 4.1234567 --height 190 230.0000003 --fastest --branch=+++ --steps 7"
+    words = "--side -20.5 --turn 10 --margin 4.1234567 --height 190 230.0000003"
+    words += " --fastest --branch=+++ --steps 7"
     for number in (1, 2):
         out = tmp_path / str(number)
         code, _, err = run(PLAN, ["plan", *shlex.split(words), "--out", str(out)], capfd)

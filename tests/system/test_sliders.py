@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
-from chromium import differing, share_drawn
+from chromium import BACKGROUND, differing
+from mechanisms import four_bar
 
+import thesis_pin
 from thesis_pin.command.main import main
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.checking.poses import named_pose
@@ -38,6 +40,11 @@ def live(robot):
         yield page, server.address
 
 
+def share_drawn(picture):
+    """Share of the stage, between legend and sliders, that is not background or floor."""
+    return float((np.abs(picture[40:640, 340:920] - BACKGROUND).max(axis=-1) > 110).mean())
+
+
 def opened(browser, address, width=1280, height=720):
     browser.open(address, width, height)
     browser.until("window.live && player.framesDrawn > 0")
@@ -53,7 +60,12 @@ def test_a_key_on_a_slider_moves_the_body_as_pinocchio_says_and_keeps_the_loops_
     page, address = live
     opened(browser, address)
     before = browser.still(artefacts / "sliders_1280.png")
-    assert share_drawn(before) > 0.005
+    browser.run("player.toggle('robot')")
+    assert differing(before, browser.still()) > 2000
+    browser.run("player.toggle('robot')")
+    browser.run("document.querySelector('#panel input[type=number]').focus()")
+    browser.press("3")  # is typed there, and no key of the legend
+    assert browser.run("player.groups.get('frames').object.visible") is False
     browser.run("document.getElementById('slider-0').focus()")
     for count in range(1, 4):
         browser.press("ArrowRight")
@@ -79,6 +91,17 @@ def test_a_key_on_a_slider_moves_the_body_as_pinocchio_says_and_keeps_the_loops_
     box = robot.visual_model.geometryObjects[number].geometry.aabb_local
     np.testing.assert_allclose(own.min(axis=0), box.min_, atol=2e-4)
     np.testing.assert_allclose(own.max(axis=0), box.max_, atol=2e-4)
+    # A frame's bars end on its axes.
+    triad = next(one for one in page.layers.hung if one.item.group == "frames" and one.joint == 3)
+    tips = browser.run(
+        f"player.items[{page.layers.hung.index(triad)}].object.children[0].children.slice(0, 3)"
+        ".map((bar) => bar.localToWorld(new MeshCat.THREE.Vector3("
+        f"0, {triad.item.length}, 0)).toArray())"
+    )
+    frame = data.oMi[3].homogeneous @ triad.item.local
+    for k, tip in enumerate(tips):
+        wanted = frame[:3, 3] + triad.item.length * frame[:3, k]
+        np.testing.assert_allclose(tip, wanted, atol=1e-5)
     # What the text fields hold is the pose, and reads back.
     (tmp_path / "pose.toml").write_text(browser.run("document.querySelector('textarea').value"))
     np.testing.assert_allclose(named_pose(robot, str(tmp_path / "pose.toml")), q, atol=1e-12)
@@ -107,6 +130,16 @@ def test_layers_are_switched_on_and_what_cannot_be_reached_is_said(browser, live
     reached = browser.run(f"live.stand.values[{number}]")
     if reached < page.rig.sliders[number].high - 1e-9:
         assert "stays at" in words
+    assert browser.complaints() == []
+
+
+@pytest.mark.parametrize("size", [0.01, 100.0])
+def test_bars_of_any_size_fill_the_picture(browser, tmp_path, size):
+    tree, _ = four_bar(size=size)
+    page = thesis_pin.slider_page(tree.robot())
+    (tmp_path / "bars.html").write_bytes(page.html())
+    opened(browser, (tmp_path / "bars.html").as_uri())
+    assert share_drawn(browser.still()) > 0.005
     assert browser.complaints() == []
 
 

@@ -19,6 +19,9 @@ from thesis_pin.numeric.arrays import thinned as thinned
 
 GREY = "#9AA0A6"
 
+AXES = ("#D55E00", "#009E73", "#0072B2")
+"""Colours of a frame's axes x, y, z; colour-blind readers can tell them apart."""
+
 Shapes = Mapping[str, tuple[int, ...]]
 
 

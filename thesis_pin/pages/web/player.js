@@ -194,6 +194,7 @@ function makePlayer(root, scene, options = {}) {
   };
   (options.keys || root).addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
+    if (event.target.matches("textarea, input[type=number]")) return;  // letters are typed there
     const native = event.target.closest("button, input, select, summary, a");
     const box = [...boxes.values()][Number(event.key) - 1]
       || letters.get(event.key.toLowerCase());
@@ -228,7 +229,11 @@ function makePlayer(root, scene, options = {}) {
       if (item.kind === "shape" && groups.get(item.group).visible) box.expandByObject(item.object);
     }
   }
-  if (box.isEmpty()) box.setFromObject(stage.world);
+  if (box.isEmpty()) {
+    for (const item of items) {
+      if (item.object.visible && groups.get(item.group).visible) box.expandByObject(item.object);
+    }
+  }
   stage.frame(box);
   new IntersectionObserver((entries) => {
     inSight = entries[entries.length - 1].isIntersecting;

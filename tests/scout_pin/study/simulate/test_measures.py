@@ -207,3 +207,58 @@ def test_a_foot_that_lands_early_slips_from_where_it_took_load(case):
     found = measures(robot, plan, walked)
     assert (found.worst_slip.side, found.worst_slip.start) == ("right", 1.5)
     assert found.worst_slip.distance == pytest.approx(1.5e-3)
+
+
+def going_round(case, radius, turn=np.pi / 2, steps=6):
+    """The same time filled with steps round a place to the robot's left, ``radius`` away."""
+    scout, plan, walked = case
+    each = turn / steps
+    landings = np.linspace(0.5, 1.5, steps)
+    gone = np.array([(plan.time[:, None] >= landings)[:, k::2].sum(axis=1) for k in (0, 1)])
+    # The right foot lands first, one step round; each landing is two steps after its last one.
+    fallen = np.stack([2 * gone[1], np.maximum(2 * gone[0] - 1, 0)])
+    fallen[0, plan.time >= 1.6] = fallen[1, plan.time >= 1.6] = steps
+    middle = -radius
+    lanes = np.array([-0.04, 0.04])[:, None] - middle
+    feet = np.zeros(plan.feet.shape)
+    feet[..., 0] = middle + lanes * np.cos(each * fallen)
+    feet[..., 1] = lanes * np.sin(each * fallen)
+    q = plan.q.copy()
+    q[:, 1] = 0.0
+    half = each * fallen.mean(axis=0) / 2
+    q[:, 5], q[:, 6] = np.sin(half), np.cos(half)
+    stances = tuple(
+        ((0.0, 0.4), *((float(t), float(t)) for t in landings[1 - k :: 2])) for k in (0, 1)
+    )
+    soles = walked.soles.copy()
+    soles[..., :3, 3] = feet
+    plan = replace(plan, feet=feet, q=q, stances=stances)
+    return scout, plan, replace(walked, q=q.copy(), soles=soles)
+
+
+def test_a_plan_that_turns_is_held_against_its_way_round(case):
+    scout, plan, walked = going_round(case, 0.3)
+    found = measures(scout, plan, walked)
+    assert found.planned_turn == pytest.approx(np.pi / 2)
+    assert found.planned_distance == pytest.approx(0.3 * np.pi / 2, rel=0.02)
+    assert found.distance == pytest.approx(found.planned_distance)
+    assert found.heading == pytest.approx(0.0, abs=1e-12)
+    # It ends heading to its left, along -x: ten millimetres farther, five to its right.
+    walked.soles[:, -1, :2, 3] += [-0.010, 0.005]
+    farther = measures(scout, plan, walked)
+    assert farther.distance - farther.planned_distance == pytest.approx(0.010, abs=2e-3)
+    assert farther.sideways == pytest.approx(0.005, abs=3e-3)
+    words = next(one.words for one in criteria(farther) if one.name == "distance")
+    assert "far, round to the left" in words
+
+
+@pytest.mark.parametrize(("strays", "met"), [(0.0019, True), (0.0021, False)])
+def test_what_turns_in_its_place_may_stray_by_two_millimetres(case, strays, met):
+    scout, plan, walked = going_round(case, 0.0)
+    walked.soles[:, -1, 1, 3] += strays
+    found = measures(scout, plan, walked)
+    assert found.stays
+    assert found.distance == pytest.approx(strays)
+    first = next(one for one in criteria(found) if one.name == "distance")
+    assert first.met == met
+    assert ("turns in its place" in first.words) == met
