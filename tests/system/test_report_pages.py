@@ -52,8 +52,9 @@ def test_a_page_without_animation_or_plots_needs_neither_library(browser, folder
 
 
 def test_a_table_in_a_phone_breaks_lines_but_no_numbers(browser, folder):
-    row = ("forearm", "inertia (0.000199423, -5.176e-06, 0, 0.000199423), <b>masses</b> 0.25, 12")
-    table = page.Table("Assumptions", ("what", "value"), [row], prose=True)
+    row = ("forearm", "inertia (0.000199423, -5.176e-06, 0, 0.000199423), <b>masses</b> 0.25")
+    rest = (30 * "why ", 30 * "and ")
+    table = page.Table("Assumptions", tuple("abcd"), [(*row, *rest)], prose=True)
     numbers = page.Table("Numbers", tuple("abcdefgh"), [("0.123456789",) * 8])
     bare = page.Page("Page", "", None, ["?"], [page.Tile("n", "1")], [], [table, numbers])
     file = folder / "phone.html"
