@@ -20,6 +20,7 @@ def main() -> None:
 
     import pollard_pin
     import scout_pin
+    from pollard_pin.report.drawn.sliders import slider_page
     from pollard_pin.report.drawn.view import path_scene
     from scout_pin.report.drawn.view import gait_scene
     from thesis_pin.pages import player as viewer
@@ -44,6 +45,13 @@ def main() -> None:
             browser.run(f"player.pause(); player.time = {moment}")
             browser.run("new Promise((done) => setTimeout(done, 500))")
             browser.picture(ROOT / "docs" / "images" / f"{name}.png")
+        page = Path(folder, "sliders.html")
+        page.write_bytes(slider_page(robot).html(served=True))
+        browser.open(page.as_uri(), 1120, 640)
+        browser.until("window.live && player.framesDrawn > 0")
+        for layer in ("masses", "inertias"):
+            browser.run(f"player.toggle('{layer}')")
+        browser.still(ROOT / "docs" / "images" / "sliders.png")
 
 
 def thesis_figures() -> None:

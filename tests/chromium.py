@@ -4,30 +4,19 @@ from __future__ import annotations
 
 import io
 import json
-import shutil
 import subprocess
 import time
 from pathlib import Path
 
 import numpy as np
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+from thesis_pin.pages.film.chromium import find as find
 
 
 def version() -> str:
     """What the Chromium on this machine calls itself."""
     asked = subprocess.run([find() or "", "--version"], capture_output=True, text=True)
     return " ".join(asked.stdout.split()[:2]).rpartition(".")[0] if asked.stdout else "Chromium"
-
-
-def find() -> str | None:
-    """Path of a Chromium on this machine that runs, None without one."""
-    for name in NAMES:
-        path = shutil.which(name)
-        # Some distributions install a stub that only says where to get the browser.
-        if path and subprocess.run([path, "--version"], capture_output=True).returncode == 0:
-            return path
-    return None
 
 
 _FLAGS = (

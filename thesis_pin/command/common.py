@@ -9,6 +9,7 @@ from functools import partial
 from thesis_pin.command import options, simulating, verbs
 from thesis_pin.command.figured import add_figure
 from thesis_pin.command.registry import Robot, Verb, Words
+from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.showing.words import add_sliders
 
@@ -55,7 +56,7 @@ def report_verb(
 
 def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
     """The verb that shows a motion, or the robot moved by sliders."""
-    add = (robot.motion, add_sliders, options.add_view, add_meshcat)
+    add = (robot.motion, add_sliders, options.add_view, add_meshcat, add_film)
     return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
 
 
