@@ -48,6 +48,10 @@ from .sizing.motors import size_motors as size_motors
 from .pages.player import write_html as write_html
 from .pages.scene import Scene as Scene
 from .pages.serving import show as show
+from .pages.live.making import (
+    show_sliders as show_sliders,
+    slider_page as slider_page,
+)
 from .pages.meshcat.robot import viewer as viewer
 
 # Errors

@@ -16,14 +16,13 @@ import numpy as np
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
-from scout_pin.motion.over_floor import OverFloor, turned_jets
+from scout_pin.motion.over_floor import OverFloor, turn_between, turned_state
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance, whole
 from thesis_pin.numeric.interpolation import join
 from thesis_pin.numeric.piecewise import Piecewise
-from thesis_pin.numeric.rotations import euler_placement, rotation
 from thesis_pin.tolerances import TOLERANCES
 
 if TYPE_CHECKING:  # exact gaits need no smoothing
@@ -129,8 +128,10 @@ def closure(gait: Gait, time_unit: float | None = None) -> Closure:
     # The last piece, not one that a curve may have beyond the gait's end.
     late = np.nextafter(gait.end, -np.inf)
     start, end = state(gait, gait.start, unit), state(gait, late, unit)
-    turn = 0.0 if gait.variants is not None else _turn(start, end)
-    gaps = end - (_turned(start, turn) if turn else start)
+    turn = 0.0 if gait.variants is not None else turn_between(start, end)
+    if abs(turn) <= allowed("yaw", "position"):
+        turn = 0.0
+    gaps = end - (turned_state(start, turn) if turn else start)
     step = np.sort(gaps[:, :2, 0], axis=0)[1]  # the median of three
     gaps[:, :2, 0] -= step
     way = (end - start)[1:, :2, 0].mean(axis=0) if turn else step
@@ -150,27 +151,6 @@ def closure(gait: Gait, time_unit: float | None = None) -> Closure:
         ),
         OverFloor(float(step[0]), float(step[1]), turn),
     )
-
-
-def _turn(start: np.ndarray, end: np.ndarray) -> float:
-    """The turn that two of torso and feet agree on; zero if it is within tolerance [rad]."""
-    found = []
-    for before, after in zip(start[:, 3:], end[:, 3:], strict=True):
-        one, other = (euler_placement("xyz", *angles.T)[0] for angles in (before, after))
-        m = other @ one.T
-        turn = float(np.arctan2(m[1, 0] - m[0, 1], m[0, 0] + m[1, 1]))
-        whole_turns = round((float(after[2, 0] - before[2, 0]) - turn) / (2 * np.pi))
-        found.append(turn + 2 * np.pi * whole_turns)
-    turn = float(np.median(found))
-    return turn if abs(turn) > allowed("yaw", "position") else 0.0
-
-
-def _turned(start: np.ndarray, turn: float) -> np.ndarray:
-    """A state turned about the world's origin, ``(bodies, 6, 3)``."""
-    found, turns = start.copy(), np.full(len(start), turn)
-    found[:, :3] = rotation("z", turn) @ start[:, :3]
-    found[:, 3:] = turned_jets(start[:, 3:].transpose(2, 0, 1), turns).transpose(1, 2, 0)
-    return found
 
 
 def _left_open(gait: Gait, late: float, unit: float) -> np.ndarray:

@@ -157,6 +157,26 @@ def turned_jets(jets: np.ndarray, turn: np.ndarray, rate: float = 0.0) -> np.nda
     return np.stack([angles, rates, np.einsum("nij,nj->ni", inverse, alpha - bias)])
 
 
+def turn_between(start: np.ndarray, end: np.ndarray) -> float:
+    """The turn of the middle one of three bodies between two states ``(3, 6, 3)`` [rad]."""
+    found = []
+    for before, after in zip(start[:, 3:], end[:, 3:], strict=True):
+        one, other = (euler_placement("xyz", *angles.T)[0] for angles in (before, after))
+        m = other @ one.T
+        turn = float(np.arctan2(m[1, 0] - m[0, 1], m[0, 0] + m[1, 1]))
+        whole_turns = round((float(after[2, 0] - before[2, 0]) - turn) / (2 * np.pi))
+        found.append(turn + 2 * np.pi * whole_turns)
+    return float(np.median(found))
+
+
+def turned_state(start: np.ndarray, turn: float) -> np.ndarray:
+    """A state turned about the world's origin, ``(bodies, 6, 3)``."""
+    found, turns = start.copy(), np.full(len(start), turn)
+    found[:, :3] = rotation("z", turn) @ start[:, :3]
+    found[:, 3:] = turned_jets(start[:, 3:].transpose(2, 0, 1), turns).transpose(1, 2, 0)
+    return found
+
+
 def common(*curves: Piecewise) -> np.ndarray:
     """Knots of all curves, each once."""
     return np.unique(np.concatenate([curve.x for curve in curves]))

@@ -6,8 +6,12 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
-from chromium import differing, share_drawn
+from chromium import BACKGROUND, differing
+from mechanisms import four_bar
 
+import pollard_pin
+import thesis_pin
+from pollard_pin.report.drawn.sliders import slider_page as tool_page
 from thesis_pin.command.main import main
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.checking.poses import named_pose
@@ -38,6 +42,11 @@ def live(robot):
         yield page, server.address
 
 
+def share_drawn(picture):
+    """Share of the stage, between legend and sliders, that is not background or floor."""
+    return float((np.abs(picture[40:640, 340:920] - BACKGROUND).max(axis=-1) > 110).mean())
+
+
 def opened(browser, address, width=1280, height=720):
     browser.open(address, width, height)
     browser.until("window.live && player.framesDrawn > 0")
@@ -53,7 +62,12 @@ def test_a_key_on_a_slider_moves_the_body_as_pinocchio_says_and_keeps_the_loops_
     page, address = live
     opened(browser, address)
     before = browser.still(artefacts / "sliders_1280.png")
-    assert share_drawn(before) > 0.005
+    browser.run("player.toggle('robot')")
+    assert differing(before, browser.still()) > 2000
+    browser.run("player.toggle('robot')")
+    browser.run("document.querySelector('#panel input[type=number]').focus()")
+    browser.press("3")  # is typed there, and no key of the legend
+    assert browser.run("player.groups.get('frames').object.visible") is False
     browser.run("document.getElementById('slider-0').focus()")
     for count in range(1, 4):
         browser.press("ArrowRight")
@@ -79,6 +93,17 @@ def test_a_key_on_a_slider_moves_the_body_as_pinocchio_says_and_keeps_the_loops_
     box = robot.visual_model.geometryObjects[number].geometry.aabb_local
     np.testing.assert_allclose(own.min(axis=0), box.min_, atol=2e-4)
     np.testing.assert_allclose(own.max(axis=0), box.max_, atol=2e-4)
+    # A frame's bars end on its axes.
+    triad = next(one for one in page.layers.hung if one.item.group == "frames" and one.joint == 3)
+    tips = browser.run(
+        f"player.items[{page.layers.hung.index(triad)}].object.children[0].children.slice(0, 3)"
+        ".map((bar) => bar.localToWorld(new MeshCat.THREE.Vector3("
+        f"0, {triad.item.length}, 0)).toArray())"
+    )
+    frame = data.oMi[3].homogeneous @ triad.item.local
+    for k, tip in enumerate(tips):
+        wanted = frame[:3, 3] + triad.item.length * frame[:3, k]
+        np.testing.assert_allclose(tip, wanted, atol=1e-5)
     # What the text fields hold is the pose, and reads back.
     (tmp_path / "pose.toml").write_text(browser.run("document.querySelector('textarea').value"))
     np.testing.assert_allclose(named_pose(robot, str(tmp_path / "pose.toml")), q, atol=1e-12)
@@ -107,6 +132,16 @@ def test_layers_are_switched_on_and_what_cannot_be_reached_is_said(browser, live
     reached = browser.run(f"live.stand.values[{number}]")
     if reached < page.rig.sliders[number].high - 1e-9:
         assert "stays at" in words
+    assert browser.complaints() == []
+
+
+@pytest.mark.parametrize("size", [0.01, 100.0])
+def test_bars_of_any_size_fill_the_picture(browser, tmp_path, size):
+    tree, _ = four_bar(size=size)
+    page = thesis_pin.slider_page(tree.robot())
+    (tmp_path / "bars.html").write_bytes(page.html())
+    opened(browser, (tmp_path / "bars.html").as_uri())
+    assert share_drawn(browser.still()) > 0.005
     assert browser.complaints() == []
 
 
@@ -141,3 +176,29 @@ def test_flags_of_a_motion_are_refused_without_one_and_nothing_is_written(words,
     assert main(["view", *FILES, "--html", str(file), *words]) == 2
     assert capfd.readouterr().err.count("error: ") == 1
     assert not file.exists()
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 720), (390, 844)])
+def test_pollards_tool_changes_its_branch_and_says_what_it_cannot_reach(
+    browser, artefacts, width, height
+):
+    page = tool_page(pollard_pin.load())
+    with PageServer(page.html(served=True), 0, print, {PATH: page.answer}) as server:
+        opened(browser, server.address, width, height)
+        before = browser.still(artefacts / f"tool_sliders_{width}.png")
+        browser.page.select_option("#choice", label="+++-+++")
+        settled(browser, 1)
+        assert browser.run("live.stand.choice") == page.rig.choices.index("+++-+++")
+        assert differing(before, browser.still()) > 300
+        q = np.array(browser.run("live.stand.state"))
+        browser.page.fill("#panel input[type=number]", "899")
+        browser.press("Tab")
+        settled(browser, 2)
+        words = browser.run("document.querySelector('#panel .status').textContent")
+        assert words.startswith("x of the spray tip stays where it is: unreachable: ")
+        np.testing.assert_array_equal(browser.run("live.stand.state"), q)
+        assert browser.run("document.querySelector('#panel input[type=number]').value") == "450"
+    # The command has ended: the page says so and keeps its pose.
+    browser.run("live.ask({slider: 1, value: 0.01})")
+    settled(browser, 3)
+    assert "has ended" in browser.run("document.querySelector('#panel .status').textContent")

@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
-import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
+from thesis_pin.display.line import PLAIN, brief
 
 if TYPE_CHECKING:  # consoles don't need it
     from thesis_pin.display.cell import Cell
 
 ROOM = 200
 """Letters that an object's line may have."""
-PART = 60
-"""Letters that one of its values may have."""
-
-_PLAIN = (str, int, float, complex, bool, type(None), np.number, np.bool_)
 
 
 class Brief:
@@ -70,56 +63,6 @@ class Brief:
         return values_cell(self, self._shown())
 
 
-def brief(value: object, room: int = PART) -> str:
-    """A value in a few letters: arrays by their shapes, objects by class and name.
-
-    Args:
-        value: Anything.
-        room: Letters it may have; a class's and a shape's are never cut.
-    """
-    if isinstance(value, np.ndarray) and value.ndim:
-        return f"array {'×'.join(map(str, value.shape))}"
-    if isinstance(value, np.ndarray | np.generic):
-        value = value.item()
-    if isinstance(value, float):
-        return min(repr(value), f"{value:.6g}", key=len)
-    if isinstance(value, str | Path):
-        text = str(value)
-        return repr(text if len(text) <= room else f"{text[: room - 2]} …")
-    if isinstance(value, _PLAIN):
-        return repr(value)
-    if isinstance(value, tuple | list | dict | set | frozenset):
-        if _is_plain(value) and len(text := repr(value)) <= room:
-            return text
-        return f"{type(value).__name__} of {len(value)}"
-    if isinstance(value, functools.partial):
-        return brief(value.func, room)
-    if callable(value) and not isinstance(value, type):
-        return f"function {getattr(value, '__qualname__', type(value).__name__)}"
-    if isinstance(value, type):
-        return value.__name__
-    return named(value, room)
-
-
-def named(value: object, room: int = PART) -> str:
-    """An object's class, and its name if it has one."""
-    kind = type(value).__name__
-    if isinstance(value, Brief):
-        first, name = next(value._shown(), ("", ""))
-        return f"{kind} {brief(name, room)}" if first == "name" and name else kind
-    text = repr(value)
-    short = len(text) <= room and not re.search(r" at 0x|\n", text)
-    return text if short and text.startswith(f"{kind}(") else kind
-
-
-def _is_plain(value: object) -> bool:
-    if isinstance(value, dict):
-        return all(isinstance(one, _PLAIN) for one in (*value, *value.values()))
-    return isinstance(value, tuple | list | set | frozenset) and all(
-        isinstance(one, _PLAIN) for one in value
-    )
-
-
 def _length(one: object, parts: list[str]) -> int:
     return len(type(one).__name__) + 2 + sum(len(part) + 2 for part in parts)
 
@@ -133,4 +76,4 @@ def _fields(one: object) -> tuple[dataclasses.Field[object], ...]:
 
 
 def _alike(value: object, usual: object) -> bool:
-    return isinstance(value, (*_PLAIN, tuple)) and type(value) is type(usual) and value == usual
+    return isinstance(value, (*PLAIN, tuple)) and type(value) is type(usual) and value == usual

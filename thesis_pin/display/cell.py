@@ -13,7 +13,7 @@ from html import escape
 
 import numpy as np
 
-from thesis_pin.display.brief import brief
+from thesis_pin.display.line import brief
 
 ROWS = 20
 """Rows that a table shows."""

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thesis_pin.display.brief import ROOM, Brief, brief
+from thesis_pin.display.brief import ROOM, Brief
+from thesis_pin.display.line import brief
 
 
 @dataclass(frozen=True)

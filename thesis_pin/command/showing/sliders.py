@@ -11,9 +11,10 @@ from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.showing.film import check_film, shoot, shown_first
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
-from thesis_pin.errors import BadInput, ThesisPinError
+from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.loops.closures import ClosedRobot
@@ -33,8 +34,17 @@ def show_sliders(
     Raises:
         BadInput: Flags contradict each other, or belong to a motion.
     """
-    refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
-    for flag, given in (("speed", arguments.speed != 1.0), ("meshcat", arguments.meshcat)):
+    for written in ("html", "picture"):
+        refuse_beside(arguments, written, ("port", "hold", "no-browser"))
+    check_film(arguments)
+    chosen = arguments.look != "3d" or arguments.show or arguments.hide
+    if chosen and not arguments.picture:
+        raise BadInput("--look, --show and --hide belong to a motion or to --picture")
+    for flag, given in (
+        ("speed", arguments.speed != 1.0),
+        ("meshcat", arguments.meshcat),
+        ("film", arguments.film is not None),
+    ):
         if given:
             raise BadInput(f"--{flag} belongs to a motion", remedy="Leave it out, or name a motion")
     with Bar("drawing the robot"):
@@ -42,7 +52,8 @@ def show_sliders(
 
         with warned():
             page = make()
-        content = page.html(served=not arguments.html)
+        content = page.html() if arguments.html else b""
+        scene = shown_first(page.scene(), arguments) if arguments.picture else None
     for note in page.notes:
         say(f"note: {note}")
     shown = {
@@ -53,30 +64,32 @@ def show_sliders(
         "samples": 1,
         "sliders": [slider.name for slider in page.rig.sliders],
         "page": arguments.html,
+        "film": None,
+        "picture": arguments.picture,
         "meshcat": None,
     }
-    if arguments.html:
-        put(arguments.html, content)
+    if arguments.html or scene is not None:
+        if arguments.html:
+            put(arguments.html, content)
+        if scene is not None:
+            shoot(scene, arguments)
         if arguments.json:
             put(arguments.json, json_bytes(shown | {"address": None}))
         return ExitCode.DONE
 
-    from thesis_pin.pages.live.page import PATH
-    from thesis_pin.pages.serving import show_page
+    from thesis_pin.pages.live import making
 
     def ready(address: str) -> None:
         if arguments.json:
             put(arguments.json, json_bytes(shown | {"address": address}))
 
-    show_page(
-        content,
-        page.title,
+    making.show_sliders(
+        page,
         port=arguments.port,
         browser=not arguments.no_browser,
         hold=arguments.hold,
         say=say,
         ready=ready,
-        answers={PATH: page.answer},
     )
     return ExitCode.DONE
 
@@ -87,11 +100,7 @@ def any_robot(arguments: argparse.Namespace, robot: ClosedRobot) -> LivePage:
     Raises:
         BadInput: Flags are given that belong to a motion.
     """
-    from thesis_pin.loops.checking.assembly import assembly
-    from thesis_pin.loops.checking.poses import named_pose, neutral
-    from thesis_pin.pages.live.joints import JointRig, why_open
-    from thesis_pin.pages.live.layers import layers
-    from thesis_pin.pages.live.page import LivePage
+    from thesis_pin.pages.live.making import slider_page
 
     for flag, given in (
         ("frame", arguments.frame is not None),
@@ -103,18 +112,14 @@ def any_robot(arguments: argparse.Namespace, robot: ClosedRobot) -> LivePage:
             raise BadInput(
                 f"--{flag} belongs to a motion", remedy="Name its table, or leave it out"
             )
-    pose, why = arguments.pose, ""
-    q = neutral(robot) if pose is None else named_pose(robot, pose)
-    if robot.equations:
-        try:
-            found = assembly(robot, pose, precision=arguments.precision)
-            q, why = found.q, why_open(found)
-        except ThesisPinError as error:
-            why = f"the loops aren't kept closed: {error}"
-    drawn = layers(robot, q)
     words = [arguments.file, *([arguments.closures] if arguments.closures else [])]
-    rig = JointRig(robot, q, drawn.size, open_because=why, precision=arguments.precision)
-    notes = [*robot.description.warnings, *([why] if why else [])]
-    return LivePage(
-        rig, drawn, robot.model.name, f"thesis-pin view {shlex.join(words)}", notes=notes
+    for flag in ("pose", "precision"):
+        if (value := getattr(arguments, flag)) is not None:
+            words += [f"--{flag}", str(value)]
+    words += ["--free-flyer"] * bool(arguments.free_flyer)
+    return slider_page(
+        robot,
+        arguments.pose,
+        precision=arguments.precision,
+        command=f"thesis-pin view {shlex.join(words)}",
     )

@@ -16,7 +16,7 @@ from thesis_pin.pages.drawing import CLOSED, OPEN, robot_items
 from thesis_pin.pages.live.hung import WHOLE, Hung, Places
 from thesis_pin.pages.live.inertia import ellipsoids
 from thesis_pin.pages.live.meshes import seen
-from thesis_pin.pages.scene import Arrow, Ball, Group, Item, Shape, Triad
+from thesis_pin.pages.scene import AXES, Arrow, Ball, Group, Item, Shape, Triad
 from thesis_pin.report.curves import GREEN, ORANGE, PURPLE, SKY, VERMILLION
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ MOST_FRAMES = 250
 """Frames that are drawn; more can't be read."""
 
 GROUPS = (
-    Group("frames", "frames", (("#D55E00", "x"), ("#009E73", "y"), ("#0072B2", "z")), False),
+    Group("frames", "frames", tuple(zip(AXES, "xyz", strict=True)), False),
     Group("masses", "centres of mass: bodies, whole robot", ((PURPLE, ""), (BLACK, "")), False),
     Group("inertias", "inertia ellipsoids (solid, of equal inertia)", ((GREEN, ""),), False),
     Group("limits", "joints", ((ORANGE, "at a limit"), (VERMILLION, "beyond it"))),
@@ -198,7 +198,7 @@ def _frames(model: pin.Model, size: float, notes: list[str]) -> Iterator[Hung]:
         notes.append(f"{MOST_FRAMES} of {len(found)} frames are drawn")
     for (joint, _), (place, names) in list(found.items())[:MOST_FRAMES]:
         local = place.homogeneous
-        label = " = ".join(dict.fromkeys(names[:3])) + (" …" if len(names) > 3 else "")
+        label = " = ".join(dict.fromkeys(names[:2])) + (" …" if len(names) > 2 else "")
         item = Triad(f"frame {names[0]} of {joint}", "frames", _REST, local, 0.06 * size, label)
         yield Hung(item, joint)
 

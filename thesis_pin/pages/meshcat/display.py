@@ -66,13 +66,13 @@ class SceneViewer:
     def __init__(self, scene: Scene, drawn: Visualizer, speed: float = 1.0) -> None:
         self.visualizer, self.url = drawn, str(drawn.url())
         self._time, self._speed = np.asarray(scene.time, dtype=float), speed
+        box = box_of(scene.items)
+        if drawn.window.own:
+            dress(drawn, box, scene.forward, scene.camera)
         self._root = drawn[word(scene.title)]
         self._root.delete()
         self._drawing = Drawing(self._root)
         self._nodes = self._drawing.laid(scene.items)
-        box = box_of(scene.items)
-        if drawn.window.own:
-            dress(drawn, box, scene.forward, scene.camera)
         if scene.floor is not None:
             self._root["floor"].set_object(floor_grid(scene.floor, box))
         self.play()

@@ -22,7 +22,7 @@ from thesis_pin.pages.meshcat.shapes import (
     surface,
     tube,
 )
-from thesis_pin.pages.scene import Arc, Arrow, Ball, Item, Polygon, Shape, Trace
+from thesis_pin.pages.scene import AXES, Arc, Arrow, Ball, Item, Polygon, Shape, Trace, Triad
 
 Array = NDArray[np.float64]
 
@@ -88,7 +88,7 @@ def nodes(item: Item) -> Iterator[Node]:
     raise BadInput(
         f"can't draw a {type(item).__name__} in meshcat",
         where=f"item {item.name!r}",
-        allowed="Shape, Ball, Arrow, Trace, Polygon and Arc",
+        allowed="Shape, Ball, Arrow, Trace, Polygon, Arc and Triad",
     )
 
 
@@ -101,6 +101,20 @@ def _shape(item: Shape) -> Iterator[Node]:
     body = surface(item.geometry, paint(item.colour, item.opacity, **more), item.local)
     position, quaternion, visible = _placed(item.placement)
     yield Node("", body, position, quaternion, visible=visible)
+
+
+@nodes.register
+def _triad(item: Triad) -> Iterator[Node]:
+    """Three bars; meshcat has no text, so the name is the path's alone."""
+    position, quaternion, visible = _placed(item.placement)
+    yield Node("", None, position, quaternion, visible=visible)
+    length = float(item.length)
+    for axis, colour in enumerate(AXES):
+        bar = np.eye(4)
+        bar[:3, :3] = np.roll(np.eye(3), 1 - axis, axis=1)  # meshcat's cylinders lie along y
+        bar[axis, 3] = length / 2
+        solid = Placed(meshcat.Cylinder(length, 0.035 * length), paint(colour), item.local @ bar)
+        yield Node("xyz"[axis], solid)
 
 
 @nodes.register

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable
 from types import TracebackType
 
 import numpy as np
+import pinocchio as pin
+from meshcat.geometry import TriangularMeshGeometry
 from numpy.typing import ArrayLike, NDArray
 from pinocchio.visualize import MeshcatVisualizer
 
@@ -18,6 +20,7 @@ from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.pages.drawing import joint_placements
 from thesis_pin.pages.live.meshes import seen
+from thesis_pin.pages.meshcat.collada import is_mixed
 from thesis_pin.pages.meshcat.drawing import Drawing, word
 from thesis_pin.pages.meshcat.page import static
 from thesis_pin.pages.meshcat.shapes import shares
@@ -117,17 +120,20 @@ class RobotViewer(MeshcatVisualizer):  # type: ignore[misc] # Pinocchio has no t
             raise
 
     def _load(self, q: Array, floor: float | None) -> None:
-        name = word(self.model.name)
-        root = self.viewer[name]
-        root.delete()
-        self._drawing = Drawing(root)
-        self.loadViewerModel(name)
-        self.display(q)
+        # The stage first: the page is told in this order, and large meshes take it seconds.
+        pin.forwardKinematics(self.model, self.data, q)
+        pin.updateGeometryPlacements(self.model, self.data, self.visual_model, self.visual_data)
         box = self._box(q)
         if self.viewer.window.own:
             dress(self.viewer, box, self._forward)
+        name = word(self.model.name)
+        root = self.viewer[name]
+        root.delete()
         if floor is not None:
             root["floor"].set_object(floor_grid(floor, box))
+        self._drawing = Drawing(root)
+        self.loadViewerModel(name)
+        self.display(q)
 
     def _box(self, q: Array) -> Array:
         """Least and largest corner of what is to be seen, shape ``(2, 3)``."""
@@ -163,6 +169,20 @@ class RobotViewer(MeshcatVisualizer):  # type: ignore[misc] # Pinocchio has no t
         super().display(where)
         for place, node in self._drawing.laid(self._overlays(where[None])):
             self._drawing.put(place, node, 0)
+
+    def loadMeshFromFile(self, geometry_object: pin.GeometryObject) -> object:
+        """Pinocchio's, but for files of which meshcat's page makes nothing: these without texture.
+
+        Args:
+            geometry_object: The shape.
+        """
+        file = geometry_object.meshPath
+        if file.lower().endswith(".dae") and is_mixed(file):
+            mesh = geometry_object.geometry
+            corners = np.array(mesh.vertices()) / geometry_object.meshScale  # which comes again
+            faces = [mesh.tri_indices(k) for k in range(mesh.num_tris)]
+            return TriangularMeshGeometry(corners, [[one[j] for j in range(3)] for one in faces])
+        return super().loadMeshFromFile(geometry_object)
 
     def static_html(self) -> str:
         """The page as one that works alone: everything in it, and no request to the network."""

@@ -81,7 +81,7 @@ def dress(
     else:
         x, y = forward
         way = np.array([y + 1.1 * x, -x + 1.1 * y, 0.55])
-        eye = middle + 1.2 * size * way / np.linalg.norm(way)
+        eye = middle + 1.65 * size * way / np.linalg.norm(way)
     seen = drawn["/Cameras/default/rotated/<object>"]
     for name, value in (("fov", _VIEW), ("near", size / 500), ("far", 200 * size)):
         seen.set_property(name, value)

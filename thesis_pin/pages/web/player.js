@@ -194,6 +194,7 @@ function makePlayer(root, scene, options = {}) {
   };
   (options.keys || root).addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
+    if (event.target.matches("textarea, input[type=number]")) return;  // letters are typed there
     const native = event.target.closest("button, input, select, summary, a");
     const box = [...boxes.values()][Number(event.key) - 1]
       || letters.get(event.key.toLowerCase());
@@ -219,16 +220,19 @@ function makePlayer(root, scene, options = {}) {
     onTime: (listener) => listeners.push(listener),
   };
 
-  // The camera has to see the robot all along, so frame it at three times.
-  const box = new THREE.Box3();
+  // The camera has to see the robot all along, so frame it at three times; without one, all there is.
+  const box = new THREE.Box3(), bodies = items.filter(
+    (item) => item.kind === "shape" && groups.get(item.group).visible);
   for (const t of [start, (start + end) / 2, end]) {
     apply(t);
     stage.world.updateMatrixWorld(true);
+    for (const item of bodies.length ? bodies : items) box.expandByObject(item.object);
+  }
+  if (box.isEmpty()) {
     for (const item of items) {
-      if (item.kind === "shape" && groups.get(item.group).visible) box.expandByObject(item.object);
+      if (item.object.visible && groups.get(item.group).visible) box.expandByObject(item.object);
     }
   }
-  if (box.isEmpty()) box.setFromObject(stage.world);
   stage.frame(box);
   new IntersectionObserver((entries) => {
     inSight = entries[entries.length - 1].isIntersecting;
@@ -236,7 +240,7 @@ function makePlayer(root, scene, options = {}) {
   }).observe(pane);
   new ResizeObserver(stage.resize).observe(pane);
   stage.resize();
-  stage.look("3d");
+  stage.look(options.look || "3d");
   set(start);
   setPlaying(!options.still && !window.matchMedia("(prefers-reduced-motion: reduce)").matches);
   requestAnimationFrame(tick);

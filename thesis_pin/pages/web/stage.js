@@ -95,7 +95,8 @@ function makeStage(THREE, element, scene) {
     if (!width || !height) return;
     camera.aspect = width / height;
     // The legend covers the left: look past it.
-    const covered = Math.min(element.querySelector(".side[open]")?.offsetWidth || 0, width / 3);
+    const side = element.querySelector(".side[open]")?.getBoundingClientRect();
+    const covered = Math.min(Math.round(side?.width || 0), width / 3);
     stage.open = 1 - covered / width;
     camera.setViewOffset(width, height, -covered / 2, 0, width, height);
     renderer.setSize(width, height);

@@ -8,6 +8,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+import thesis_pin
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.checking.poses import named_pose
 from thesis_pin.loops.kinematics import residual
@@ -174,3 +175,41 @@ def test_joints_at_and_beyond_their_limits_are_told():
     assert stand.marks[1] == "5.73° beyond its limit"
     assert (stand.levels[1], stand.levels[2]) == (0, 1)
     assert names[0] == "panda_joint1"
+
+
+def test_names_of_a_stranger_end_no_script_and_no_string(tmp_path):
+    name = "</script><script>alert(1)</script>\"'&#92;"
+    escaped = name.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+    (tmp_path / "odd.urdf").write_text(
+        f'<robot name="{escaped}"><link name="a"/><link name="b"><inertial><mass value="1"/>'
+        '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>'
+        f'<joint name="{escaped}" type="continuous"><parent link="a"/><child link="b"/>'
+        '<axis xyz="0 0 1"/></joint></robot>'
+    )
+    odd = load(tmp_path / "odd.urdf")
+    page = thesis_pin.slider_page(odd)
+    assert b"<script>alert" not in page.html(served=True)
+    found = asked(page, state=first(page)["state"], slider=0, value=2.5)
+    (tmp_path / "pose.toml").write_text(found["toml"], encoding="utf-8")
+    q = named_pose(odd, str(tmp_path / "pose.toml"))
+    np.testing.assert_allclose(q, [np.cos(2.5), np.sin(2.5)], atol=1e-15)
+
+
+def test_a_robot_that_cannot_move_is_shown_and_told(tmp_path):
+    (tmp_path / "rock.urdf").write_text('<robot name="rock"><link name="a"/></robot>')
+    page = thesis_pin.slider_page(load(tmp_path / "rock.urdf"))
+    assert page.rig.sliders == ()
+    assert any("--free-flyer" in note for note in page.notes)
+    assert first(page)["state"] == []
+
+
+def test_loops_that_do_not_close_are_told_and_the_robot_is_shown(tmp_path):
+    closures = (DATA / "four_bar.yaml").read_text()
+    urdf = (DATA / "four_bar.urdf").read_text().replace('xyz="0.3 0 0"', 'xyz="3.0 0 0"')
+    (tmp_path / "far.urdf").write_text(urdf)
+    (tmp_path / "far.yaml").write_text(closures)
+    page = thesis_pin.slider_page(load(tmp_path / "far.urdf", tmp_path / "far.yaml"))
+    assert any("the loops don't close" in note for note in page.notes)
+    start = first(page)
+    found = asked(page, state=start["state"], slider=0, value=start["values"][0] + 0.3)
+    assert found["values"][1:] == start["values"][1:]

@@ -119,7 +119,10 @@ def tip(page):
 
 
 def seek(page, t):
-    page.run(f"(() => {{ viewer.animator.pause(); viewer.animator.seek({t}); return 1; }})()")
+    page.run(
+        "(() => { viewer.animator.play(); viewer.animator.pause(); "
+        f"viewer.animator.seek({t}); return 1; }})()"
+    )
 
 
 def test_everything_stands_below_its_title_and_its_group(page, viewer, artefacts):
@@ -145,7 +148,9 @@ def test_everything_stands_below_its_title_and_its_group(page, viewer, artefacts
     assert page.requests() == [viewer.url, viewer.url + "main.min.js"]
 
 
-def test_the_animation_advances_by_itself_and_moves_things(page):
+def test_the_animation_advances_by_itself_and_moves_things(page, viewer):
+    page.open(viewer.url, reduced_motion="no-preference")
+    page.until("window.viewer && viewer.animator.duration > 0")
     first = page.run("viewer.animator.time")
     before = vertices(page, "robot", "body-one").mean(axis=0)
     page.until(f"viewer.animator.time > {first} + 0.2")
@@ -197,6 +202,7 @@ def test_levels_polygons_arcs_and_ways_change_with_time(page):
 
 def test_a_group_is_hidden_by_meshcats_own_control_while_it_plays(page):
     page.run(f"{node('forces')}.vis_controller.setValue(false) && 1")
+    page.run("viewer.animator.play()")
     seen = page.run("viewer.animator.time")
     page.until(f"viewer.animator.time !== {seen}")
     assert visible(page, "forces") is False
@@ -215,7 +221,7 @@ def test_the_static_page_plays_alone_and_asks_for_nothing(browser, viewer, tmp_p
     file.write_text(viewer.static_html(), encoding="utf-8")
     assert file.stat().st_size < 1e6
     for width in (1280, 390):
-        browser.open(file.as_uri(), width=width)
+        browser.open(file.as_uri(), width=width, reduced_motion="no-preference")
         browser.until("window.viewer && viewer.animator.duration > 0")
         browser.until("viewer.animator.time > 0.1")
         browser.still(artefacts / f"meshcat_static_{width}.png")

@@ -11,7 +11,7 @@ from thesis_pin.pages.meshcat.drawing import Drawing, _matrix, word
 from thesis_pin.pages.meshcat.nodes import held, nodes
 from thesis_pin.pages.meshcat.shapes import look, surface, threshold, tube
 from thesis_pin.pages.meshcat.tracks import MOST_BYTES, samples
-from thesis_pin.pages.scene import Arc, Arrow, Ball, Item, Polygon, Shape, Trace
+from thesis_pin.pages.scene import Arc, Arrow, Ball, Item, Polygon, Shape, Trace, Triad
 
 NONE = np.full(3, np.nan)
 
@@ -117,6 +117,19 @@ def test_an_arc_is_as_long_as_its_angle_and_turns_the_way_of_its_sign():
         )
         end = 0.3 * np.array([np.cos(angle[k]), np.sin(angle[k]), 0])
         np.testing.assert_allclose(tip.mean(axis=0), end, atol=1e-9)
+
+
+def test_a_triads_bars_lie_along_the_frames_axes():
+    local = np.eye(4)
+    local[:3, :3] = Rotation.from_euler("xyz", [0.3, -0.5, 0.7]).as_matrix()
+    local[:3, 3] = 0.1, 0.2, 0.3
+    item = Triad("t", "g", np.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1)), local, 0.4, "name")
+    found = by_path(item)
+    for k, axis in enumerate("xyz"):
+        own = moved(corners(found[axis]), np.linalg.inv(local))
+        assert own[:, k].min() == pytest.approx(0.0, abs=1e-12)
+        assert own[:, k].max() == pytest.approx(0.4)
+        assert np.abs(np.delete(own, k, axis=1)).max() < 0.02
 
 
 def test_a_trace_is_bold_as_far_as_it_has_come():

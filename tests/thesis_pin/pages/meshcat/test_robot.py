@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
@@ -12,7 +13,9 @@ import pollard_pin
 import scout_pin
 from thesis_pin.errors import BadInput, NotFinite, WrongShape
 from thesis_pin.loops.closures import ClosedRobot
-from thesis_pin.pages.meshcat.robot import closed
+from thesis_pin.loops.loading import load
+from thesis_pin.pages.meshcat.collada import is_mixed
+from thesis_pin.pages.meshcat.robot import RobotViewer, closed
 from thesis_pin.pages.meshcat.window import Window
 
 ARM = """<robot name="arm/one"><link name="base"/><link name="arm">
@@ -130,3 +133,28 @@ def test_no_browser_is_opened():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+COLLADA = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"><library_geometries>
+<geometry><mesh><triangles><input semantic="VERTEX"/><input semantic="NORMAL"/></triangles></mesh>
+</geometry><geometry><mesh><triangles><input semantic="VERTEX"/><input semantic="NORMAL"/>{more}
+</triangles></mesh></geometry></library_geometries></COLLADA>"""
+
+
+def test_files_that_meshcats_page_makes_nothing_of_are_told(tmp_path):
+    file = tmp_path / "body.dae"
+    assert not is_mixed(file)
+    for more, wanted in (('<input semantic="TEXCOORD"/>', True), ("", False), ("<", False)):
+        file.write_text(COLLADA.format(more=more))
+        assert is_mixed(file) is wanted
+
+
+def test_a_body_of_mixed_collada_is_drawn_by_the_corners_that_pinocchio_has():
+    robot = load("example:anymal_b_simple_description/anymal")
+    mixed = [one for one in robot.visual_model.geometryObjects if is_mixed(one.meshPath)]
+    assert Path(mixed[0].meshPath).name == "anymal_base.dae"
+    drawn = RobotViewer.loadMeshFromFile(None, mixed[0])
+    whole = np.array(mixed[0].geometry.vertices())
+    np.testing.assert_allclose(drawn.vertices * mixed[0].meshScale, whole, atol=1e-6)
+    assert len(drawn.faces) == mixed[0].geometry.num_tris
