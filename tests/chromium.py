@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import io
 import json
+import subprocess
 import time
 from pathlib import Path
 
 import numpy as np
 
 from thesis_pin.pages.film.chromium import find as find
+
+
+def version() -> str:
+    """What the Chromium on this machine calls itself."""
+    asked = subprocess.run([find() or "", "--version"], capture_output=True, text=True)
+    return " ".join(asked.stdout.split()[:2]).rpartition(".")[0] if asked.stdout else "Chromium"
+
 
 _FLAGS = (
     "--no-sandbox",
@@ -32,6 +40,30 @@ _VERTICES = """(() => {
       found.push(part.localToWorld(point).toArray());
     }
   });
+  return found;
+})()"""
+
+_CUT = r"""(() => {
+  const found = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const range = document.createRange();
+  for (let node = walk.nextNode(); node; node = walk.nextNode()) {
+    const parent = node.parentElement;
+    if (!parent.checkVisibility() || parent.closest("script, style")) continue;
+    for (const match of node.data.matchAll(/[-−+]?\d[\d.,]*\d(e[-+]?\d+)?/g)) {
+      range.setStart(node, match.index);
+      range.setEnd(node, match.index + match[0].length);
+      const places = [...range.getClientRects()];
+      const tops = new Set(places.map((one) => Math.round(one.top)));
+      let hidden = false;
+      for (let box = parent; box && places.length; box = box.parentElement) {
+        const style = getComputedStyle(box), inner = box.getBoundingClientRect();
+        if (style.overflowX === "auto" || style.overflowX === "scroll") break;
+        if (style.overflowX !== "visible" && (places[0].right > inner.right + 1
+            || places[0].left < inner.left - 1)) hidden = true;
+      }
+      if (tops.size > 1 || hidden) found.push(`${match[0]} in ${node.data.trim().slice(0, 60)}`);
+    }
+  }
   return found;
 })()"""
 
@@ -143,6 +175,13 @@ class Chromium:
     def vertices(self, item: str) -> np.ndarray:
         """Every vertex of a player's item as it stands in the world [m], shape ``(v, 3)``."""
         return np.array(self.run(_VERTICES % json.dumps(item)))
+
+    def cut_numbers(self) -> list[str]:
+        """Numbers of the page's texts that are broken between lines or lie beyond what is seen.
+
+        Those that a box of their own scrolls to aren't cut.
+        """
+        return self.run(_CUT)
 
     def shown(self, item: str) -> bool:
         """Whether a player's item is drawn, its group's switch apart."""

@@ -147,7 +147,12 @@ FILES = {
 }
 
 CONTRADICTIONS = {
-    "scout-pin gait": [["--json", "-", "--html", "-"], ["--branch=+-"]],
+    "scout-pin gait": [
+        ["--json", "-", "--html", "-"],
+        ["--branch=+-"],
+        ["--figure", "5.2"],
+        ["--figure", "4.1", "--out", "out"],
+    ],
     "scout-pin view": [
         ["--port", "0"],
         ["--hold", "1"],
@@ -202,6 +207,7 @@ CONTRADICTIONS = {
         ["--timing", "constant-rate"],
         ["--placement", "0", "0", "0"],
         ["--branch=+-"],
+        ["--figure", "4.1"],
     ],
     "pollard-pin simulate": [
         ["--json", "-", "--html", "-"],

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 from thesis_pin.command import options, simulating, verbs
+from thesis_pin.command.figured import add_figure
 from thesis_pin.command.registry import Robot, Verb, Words
 from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
@@ -48,7 +49,7 @@ def report_verb(
         breaks: When ``--strict`` exits with 1.
     """
     how_many = partial(options.add_samples, default=samples)
-    add = (robot.motion, how_many, partial(options.add_report, breaks=breaks))
+    add = (robot.motion, how_many, partial(options.add_report, breaks=breaks), add_figure)
     run = partial(verbs.report, what=f"working out the {name}")
     return _verb(robot, name, (help, description, example), robot.report, run, *add)
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
+from thesis_pin.command.figured import chosen, without
 from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
@@ -56,6 +57,8 @@ class MakeReport(Protocol):
 
 def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion that the robot's own options ask for; see :func:`deliver`."""
+    known: Mapping[str, str] = _hook(robot, robot.figure_numbers) if arguments.figure else {}
+    names = chosen(arguments, known)
     return deliver(
         arguments,
         what,
@@ -63,6 +66,7 @@ def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
         figures=robot.name_of(robot.figures),
         page=robot.name_of(robot.page),
         table=robot.name_of(robot.table),
+        keep=lambda files: without(files, known, names),
     )
 
 

@@ -22,6 +22,7 @@ from __future__ import annotations
 import base64
 import gzip
 import json
+import re
 import struct
 from importlib.resources import files
 from importlib.util import find_spec
@@ -88,7 +89,21 @@ def render(template: str, **values: object) -> bytes:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["numbers_whole"] = _numbers_whole
     return environment.get_template(template).render(**values).encode()
+
+
+_NUMBER = re.compile(r"([-−+]?\d[\d.,]*\d(?:e[-+]?\d+)?)")
+
+
+def _numbers_whole(cell: object) -> str:
+    """A table's cell, escaped, whose lines don't break inside a number."""
+    from markupsafe import Markup, escape
+
+    parts = _NUMBER.split(str(cell))
+    parts[0::2] = [escape(text) for text in parts[0::2]]
+    parts[1::2] = [Markup('<span class="number">{}</span>').format(one) for one in parts[1::2]]
+    return Markup("").join(parts)
 
 
 def web_file(name: str) -> str:
