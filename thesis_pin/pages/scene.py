@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 import numpy as np
 
@@ -18,6 +18,10 @@ from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
 from thesis_pin.numeric.arrays import thinned as thinned
 
 GREY = "#9AA0A6"
+
+Look = Literal["3d", "front", "side", "top"]
+"""From where a scene is seen."""
+LOOKS: tuple[Look, ...] = get_args(Look)
 
 AXES = ("#D55E00", "#009E73", "#0072B2")
 """Colours of a frame's axes x, y, z; colour-blind readers can tell them apart."""
