@@ -21,7 +21,7 @@ from typing import (
     get_type_hints,
 )
 
-from thesis_pin.display.brief import Brief
+from thesis_pin.display.brief import ROOM, Brief
 from thesis_pin.model.limits import LIMITS, Key
 
 if TYPE_CHECKING:
@@ -131,6 +131,10 @@ class Strict(Brief):
 
     def __hash__(self) -> int:
         return hash((type(self), *(value for _, value in self)))
+
+    def __repr__(self) -> str:
+        whole = f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self)})"
+        return whole if len(whole) <= ROOM else super().__repr__()
 
     def _shown(self) -> Iterator[tuple[str, object]]:
         return iter(self)
