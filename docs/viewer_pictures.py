@@ -1,10 +1,11 @@
-"""Pictures of the README: the viewer's, drawn in a headless Chromium, and figure 5.3.
+"""Pictures of the README: the viewer's, drawn in a headless Chromium, and the theses' figures.
 
 Run ``python docs/viewer_pictures.py`` to renew them.
 """
 
 from __future__ import annotations
 
+import io
 import sys
 import tempfile
 from pathlib import Path
@@ -19,17 +20,14 @@ def main() -> None:
 
     import pollard_pin
     import scout_pin
+    from pollard_pin.report.drawn.sliders import slider_page
     from pollard_pin.report.drawn.view import path_scene
-    from scout_pin.report.drawn.figures import stick_figures
     from scout_pin.report.drawn.view import gait_scene
     from thesis_pin.pages import player as viewer
-    from thesis_pin.report.figures import figure_files
 
     gait = scout_pin.load_gait(ROOT / "examples" / "walk.toml")
     report = scout_pin.gait_report(scout_pin.load(), gait)
-    thesis = scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait())
-    figure = figure_files("scout_stick_figures", stick_figures(thesis))["scout_stick_figures.png"]
-    (ROOT / "docs" / "images" / "scout_stick_figures.png").write_bytes(figure)
+    thesis_figures()
 
     robot = pollard_pin.load()
     path = pollard_pin.load_path(ROOT / "examples" / "spray_arch.toml")
@@ -47,6 +45,38 @@ def main() -> None:
             browser.run(f"player.pause(); player.time = {moment}")
             browser.run("new Promise((done) => setTimeout(done, 500))")
             browser.picture(ROOT / "docs" / "images" / f"{name}.png")
+        page = Path(folder, "sliders.html")
+        page.write_bytes(slider_page(robot).html(served=True))
+        browser.open(page.as_uri(), 1120, 640)
+        browser.until("window.live && player.framesDrawn > 0")
+        for layer in ("masses", "inertias"):
+            browser.run(f"player.toggle('{layer}')")
+        browser.still(ROOT / "docs" / "images" / "sliders.png")
+
+
+def thesis_figures() -> None:
+    """Figures 5.1 to 5.3 of Scout and 4.1 to 4.4 of Pollard."""
+    from PIL import Image
+
+    import pollard_pin
+    import scout_pin
+    from pollard_pin.report.drawn import figures as pollard
+    from scout_pin.report.drawn import figures as scout
+
+    walk = scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait())
+    spray = pollard_pin.trajectory_report(pollard_pin.load(), pollard_pin.appendix_b())
+    for files, numbers in (
+        (scout.figures(walk), scout.NUMBERS),
+        (pollard.figures(spray), pollard.NUMBERS),
+    ):
+        for name, number in numbers.items():
+            file = f"thesis_figure_{number.replace('.', '_')}.png"
+            target = "scout_stick_figures.png" if number == "5.3" else file
+            if number:
+                # The fewest bytes in which the palette keeps its colours.
+                with Image.open(io.BytesIO(files[f"{name}.png"])) as picture:
+                    few = picture.quantize(256, dither=Image.Dither.NONE)
+                    few.save(ROOT / "docs" / "images" / target, optimize=True)
 
 
 if __name__ == "__main__":

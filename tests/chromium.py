@@ -4,24 +4,19 @@ from __future__ import annotations
 
 import io
 import json
-import shutil
 import subprocess
 import time
 from pathlib import Path
 
 import numpy as np
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+from thesis_pin.pages.film.chromium import find as find
 
 
-def find() -> str | None:
-    """Path of a Chromium on this machine that runs, None without one."""
-    for name in NAMES:
-        path = shutil.which(name)
-        # Some distributions install a stub that only says where to get the browser.
-        if path and subprocess.run([path, "--version"], capture_output=True).returncode == 0:
-            return path
-    return None
+def version() -> str:
+    """What the Chromium on this machine calls itself."""
+    asked = subprocess.run([find() or "", "--version"], capture_output=True, text=True)
+    return " ".join(asked.stdout.split()[:2]).rpartition(".")[0] if asked.stdout else "Chromium"
 
 
 _FLAGS = (
@@ -45,6 +40,30 @@ _VERTICES = """(() => {
       found.push(part.localToWorld(point).toArray());
     }
   });
+  return found;
+})()"""
+
+_CUT = r"""(() => {
+  const found = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const range = document.createRange();
+  for (let node = walk.nextNode(); node; node = walk.nextNode()) {
+    const parent = node.parentElement;
+    if (!parent.checkVisibility() || parent.closest("script, style")) continue;
+    for (const match of node.data.matchAll(/[-−+]?\d[\d.,]*\d(e[-+]?\d+)?/g)) {
+      range.setStart(node, match.index);
+      range.setEnd(node, match.index + match[0].length);
+      const places = [...range.getClientRects()];
+      const tops = new Set(places.map((one) => Math.round(one.top)));
+      let hidden = false;
+      for (let box = parent; box && places.length; box = box.parentElement) {
+        const style = getComputedStyle(box), inner = box.getBoundingClientRect();
+        if (style.overflowX === "auto" || style.overflowX === "scroll") break;
+        if (style.overflowX !== "visible" && (places[0].right > inner.right + 1
+            || places[0].left < inner.left - 1)) hidden = true;
+      }
+      if (tops.size > 1 || hidden) found.push(`${match[0]} in ${node.data.trim().slice(0, 60)}`);
+    }
+  }
   return found;
 })()"""
 
@@ -156,6 +175,13 @@ class Chromium:
     def vertices(self, item: str) -> np.ndarray:
         """Every vertex of a player's item as it stands in the world [m], shape ``(v, 3)``."""
         return np.array(self.run(_VERTICES % json.dumps(item)))
+
+    def cut_numbers(self) -> list[str]:
+        """Numbers of the page's texts that are broken between lines or lie beyond what is seen.
+
+        Those that a box of their own scrolls to aren't cut.
+        """
+        return self.run(_CUT)
 
     def shown(self, item: str) -> bool:
         """Whether a player's item is drawn, its group's switch apart."""

@@ -23,7 +23,7 @@ VERBS = {
 }
 WRITTEN = {"scout-pin new": "my_biped.toml"}
 """Words of examples that name a file which the verb writes."""
-OUTPUTS = ("--to", "--out", "--write", "--html", "--json", "--markdown")
+OUTPUTS = ("--to", "--out", "--write", "--html", "--json", "--markdown", "--film", "--picture")
 
 
 @cache

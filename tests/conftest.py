@@ -86,6 +86,27 @@ def pytest_collection():
         gc.enable()
 
 
+def pytest_collection_modifyitems(items):
+    """Mark what needs a browser, so that it can be counted."""
+    for item in items:
+        if "running_browser" in getattr(item, "fixturenames", ()):
+            item.add_marker("browser")
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Say whether tests of pages ran: skipped ones are easily overlooked."""
+    stats = terminalreporter.stats
+    ran, skipped = (
+        sum("browser" in one.keywords for kind in kinds for one in stats.get(kind, ()))
+        for kinds in (("passed", "failed"), ("skipped",))
+    )
+    if ran:
+        terminalreporter.write_line(f"pages: {ran} tests ran in {chromium.version()}")
+    if skipped:
+        why = "" if chromium.find() else ", no Chromium"
+        terminalreporter.write_line(f"pages: {skipped} tests SKIPPED{why}", yellow=True)
+
+
 def pytest_sessionstart(session):
     """Note what is changed before the suite begins, once for all workers."""
     if not hasattr(session.config, "workerinput"):

@@ -69,6 +69,9 @@ NUMBERS = {
     "--duration": {"2.5"},
     "--speed": {"2.5"},
     "--hold": {"2.5"},
+    "--at": {"0", "2.5"},
+    "--fps": {"2.5"},
+    "--size": set(),
     "--samples": set(),
     "--repeat": set(),
     "--feed": {"2.5"},
@@ -106,6 +109,8 @@ NUMBERS = {
     "--floor-height": {"0", "-1", "2.5"},
     "--slope": {"0", "2.5"},
     "--step-length": {"2.5"},
+    "--side": {"0", "-1", "2.5"},
+    "--turn": {"0", "-1", "2.5"},
     "--step-time": {"2.5"},
     "--walking-speed": {"2.5"},
     "--foot-spacing": set(),
@@ -142,7 +147,12 @@ FILES = {
 }
 
 CONTRADICTIONS = {
-    "scout-pin gait": [["--json", "-", "--html", "-"], ["--branch=+-"]],
+    "scout-pin gait": [
+        ["--json", "-", "--html", "-"],
+        ["--branch=+-"],
+        ["--figure", "5.2"],
+        ["--figure", "4.1", "--out", "out"],
+    ],
     "scout-pin view": [
         ["--port", "0"],
         ["--hold", "1"],
@@ -197,6 +207,7 @@ CONTRADICTIONS = {
         ["--timing", "constant-rate"],
         ["--placement", "0", "0", "0"],
         ["--branch=+-"],
+        ["--figure", "4.1"],
     ],
     "pollard-pin simulate": [
         ["--json", "-", "--html", "-"],

@@ -98,6 +98,8 @@ def test_the_same_flag_has_the_same_words_in_all_commands():
     various = {flag: forms for flag, forms in words.items() if len(forms) > 1}
     html = various.pop("--html")
     assert {form[:3] for form in html} == {("FILE|-", "None", None)}
+    at = various.pop("--at")
+    assert {form[0] for form in at} == {"SECONDS", "('NAME', 'VALUE')"}  # of a picture, of a map
     assert various == {}
 
 

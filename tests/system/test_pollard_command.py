@@ -94,6 +94,26 @@ def test_out_writes_report_samples_and_the_thesis_figures(pollard_pin, tmp_path)
     assert row["torque_chain0_shoulder_Nm"] == report["torque"][49][0]
 
 
+def test_figures_are_chosen_by_the_thesis_numbers_or_by_name(pollard_pin, tmp_path):
+    def asked(*words):
+        return pollard_pin("trajectory", "--samples", "21", *words)
+
+    out = tmp_path / "out"
+    done = asked("--out", out, "--figure", "4.4", "tool", "--figure", "4.1")
+    assert done.returncode == 0, done.stderr
+    drawn = {file.stem for file in out.iterdir() if file.suffix == ".svg"}
+    assert drawn == {"actuators", "tool", "positions"}
+    assert (out / "report.json").is_file()
+    for words, said in (
+        (("--out", tmp_path / "no", "--figure", "5.2"), "4.4 actuators"),
+        (("--figure", "4.4"), "Add --out DIR"),
+    ):
+        done = asked(*words)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert said in done.stderr
+    assert not (tmp_path / "no").exists()
+
+
 VERBS = ("trajectory", "view", "ik", "fk", "workspace", "info", "urdf", "audit")
 
 

@@ -24,6 +24,7 @@ def test_the_report_page_is_complete_quiet_and_fits_a_phone(browser, report_file
             == plots
         )
         assert browser.run("document.documentElement.scrollWidth") <= width
+        assert browser.cut_numbers() == []
         browser.run("player.pause(); player.time = 1.5")
         browser.still(artefacts / f"report_{width}.png")
     assert report_file.stat().st_size < 3e6
@@ -48,6 +49,39 @@ def test_a_page_without_animation_or_plots_needs_neither_library(browser, folder
     assert "Two equations fail." in text
     assert "Plots" not in text
     assert browser.complaints() == []
+
+
+def test_a_table_in_a_phone_breaks_lines_but_no_numbers(browser, folder):
+    row = ("forearm", "inertia (0.000199423, -5.176e-06, 0, 0.000199423), <b>masses</b> 0.25")
+    rest = (30 * "why ", 30 * "and ")
+    table = page.Table("Assumptions", tuple("abcd"), [(*row, *rest)], prose=True)
+    numbers = page.Table("Numbers", tuple("abcdefgh"), [("0.123456789",) * 8])
+    bare = page.Page("Page", "", None, ["?"], [page.Tile("n", "1")], [], [table, numbers])
+    file = folder / "phone.html"
+    file.write_bytes(page.html(bare))
+    browser.open(file.as_uri(), 390, 844, True)
+    browser.until("window.ready")
+    assert browser.run("document.querySelectorAll('td')[1].innerText") == row[1]
+    assert browser.cut_numbers() == []
+    assert browser.run("document.documentElement.scrollWidth") <= 390
+    browser.run("document.querySelectorAll('.number').forEach((one) => one.className = '')")
+    assert len(browser.cut_numbers()) >= 1  # what the class is for
+
+
+def test_colours_that_mean_something_stay_where_the_system_chooses_them(browser, report_file):
+    seen = (
+        "[...document.querySelectorAll('.swatch, .cursor')]"
+        ".map((one) => getComputedStyle(one).backgroundColor)"
+    )
+    texts = "[...document.querySelectorAll('.plot text')].map((one) => getComputedStyle(one).fill)"
+    found = []
+    for wishes in ({}, {"forced_colors": "active", "color_scheme": "dark"}):
+        browser.open(report_file.as_uri(), **wishes)
+        browser.until("window.ready && player.framesDrawn > 0")
+        assert browser.run("matchMedia('(forced-colors: active)').matches") == bool(wishes)
+        found.append((browser.run(seen), browser.run(texts)))
+    assert len(set(found[0][0])) > 5
+    assert found[1] == found[0]
 
 
 def test_the_report_answers_first(browser, report_file, report):

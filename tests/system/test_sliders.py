@@ -9,7 +9,9 @@ import pytest
 from chromium import BACKGROUND, differing
 from mechanisms import four_bar
 
+import pollard_pin
 import thesis_pin
+from pollard_pin.report.drawn.sliders import slider_page as tool_page
 from thesis_pin.command.main import main
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.checking.poses import named_pose
@@ -174,3 +176,29 @@ def test_flags_of_a_motion_are_refused_without_one_and_nothing_is_written(words,
     assert main(["view", *FILES, "--html", str(file), *words]) == 2
     assert capfd.readouterr().err.count("error: ") == 1
     assert not file.exists()
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 720), (390, 844)])
+def test_pollards_tool_changes_its_branch_and_says_what_it_cannot_reach(
+    browser, artefacts, width, height
+):
+    page = tool_page(pollard_pin.load())
+    with PageServer(page.html(served=True), 0, print, {PATH: page.answer}) as server:
+        opened(browser, server.address, width, height)
+        before = browser.still(artefacts / f"tool_sliders_{width}.png")
+        browser.page.select_option("#choice", label="+++-+++")
+        settled(browser, 1)
+        assert browser.run("live.stand.choice") == page.rig.choices.index("+++-+++")
+        assert differing(before, browser.still()) > 300
+        q = np.array(browser.run("live.stand.state"))
+        browser.page.fill("#panel input[type=number]", "899")
+        browser.press("Tab")
+        settled(browser, 2)
+        words = browser.run("document.querySelector('#panel .status').textContent")
+        assert words.startswith("x of the spray tip stays where it is: unreachable: ")
+        np.testing.assert_array_equal(browser.run("live.stand.state"), q)
+        assert browser.run("document.querySelector('#panel input[type=number]').value") == "450"
+    # The command has ended: the page says so and keeps its pose.
+    browser.run("live.ask({slider: 1, value: 0.01})")
+    settled(browser, 3)
+    assert "has ended" in browser.run("document.querySelector('#panel .status').textContent")

@@ -7,6 +7,7 @@ from functools import partial
 
 from thesis_pin.command.options import add_json, add_report, add_sizing, add_view
 from thesis_pin.command.registry import Command, Parser, Verb
+from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.words import (
     perhaps_motion,
@@ -100,7 +101,15 @@ COMMAND = Command(
             "examples/pollard_motors.csv --html view.html",
             "thesis_pin.pages.reports.torque_scene:scene",
             "thesis_pin.command.any_robot:view",
-            (which_robot, perhaps_motion, which_pose, which_wrenches, add_view, add_meshcat),
+            (
+                which_robot,
+                perhaps_motion,
+                which_pose,
+                which_wrenches,
+                add_view,
+                add_meshcat,
+                add_film,
+            ),
         ),
         Verb(
             "workspace",

@@ -183,6 +183,7 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
             :class:`~thesis_pin.command.results.Answer`.
         inverse_kinematics: The public method behind it.
         figures, table: The report as files, and in tables and paragraphs.
+        figure_numbers: Names of its figures, each with its number in the thesis.
         load, specification: Read a specification, with its model and without.
         info: What it describes, see :mod:`thesis_pin.report.info`.
         info_page: The same as a page.
@@ -212,6 +213,7 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     conditions: str = "verbs:conditions"
     solves: str = "verbs:ik"
     figures: str = "report.drawn.figures:figures"
+    figure_numbers: str = "report.drawn.figures:NUMBERS"
     table: str = "report.tables:summary"
     load: str = "model:load"
     specification: str = "specification:Specification.read"

@@ -88,6 +88,7 @@ def deliver(
     page: str,
     table: str,
     strict: bool = False,
+    keep: Callable[[dict[str, bytes]], dict[str, bytes]] = dict,
 ) -> ExitCode:
     """Put a report where ``--out``, ``--json`` and ``--html`` say, or on the terminal.
 
@@ -102,6 +103,7 @@ def deliver(
         page: The same of its page.
         table: The same of its tables and paragraphs.
         strict: Whether the exit code is always that of the answer.
+        keep: Chooses among the files of ``figures``.
     """
     from thesis_pin.report.writers import csv_bytes, json_bytes
 
@@ -114,7 +116,7 @@ def deliver(
         if arguments.out:
             files = {"report.json": content, "samples.csv": csv_bytes(answer.columns())}
         try:
-            drawn = _called(figures)(answer) if arguments.out else {}
+            drawn = keep(_called(figures)(answer)) if arguments.out else {}
             written = _called(page)(answer) if arguments.html else b""
         except Exception:
             write_results(arguments, files, content)

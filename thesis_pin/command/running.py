@@ -38,7 +38,7 @@ class ExitCode(IntEnum):
     """By Ctrl-C; nothing is half-written."""
 
 
-_FILES = ("json", "html", "markdown", "to")
+_FILES = ("json", "html", "markdown", "to", "film", "picture")
 """Options that name a file; ``-`` is standard output."""
 
 

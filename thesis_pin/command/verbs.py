@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
+from thesis_pin.command.figured import chosen, without
 from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
@@ -21,6 +22,7 @@ from thesis_pin.command.results import (
     write_results,
 )
 from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.showing.film import check_film, shoot, shown_first
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
@@ -55,6 +57,8 @@ class MakeReport(Protocol):
 
 def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion that the robot's own options ask for; see :func:`deliver`."""
+    known: Mapping[str, str] = _hook(robot, robot.figure_numbers) if arguments.figure else {}
+    names = chosen(arguments, known)
     return deliver(
         arguments,
         what,
@@ -62,6 +66,7 @@ def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
         figures=robot.name_of(robot.figures),
         page=robot.name_of(robot.page),
         table=robot.name_of(robot.table),
+        keep=lambda files: without(files, known, names),
     )
 
 
@@ -99,13 +104,17 @@ def show_scene(
         command: Which command asks, for the schema's name.
         make: Makes the scene.
     """
-    refuse_beside(arguments, "html", ("port", "hold", "no-browser", "meshcat"))
+    for written in ("html", "film", "picture"):
+        refuse_beside(arguments, written, ("port", "hold", "no-browser", "meshcat"))
+    check_film(arguments)
     if isinstance(arguments.meshcat, str):  # a server that runs already
         refuse_beside(arguments, "meshcat", ("port", "hold"))
+    if arguments.meshcat is not None and arguments.look != "3d":
+        raise BadInput("--look means nothing beside --meshcat", remedy="Leave one of them out")
     with Bar("working out the motion") as bar:
         from thesis_pin.report.writers import json_bytes
 
-        scene = make(bar)
+        scene = shown_first(make(bar), arguments)
     shown = {
         "schema": f"{command}/view",
         "version": 1,
@@ -113,6 +122,8 @@ def show_scene(
         "duration": float(scene.time[-1] - scene.time[0]),
         "samples": len(scene.time),
         "page": arguments.html,
+        "film": arguments.film,
+        "picture": arguments.picture,
         "meshcat": None,
     }
     if arguments.meshcat is not None:
@@ -122,8 +133,10 @@ def show_scene(
     from thesis_pin.pages import player, serving
 
     if arguments.html:
-        player.write_html(scene, arguments.html, speed=arguments.speed)
+        player.write_html(scene, arguments.html, speed=arguments.speed, look=arguments.look)
         said(arguments.html)
+    shoot(scene, arguments)
+    if arguments.html or arguments.film or arguments.picture:
         if arguments.json:
             put(arguments.json, json_bytes(shown | {"address": None}))
         return ExitCode.DONE
@@ -135,6 +148,7 @@ def show_scene(
     serving.show(
         scene,
         speed=arguments.speed,
+        look=arguments.look,
         port=arguments.port,
         browser=not arguments.no_browser,
         hold=arguments.hold,

@@ -22,6 +22,7 @@ from __future__ import annotations
 import base64
 import gzip
 import json
+import re
 import struct
 from importlib.resources import files
 from importlib.util import find_spec
@@ -31,16 +32,17 @@ import numpy as np
 
 from thesis_pin.errors import BadInput
 from thesis_pin.files import write_file
-from thesis_pin.numeric.checks import instance, real, shown
-from thesis_pin.pages.scene import Item, Scene
+from thesis_pin.numeric.checks import choice, instance, real, shown
+from thesis_pin.pages.scene import LOOKS, Item, Look, Scene
 
 
-def html(scene: Scene, *, speed: float = 1.0) -> bytes:
+def html(scene: Scene, *, speed: float = 1.0, look: Look = "3d") -> bytes:
     """A scene as one self-contained, animated page.
 
     Args:
         scene: What to show.
         speed: Playing speed at first; 1 is real time.
+        look: Where the camera stands at first.
     """
     instance("scene", scene, Scene, "gait_scene(), path_scene() or Scene()")
     speed = real("speed", speed, low=1e-3, high=1e3)
@@ -49,10 +51,11 @@ def html(scene: Scene, *, speed: float = 1.0) -> bytes:
         title=scene.title,
         player_parts=player_parts(scene),
         speed=speed,
+        look=choice("look", look, LOOKS),
     )
 
 
-def write_html(scene: Scene, target: str | Path, *, speed: float = 1.0) -> None:
+def write_html(scene: Scene, target: str | Path, *, speed: float = 1.0, look: Look = "3d") -> None:
     """Write :func:`html` to a file, whole or not at all.
 
     Raises:
@@ -60,7 +63,7 @@ def write_html(scene: Scene, target: str | Path, *, speed: float = 1.0) -> None:
     """
     if not isinstance(target, str | Path) or not str(target):
         raise BadInput(f"target is {shown(target)}", allowed="the name of a file")
-    write_file(target, html(scene, speed=speed))
+    write_file(target, html(scene, speed=speed, look=look))
 
 
 def player_parts(scene: Scene) -> dict[str, str]:
@@ -86,7 +89,21 @@ def render(template: str, **values: object) -> bytes:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["numbers_whole"] = _numbers_whole
     return environment.get_template(template).render(**values).encode()
+
+
+_NUMBER = re.compile(r"([-−+]?\d[\d.,]*\d(?:e[-+]?\d+)?)")
+
+
+def _numbers_whole(cell: object) -> str:
+    """A table's cell, escaped, whose lines don't break inside a number."""
+    from markupsafe import Markup, escape
+
+    parts = _NUMBER.split(str(cell))
+    parts[0::2] = [escape(text) for text in parts[0::2]]
+    parts[1::2] = [Markup('<span class="number">{}</span>').format(one) for one in parts[1::2]]
+    return Markup("").join(parts)
 
 
 def web_file(name: str) -> str:

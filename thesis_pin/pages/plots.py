@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from thesis_pin.report.curves import BLACK, Area, Band, Curve, Limit, Plot, condensed
+from thesis_pin.report.curves import BLACK, STROKES, Area, Band, Curve, Limit, Plot, condensed
 
 MARGINS = {"l": 58, "r": 14, "t": 12, "b": 44}
 """Fixed, so that the page can place its time cursor over a plot."""
@@ -64,7 +64,10 @@ def _curve(plot: Plot, curve: Curve) -> dict[str, object]:
     }
     if curve.marks:
         return trace | {"mode": "markers", "marker": _MARKS[curve.marks] | {"color": curve.colour}}
-    line = {"color": curve.colour, "dash": curve.dash, "width": 1.8 * curve.weight}
+    width = 1.8 * curve.weight
+    # Plotly's own names mean other lengths, as long as a legend's sample of them.
+    strokes = ",".join(f"{width * part:.3g}px" for part in STROKES[curve.dash])
+    line = {"color": curve.colour, "dash": strokes or "solid", "width": width}
     return trace | {"mode": "lines", "line": line}
 
 

@@ -10,14 +10,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 import numpy as np
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
 from thesis_pin.numeric.arrays import thinned as thinned
 
 GREY = "#9AA0A6"
+
+Look = Literal["3d", "front", "side", "top"]
+"""From where a scene is seen."""
+LOOKS: tuple[Look, ...] = get_args(Look)
 
 AXES = ("#D55E00", "#009E73", "#0072B2")
 """Colours of a frame's axes x, y, z; colour-blind readers can tell them apart."""
@@ -45,7 +50,7 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Item:
+class Item(Brief):
     """Common to everything that is drawn.
 
     Attributes:
@@ -214,7 +219,7 @@ class Triad(Item):
 
 
 @dataclass(frozen=True)
-class Readout:
+class Readout(Brief):
     """A value shown as text beside the picture.
 
     Attributes:
@@ -233,7 +238,7 @@ class Readout:
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(Brief):
     """Everything a page has to know.
 
     Attributes:

@@ -12,7 +12,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from thesis_pin.errors import BadInput
 from thesis_pin.pages.browser import directions, graphical
 from thesis_pin.pages.player import html
-from thesis_pin.pages.scene import Scene
+from thesis_pin.pages.scene import Look, Scene
 
 _LOG = logging.getLogger(__name__)
 
@@ -41,6 +41,7 @@ def show(
     scene: Scene,
     *,
     speed: float = 1.0,
+    look: Look = "3d",
     port: int | None = None,
     browser: bool = True,
     hold: float | None = None,
@@ -52,6 +53,7 @@ def show(
     Args:
         scene: What to show.
         speed: Playing speed at first; 1 is real time.
+        look: Where the camera stands at first.
         port: Port; None takes the first free one from :data:`DEFAULT_PORT` on.
         browser: Whether to open the page in the user's browser. Over SSH and where
             only a text browser is at hand, ``say`` is told how to reach it instead.
@@ -63,7 +65,7 @@ def show(
     Raises:
         BadInput: The port is taken or not allowed.
     """
-    page = html(scene, speed=speed)
+    page = html(scene, speed=speed, look=look)
     show_page(page, scene.title, port=port, browser=browser, hold=hold, say=say, ready=ready)
 
 

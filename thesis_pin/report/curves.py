@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -17,8 +17,49 @@ PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = PALETTE
 BLACK = "#000000"
 
-Dash = Literal["solid", "dash", "dot"]
+Dash = Literal[
+    "solid",
+    "longdash",
+    "dash",
+    "shortdash",
+    "dashdot",
+    "dashdotdot",
+    "dot",
+    "farther dot",
+    "dot pair",
+    "dot triple",
+    "farther pair",
+    "far dot",
+]
 Marks = Literal["dot", "cross"] | None
+
+STROKES: Mapping[Dash, tuple[float, ...]] = {
+    "solid": (),
+    "longdash": (6.5, 1.8),
+    "dash": (3.7, 1.6),
+    "shortdash": (2.0, 1.1),
+    "dashdot": (4.2, 1.5, 1.0, 1.5),
+    "dashdotdot": (4.2, 1.4, 1.0, 1.4, 1.0, 1.4),
+    "dot": (1.0, 1.65),
+    "farther dot": (1.0, 2.9),
+    "dot pair": (1.0, 1.2, 1.0, 3.2),
+    "dot triple": (1.0, 1.2, 1.0, 1.2, 1.0, 3.2),
+    "farther pair": (1.0, 1.65, 1.0, 5.0),
+    "far dot": (1.0, 5.0),
+}
+"""Lengths of strokes and gaps, in widths of the line."""
+
+LINES: tuple[Dash, ...] = tuple(STROKES)[:6]
+DOTS: tuple[Dash, ...] = tuple(STROKES)[6:]
+"""Six ways to break a line, and six that all look dotted: one for each colour of the palette."""
+
+
+def apart(k: int) -> tuple[str, Dash]:
+    """Colour and dash of a plot's curve number ``k``: the first six differ in both.
+
+    Where curves lie on each other, those below show through the gaps of those above.
+    """
+    return PALETTE[k % 6], LINES[(k + k // 6) % 6]
 
 
 @dataclass(frozen=True)

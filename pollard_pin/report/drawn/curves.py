@@ -18,6 +18,7 @@ from thesis_pin.report.curves import (
     Dash,
     Limit,
     Plot,
+    apart,
     spread,
 )
 
@@ -171,7 +172,7 @@ def _joints(report: TrajectoryReport, order: int, name: str, numbers: Sequence[i
         "Motors and passive joints.",
         label,
         [
-            Curve(JOINT_SYMBOLS[k], np.degrees(values[:, k]), PALETTE[j % 6], _DASHES[j // 3])
+            Curve(JOINT_SYMBOLS[k], np.degrees(values[:, k]), *apart(j))
             for j, k in enumerate(numbers)
         ],
         some.time,

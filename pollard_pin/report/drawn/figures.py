@@ -9,6 +9,16 @@ from thesis_pin.report.curves import evenly
 from thesis_pin.report.exchange.movement import exchange_files
 from thesis_pin.report.figures import figure_files, panels
 
+NUMBERS = {
+    "positions": "4.1",
+    "velocities": "4.2",
+    "accelerations": "4.3",
+    "actuators": "4.4",
+    "margins": "",
+    "tool": "",
+}
+"""Names of the figures, each with its number in the thesis; empty for those it has not."""
+
 EXCHANGED = 4001
 """Samples of the joints for other programs, at most."""
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from pollard_pin.study.simulate.result import Simulation
-from thesis_pin.report.curves import BLUE, GREEN, PALETTE, VERMILLION, Curve, Limit, Plot
+from thesis_pin.report.curves import BLUE, GREEN, VERMILLION, Curve, Limit, Plot, apart
 from thesis_pin.report.figures import figure_files, panels
 from thesis_pin.tolerances import TOLERANCES
 
@@ -43,7 +43,7 @@ def torques(simulation: Simulation, place: int) -> Plot:
         f"Torques, {('base', 'wrist')[place]} motors",
         "The plan's, and what servos add to them.",
         "torque [N·m]",
-        [Curve(ACTUATOR_SYMBOLS[k], replay.torque[:, k], PALETTE[k % 3]) for k in some],
+        [Curve(ACTUATOR_SYMBOLS[k], replay.torque[:, k], *apart(k % 3)) for k in some],
         replay.time,
     )
 

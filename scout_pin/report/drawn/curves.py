@@ -14,6 +14,8 @@ from scout_pin.specification import SIDES
 from thesis_pin.report.curves import (
     BLACK,
     BLUE,
+    DOTS,
+    LINES,
     ORANGE,
     PALETTE,
     SKY,
@@ -24,6 +26,7 @@ from thesis_pin.report.curves import (
     Dash,
     Limit,
     Plot,
+    apart,
     both_signs,
     spread,
 )
@@ -71,8 +74,8 @@ def feet_and_torso(report: GaitReport) -> Plot:
         "Origins of the torso and the soles.",
         "[mm]",
         [
-            Curve(name, body.position[:, axis] * 1e3, colour)
-            for colour, (name, body, axis) in zip(PALETTE, curves, strict=False)
+            Curve(name, body.position[:, axis] * 1e3, *apart(k))
+            for k, (name, body, axis) in enumerate(curves)
         ],
         motion.time,
     )
@@ -248,13 +251,12 @@ def _over_time(report: GaitReport) -> partial[Plot]:
 
 
 def _joints(values: NDArray[np.float64], side: str = "") -> list[Curve]:
-    """A curve for each joint: of one leg, or of both with the right one dotted."""
-    dashes: tuple[Dash, ...] = ("solid", "solid" if side else "dot")
+    """A curve for each joint: of one leg, or of both with the right one in dots."""
     return [
         Curve(name if side else f"{leg} {name}", values[:, 6 * k + joint], colour, dash)
-        for k, (leg, dash) in enumerate(zip(SIDES, dashes, strict=True))
+        for k, (leg, dashes) in enumerate(zip(SIDES, (LINES, LINES if side else DOTS), strict=True))
         if side in ("", leg)
-        for joint, (colour, name) in enumerate(zip(PALETTE, NAMES, strict=True))
+        for joint, (colour, dash, name) in enumerate(zip(PALETTE, dashes, NAMES, strict=True))
     ]
 
 
@@ -267,4 +269,4 @@ def _of(side: str) -> str:
 
 
 def _reading(side: str) -> str:
-    return "" if side else " Left leg solid, right leg dotted."
+    return "" if side else " Left leg in lines and dashes, right leg in dots."

@@ -23,6 +23,15 @@ from thesis_pin.report.plotting.legend import Entry, Legend
 from thesis_pin.report.plotting.panel import Panel
 from thesis_pin.report.plotting.sheet import Look, Sheet, colour
 
+NUMBERS = {
+    "feet_and_torso": "5.1",
+    "joint_angles": "5.2",
+    "stick_figures": "5.3",
+    "torques": "",
+    "stability": "",
+}
+"""Names of the figures, each with its number in the thesis; empty for those it has not."""
+
 EXCHANGED = 4001
 """Samples of the joints for other programs, at most."""
 

@@ -7,7 +7,17 @@ import numpy as np
 from scout_pin.specification import JOINT_SYMBOLS, SIDES
 from scout_pin.study.simulate.result import Simulation
 from scout_pin.study.simulate.world import walking_tree, world_text
-from thesis_pin.report.curves import BLUE, ORANGE, PALETTE, VERMILLION, Curve, Limit, Plot
+from thesis_pin.report.curves import (
+    BLUE,
+    DOTS,
+    LINES,
+    ORANGE,
+    PALETTE,
+    VERMILLION,
+    Curve,
+    Limit,
+    Plot,
+)
 from thesis_pin.report.figures import figure_files, panels
 
 _COLOURS = (BLUE, ORANGE)
@@ -73,14 +83,16 @@ def torques(simulation: Simulation, leg: int) -> Plot:
     for k in range(6 * leg, 6 * leg + 6):
         colour = PALETTE[k % 6]
         curves += [
-            Curve(JOINT_SYMBOLS[k], simulation.walked.torque[:, k], colour),
-            Curve(f"{JOINT_SYMBOLS[k]}, planned", simulation.plan.torque[:, k], colour, "dot"),
+            Curve(JOINT_SYMBOLS[k], simulation.walked.torque[:, k], colour, LINES[k % 6]),
+            Curve(
+                f"{JOINT_SYMBOLS[k]}, planned", simulation.plan.torque[:, k], colour, DOTS[k % 6]
+            ),
         ]
     stall = simulation.report.robot.stall_torque[6 * leg : 6 * leg + 6]
     limits = [Limit("stall torque", sign * float(stall.min())) for sign in (1, -1)]
     return Plot(
         f"Torques of the {side} leg",
-        "Simulated, and dotted as planned.",
+        "Simulated in lines and dashes, planned in dots.",
         "torque [N·m]",
         curves,
         simulation.plan.time,

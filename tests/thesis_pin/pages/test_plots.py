@@ -19,7 +19,7 @@ def test_curves_over_time_arrive_with_gaps_where_they_have_no_value():
     (trace,) = drawn.data
     np.testing.assert_array_equal(trace.x, TIME)
     assert trace.y == (1.0, None, 0.33333, -2e-9, 123460.0)
-    assert (trace.name, trace.mode, trace.line.dash) == ("knee", "lines", "dot")
+    assert (trace.name, trace.mode, trace.line.dash) == ("knee", "lines", "1.8px,2.97px")
     assert drawn.layout.xaxis.range == (0.0, 2.0)
     assert drawn.layout.yaxis.title.text == "torque [N·m]"
 

@@ -8,7 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from thesis_pin.errors import WrongShape
-from thesis_pin.report.curves import Curve, Plot, both_signs, condensed, evenly, telling
+from thesis_pin.report.curves import (
+    DOTS,
+    LINES,
+    STROKES,
+    Curve,
+    Plot,
+    apart,
+    both_signs,
+    condensed,
+    evenly,
+    telling,
+)
 
 TIME = np.linspace(0.0, 1.0, 4)
 
@@ -25,6 +36,13 @@ TIME = np.linspace(0.0, 1.0, 4)
 def test_a_curve_without_a_place_for_each_value_is_named(time, curve):
     with pytest.raises(WrongShape, match="curve 'knee' of plot 'Torques'"):
         Plot("Torques", "", "torque [N·m]", [curve], time)
+
+
+def test_the_first_curves_differ_in_colour_and_dash_and_no_two_of_36_in_neither():
+    first = [apart(k) for k in range(6)]
+    assert [len(set(part)) for part in zip(*first, strict=True)] == [6, 6]
+    assert len({apart(k) for k in range(36)}) == 36
+    assert len({STROKES[dash] for dash in (*LINES, *DOTS)}) == 12
 
 
 def test_samples_are_spread_evenly_with_both_ends_and_all_if_few():

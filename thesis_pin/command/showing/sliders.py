@@ -11,6 +11,7 @@ from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.showing.film import check_film, shoot, shown_first
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
@@ -33,8 +34,17 @@ def show_sliders(
     Raises:
         BadInput: Flags contradict each other, or belong to a motion.
     """
-    refuse_beside(arguments, "html", ("port", "hold", "no-browser"))
-    for flag, given in (("speed", arguments.speed != 1.0), ("meshcat", arguments.meshcat)):
+    for written in ("html", "picture"):
+        refuse_beside(arguments, written, ("port", "hold", "no-browser"))
+    check_film(arguments)
+    chosen = arguments.look != "3d" or arguments.show or arguments.hide
+    if chosen and not arguments.picture:
+        raise BadInput("--look, --show and --hide belong to a motion or to --picture")
+    for flag, given in (
+        ("speed", arguments.speed != 1.0),
+        ("meshcat", arguments.meshcat),
+        ("film", arguments.film is not None),
+    ):
         if given:
             raise BadInput(f"--{flag} belongs to a motion", remedy="Leave it out, or name a motion")
     with Bar("drawing the robot"):
@@ -43,6 +53,7 @@ def show_sliders(
         with warned():
             page = make()
         content = page.html() if arguments.html else b""
+        scene = shown_first(page.scene(), arguments) if arguments.picture else None
     for note in page.notes:
         say(f"note: {note}")
     shown = {
@@ -53,10 +64,15 @@ def show_sliders(
         "samples": 1,
         "sliders": [slider.name for slider in page.rig.sliders],
         "page": arguments.html,
+        "film": None,
+        "picture": arguments.picture,
         "meshcat": None,
     }
-    if arguments.html:
-        put(arguments.html, content)
+    if arguments.html or scene is not None:
+        if arguments.html:
+            put(arguments.html, content)
+        if scene is not None:
+            shoot(scene, arguments)
         if arguments.json:
             put(arguments.json, json_bytes(shown | {"address": None}))
         return ExitCode.DONE

@@ -220,14 +220,13 @@ function makePlayer(root, scene, options = {}) {
     onTime: (listener) => listeners.push(listener),
   };
 
-  // The camera has to see the robot all along, so frame it at three times.
-  const box = new THREE.Box3();
+  // The camera has to see the robot all along, so frame it at three times; without one, all there is.
+  const box = new THREE.Box3(), bodies = items.filter(
+    (item) => item.kind === "shape" && groups.get(item.group).visible);
   for (const t of [start, (start + end) / 2, end]) {
     apply(t);
     stage.world.updateMatrixWorld(true);
-    for (const item of items) {
-      if (item.kind === "shape" && groups.get(item.group).visible) box.expandByObject(item.object);
-    }
+    for (const item of bodies.length ? bodies : items) box.expandByObject(item.object);
   }
   if (box.isEmpty()) {
     for (const item of items) {
@@ -241,7 +240,7 @@ function makePlayer(root, scene, options = {}) {
   }).observe(pane);
   new ResizeObserver(stage.resize).observe(pane);
   stage.resize();
-  stage.look("3d");
+  stage.look(options.look || "3d");
   set(start);
   setPlaying(!options.still && !window.matchMedia("(prefers-reduced-motion: reduce)").matches);
   requestAnimationFrame(tick);

@@ -10,13 +10,13 @@ from thesis_pin.report.curves import (
     BLUE,
     GREEN,
     ORANGE,
-    PALETTE,
     VERMILLION,
     Area,
     Curve,
     Limit,
     Marks,
     Plot,
+    apart,
 )
 from thesis_pin.report.torque import curves
 
@@ -83,10 +83,7 @@ def forces(report: BalanceReport) -> list[Plot]:
             title,
             text,
             label,
-            [
-                Curve(name, values[:, k], PALETTE[k % 6], ("solid", "dash")[k // 6 % 2])
-                for k, name in enumerate(report.names)
-            ],
+            [Curve(name, values[:, k], *apart(k)) for k, name in enumerate(report.names)],
             report.time,
             limits=limits,
         )

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.report.curves import Dash
+from thesis_pin.report.curves import STROKES, Dash
 
 if TYPE_CHECKING:
     from matplotlib.backend_bases import GraphicsContextBase, RendererBase
@@ -31,9 +31,6 @@ INCH = 72.0
 
 DOTS = 150
 """Pixels of an inch."""
-
-_DASHES = {"solid": (), "dash": (3.7, 1.6), "dot": (1.0, 1.65)}
-"""Lengths of strokes and gaps, in widths of the line."""
 
 
 def colour(code: str, opacity: float = 1.0) -> Colour:
@@ -235,7 +232,7 @@ def _stroke(gc: GraphicsContextBase, look: Look) -> None:
     gc.set_foreground(look.stroke or (0.0, 0.0, 0.0, 1.0), isRGBA=True)
     gc.set_joinstyle("round")
     gc.set_capstyle("butt" if look.dash != "solid" or look.marks else "projecting")
-    dashes = [look.width * part for part in _DASHES[look.dash]]
+    dashes = [look.width * part for part in STROKES[look.dash]]
     gc.set_dashes(0.0, dashes or None)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.loops.joints import singles
-from thesis_pin.report.curves import PALETTE, VERMILLION, Area, Curve, Dash, Limit, Plot, spread
+from thesis_pin.report.curves import PALETTE, VERMILLION, Area, Curve, Limit, Plot, apart, spread
 from thesis_pin.report.torque.document import TorqueReport
 from thesis_pin.report.torque.verdict import UNEXPLAINED
 
@@ -16,9 +16,7 @@ Array = NDArray[np.float64]
 Samples = NDArray[np.intp]
 
 PER_PLOT = 12
-"""Curves that one plot can show apart: six colours, two dashes."""
-
-_DASHES: tuple[Dash, ...] = ("solid", "dash")
+"""Curves that one plot can show apart, by colour and dash."""
 
 
 def motors(report: TorqueReport) -> list[list[Plot]]:
@@ -129,10 +127,7 @@ def _plot(
     areas: Sequence[Area] = (),
 ) -> Plot:
     """Curves over time; words are its title, its text and the label of its y axis."""
-    curves = [
-        Curve(name, values[:, k], PALETTE[k % 6], _DASHES[k // 6 % 2])
-        for k, name in enumerate(names)
-    ]
+    curves = [Curve(name, values[:, k], *apart(k)) for k, name in enumerate(names)]
     return Plot(*words, curves, report.joints.time, areas=areas)
 
 

@@ -7,7 +7,7 @@ from plotted import assert_arrives
 import pollard_pin
 from pollard_pin.motion.curves import appendix_b
 from pollard_pin.report.drawn import curves
-from pollard_pin.report.drawn.figures import figures
+from pollard_pin.report.drawn.figures import NUMBERS, figures
 from pollard_pin.specification import ACTUATOR_SYMBOLS, JOINT_SYMBOLS
 
 
@@ -69,6 +69,7 @@ def test_the_path_is_the_spray_tips_in_millimetres(report):
 def test_every_figure_comes_as_png_and_svg(report):
     names = ("positions", "velocities", "accelerations", "actuators", "margins", "tool")
     files = figures(report)
+    assert {name[:-4] for name in files if name.endswith(".png")} == set(NUMBERS)
     drawn = {name: content for name, content in files.items() if name.endswith(("png", "svg"))}
     assert set(drawn) == {f"{name}.{kind}" for name in names for kind in ("png", "svg")}
     for name, content in drawn.items():

@@ -9,7 +9,7 @@ from plotted import assert_arrives
 
 import scout_pin
 from scout_pin.report.drawn import curves
-from scout_pin.report.drawn.figures import figures
+from scout_pin.report.drawn.figures import NUMBERS, figures
 
 WALK = Path(__file__).parents[4] / "examples" / "walk.toml"
 
@@ -81,6 +81,7 @@ def test_bands_are_the_times_on_one_foot(report, plots):
 def test_every_figure_comes_as_png_and_svg(report):
     names = ("feet_and_torso", "joint_angles", "stick_figures", "torques", "stability")
     files = figures(report)
+    assert {name[:-4] for name in files if name.endswith(".png")} == set(NUMBERS)
     drawn = {f"{name}.{kind}" for name in names for kind in ("png", "svg")}
     assert set(files) == {*drawn, "joint_trajectory.yaml", "ticks.csv"}
     for name, content in files.items():

@@ -1,0 +1,1 @@
+"""Scenes as films and pictures: drawn by a headless Chromium, frame by frame."""
