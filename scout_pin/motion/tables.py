@@ -5,7 +5,8 @@ The format is described in docs/scout.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.joint_angles import placed
 from scout_pin.motion.variants import Rows
 from scout_pin.specification import JOINT_NAMES
-from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
+from thesis_pin.errors import BadInput, ModelWarning, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.interpolation import constant, interpolate
@@ -91,6 +92,9 @@ def read_gait_table(path: str | Path, robot: Scout | None = None) -> GaitSamples
             their names, with ``support`` and the torso's columns where they are known.
         robot: The biped whose joints they are; poses need none.
 
+    Columns of poses that aren't there are zero, which the notes say, and a
+    :class:`~thesis_pin.errors.ModelWarning` too where they are places.
+
     Raises:
         BadInput: The file can't be read, or a cell isn't a number.
         UnknownName: A column or a support is unknown.
@@ -116,9 +120,10 @@ def read_gait_table(path: str | Path, robot: Scout | None = None) -> GaitSamples
     asked = doubted(table.file, places, angular)
     lengths, turns = alike(places), alike([_unwrapped(column) for column in angular])
     poses = {column.name: column for column in (*lengths, *turns)}
-    samples = GaitSamples(table, time, tuple(support), poses, (), (*table.dialect.notes, *asked))
+    notes = (*table.dialect.notes, *asked)
+    samples = GaitSamples(table, time, tuple(support), poses, (), notes)
     if not joints:
-        return samples
+        return replace(samples, notes=(*notes, *_zeros(table, poses)))
     missing = [name for name in JOINT_NAMES if name not in columns]
     if missing:
         raise TrajectoryError(
@@ -139,6 +144,20 @@ def read_gait_table(path: str | Path, robot: Scout | None = None) -> GaitSamples
         angles=angles,
         notes=(*samples.notes, *meant.notes),
     )
+
+
+def _zeros(table: Table, poses: Mapping[str, Column]) -> Iterator[str]:
+    """What isn't in a table and is taken as zero; a warning where it is a place."""
+    words, missing = list[str](), [name for name in POSES if name not in poses]
+    for body in BODIES:
+        names = [name for name in missing if name.startswith(body)]
+        words += names if len(names) < 6 else [f"{names[0]} … {names[-1]}"]
+    if not words:
+        return
+    said = f"{', '.join(words)}: not in the table, taken as zero"
+    yield said
+    if any(name[-1] in "xyz" for name in missing):
+        warnings.warn(f"{table.file}: {said}", ModelWarning, stacklevel=2)
 
 
 def through_samples(samples: GaitSamples, method: str) -> Gait:

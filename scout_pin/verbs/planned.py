@@ -124,6 +124,7 @@ def _request(arguments: argparse.Namespace) -> PlanRequest:
                 remedy="Leave one of them out",
             )
         objective = "fastest"
+    _refuse_too_many(arguments, objective == "fastest")
     _refuse_other_units(arguments)
     asked: dict[str, Any] = dict(_numbers(arguments))
     if arguments.height is not None:
@@ -133,8 +134,33 @@ def _request(arguments: argparse.Namespace) -> PlanRequest:
     return PlanRequest(branch=arguments.branch, servo_line=not arguments.no_servo_line, **asked)
 
 
+def _refuse_too_many(arguments: argparse.Namespace, fastest: bool) -> None:
+    """Refuse a length, a time and a speed that can't all be chosen, by their flags.
+
+    Raises:
+        BadInput: One follows from the others.
+    """
+    names = ("step_length", "step_time", "walking_speed")
+    flags = [f"--{name.replace('_', '-')}" for name in names if getattr(arguments, name)]
+    if len(flags) == 3:
+        raise BadInput(
+            f"{flags[0]}, {flags[1]} and {flags[2]} are all given",
+            allowed="two of them",
+            remedy="Leave one out: it follows from the others",
+        )
+    if fastest and (timed := [flag for flag in flags if flag != "--step-length"]):
+        raise BadInput(
+            f"{' and '.join(timed)} beside the fastest walk, which finds its own time",
+            allowed="either",
+            remedy=f"Leave {' and '.join(timed)} or --fastest out",
+        )
+
+
 _LEAST = {
-    "side": (0.1, "mm", "20"),
+    "step_length": (1.0, "mm", "30"),
+    "foot_spacing": (1.0, "mm", "70"),
+    "lift": (1.0, "mm", "15"),
+    "side": (1.0, "mm", "20"),
     "turn": (0.5, "degrees", "10"),
     "margin": (0.1, "mm", "10"),
     "walking_speed": (1.0, "mm/s", "100"),
@@ -191,10 +217,15 @@ def _numbers(arguments: argparse.Namespace) -> Iterator[tuple[str, float]]:
 
 
 def _tables(arguments: argparse.Namespace) -> tuple[float, ServoGains]:
-    """The servos' rate and gains."""
-    from scout_pin.study.plan.results.tables import RATE
+    """The servos' rate and gains.
 
-    return (RATE if arguments.servo_rate is None else arguments.servo_rate), gains(arguments)
+    Raises:
+        BadInput: No servo is told that often.
+    """
+    from scout_pin.study.plan.results.tables import RATE, servo_rate
+
+    asked = arguments.servo_rate
+    return (RATE if asked is None else servo_rate("--servo-rate", asked)), gains(arguments)
 
 
 def _command(arguments: argparse.Namespace) -> str:

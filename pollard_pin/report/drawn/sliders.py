@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, USEFUL_BRANCHES, Branch
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
-from pollard_pin.report.drawn.view import BLACK, colour_of_part
+from pollard_pin.report.drawn.view import CHAINS, colour_of_part
 from pollard_pin.report.info import typical_pose
 from pollard_pin.specification import ACTUATOR_SYMBOLS, ACTUATORS
 from thesis_pin.errors import SingularPose
@@ -18,7 +18,6 @@ from thesis_pin.pages.live.layers import layers
 from thesis_pin.pages.live.page import LivePage
 from thesis_pin.pages.live.rig import Slider, Stand
 from thesis_pin.pages.scene import Group
-from thesis_pin.report.curves import GREEN, ORANGE, SKY
 from thesis_pin.tolerances import TOLERANCES
 
 Array = NDArray[np.float64]
@@ -164,13 +163,7 @@ def slider_page(
             group="robot",
             colour=colour_of_part,
         ),
-        groups=(
-            Group(
-                "robot",
-                "robot",
-                ((SKY, "chain 0"), (ORANGE, "chain 1"), (GREEN, "chain 2"), (BLACK, "tool")),
-            ),
-        ),
+        groups=(Group("robot", "robot", CHAINS),),
     )
     title = f"{robot.specification.name.capitalize()}, its tool moved by sliders"
     return LivePage(rig, drawn, title, command)

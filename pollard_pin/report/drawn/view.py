@@ -36,6 +36,14 @@ from thesis_pin.report.curves import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLIO
 YELLOW, BLACK, BASE = "#F0E442", "#1A1A1A", "#5F6B76"
 _CHAIN = {"chain1": ORANGE, "chain2": GREEN, "base": BASE, "tool": BLACK}
 
+CHAINS = (
+    (SKY, "chain 0: upper arm to wrist"),
+    (ORANGE, "chain 1: arm and rod"),
+    (GREEN, "chain 2: arm and rod"),
+    (BLACK, "tool"),
+)
+"""Colours of the robot's parts and what each is, for legends."""
+
 MARGIN_COLOURS = (VERMILLION, YELLOW, BLUE)
 _MARGIN_TEXTS = ("nearly singular", "near a singularity", "far from singularities")
 
@@ -99,9 +107,8 @@ def colour_of_part(name: str) -> str:
 
 
 def _groups(largest: tuple[float, float], force_scale: float) -> tuple[Group, ...]:
-    chains = ((SKY, "chain 0"), (ORANGE, "chain 1"), (GREEN, "chain 2"), (BLACK, "tool"))
     return (
-        Group("robot", "robot", chains),
+        Group("robot", "robot", CHAINS),
         Group("loops", "ball joints", ((CLOSED, "closed"), (OPEN, "open"))),
         Group(
             "tip",

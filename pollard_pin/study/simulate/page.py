@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pollard_pin.report.drawn.view import colour_of_part
+from pollard_pin.report.drawn.view import CHAINS, colour_of_part
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from pollard_pin.study.simulate.curves import plots
 from pollard_pin.study.simulate.result import Simulation
@@ -13,7 +13,7 @@ from thesis_pin.pages.drawing import CLOSED, OPEN, closure_items, robot_items
 from thesis_pin.pages.ghost import with_ghost
 from thesis_pin.pages.page import Page, Tile, closing_tables, html
 from thesis_pin.pages.scene import Ball, Group, Readout, Scene, Trace, levels, thinned
-from thesis_pin.report.curves import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILLION
+from thesis_pin.report.curves import BLUE, PURPLE, VERMILLION
 from thesis_pin.report.draws import draws_tables
 from thesis_pin.tolerances import TOLERANCES
 
@@ -55,7 +55,7 @@ def simulation_scene(simulation: Simulation) -> Scene:
         "A translucent robot shows the plan.",
         time=replay.time[keep],
         groups=(
-            Group("robot", "simulated robot", ((SKY, "chain 0"), (ORANGE, "1"), (GREEN, "2"))),
+            Group("robot", "simulated robot", CHAINS),
             Group("loops", "ball joints", ((CLOSED, "closed"), (OPEN, "open"))),
             Group("tip", "spray tip", ((BLUE, "within 1 mm"), (VERMILLION, "off its path"))),
             Group("trace", "its trace", ((VERMILLION, ""),)),

@@ -95,7 +95,7 @@ class CyclePlan:
         names = [label(BRANCHES[k]) for k in self.branches]
         return Gait(
             name="planned",
-            source=f"planned for {self.robot.specification.name}",
+            source=f"Planned for {self.robot.specification.name.capitalize()}",
             time_unit=1.0,
             curves={"torso": torso, **problem.steps.curves(pace)},
             phases=phases(pace),

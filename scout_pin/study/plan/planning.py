@@ -163,11 +163,11 @@ def _joined(later: Stretch, earlier: Stretch, side: str) -> Stretch:
 
 def origin(cycle: CyclePlan) -> str:
     """Where a planned gait comes from, in words."""
-    pace, name = cycle.pace, cycle.robot.specification.name
+    pace, name = cycle.pace, cycle.robot.specification.name.capitalize()
     how = f"{pace.step_length * 1e3:.4g} mm a step"
     if not cycle.way.straight:
         how = f"{way_words(pace, cycle.candidate.problem.steps)} in two steps"
     return (
-        f"planned for {name}: {how} of {pace.step_time:.4g} s, "
+        f"Planned for {name}: {how} of {pace.step_time:.4g} s, "
         f"margin {cycle.request.margin * 1e3:.3g} mm"
     )

@@ -131,3 +131,36 @@ def test_a_gait_in_degrees_whose_columns_say_radians_is_asked_about(columns, tmp
     with pytest.warns(ModelWarning, match="torso_roll reach .* as in torso_roll_deg"):
         gait = scout_pin.load_gait(tmp_path / "a.csv")
     assert any("torso_roll_deg" in note for note in gait.notes)
+
+
+def standing(folder, columns):
+    """Four rows of a knee bend that has these columns besides."""
+    file = folder / "bend.csv"
+    rows = [f"{t},double" + f",{0.21 - 0.01 * (t == 1)}" * len(columns) for t in range(4)]
+    file.write_text("\n".join([",".join(["t", "support", *columns]), *rows]) + "\n")
+    return file
+
+
+def test_places_that_a_table_leaves_out_are_zero_with_a_warning(tmp_path):
+    file = standing(tmp_path, ["torso_z"])
+    with pytest.warns(ModelWarning, match="left_foot_x … left_foot_yaw, right_foot_x … right_fo"):
+        gait = scout_pin.load_gait(file)
+    for body in BODIES[1:]:
+        assert not np.any([curve([0.0, 1.5]) for curve in gait.curves[body]])
+    assert any(
+        "torso_x, torso_y, torso_pitch, torso_roll, torso_yaw, left_foot_x …" in one
+        for one in gait.notes
+    )
+    report = scout_pin.gait_report(scout_pin.load(), gait, samples=11)
+    assert "taken as zero" in " ".join(report.document()["notes"])
+
+
+def test_angles_that_a_table_leaves_out_are_told_without_a_warning(columns, tmp_path):
+    left = {name: one for name, one in columns.items() if name[-1] not in "hlw"}
+    file = tmp_path / "places.csv"
+    file.write_text(written(left, ",", ".", "", "", ""))
+    notes = scout_pin.load_gait(file, smooth="none").notes
+    assert any(one.startswith("torso_pitch, torso_roll, torso_yaw, left_foot_p") for one in notes)
+    file.write_text(written(columns, ",", ".", "", "", ""))
+    notes = scout_pin.load_gait(file, smooth="none").notes
+    assert not any("taken as zero" in one for one in notes)

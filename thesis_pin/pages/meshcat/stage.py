@@ -73,7 +73,8 @@ def dress(
     """
     for name in ("top_color", "bottom_color"):
         drawn["/Background"].set_property(name, BACKGROUND)
-    for name in ("/Grid", "/Axes"):
+    # Drawn in software, meshcat's background takes a third of every frame: our page has the colour.
+    for name in ("/Background", "/Grid", "/Axes"):
         drawn[name].set_property("visible", False)
     middle, size = box.mean(axis=0), size_of_box(box)
     if camera is not None:

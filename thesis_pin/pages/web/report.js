@@ -49,6 +49,49 @@ function tieToClock(player, elements, margins) {
   measure();
 }
 
+// Width of what a printed page holds, in CSS pixels: A4 or Letter, upright, without its margins.
+const PAPER = 690;
+
+// The robot at its start, middle and end, on canvases that are printed in place of the player.
+function drawMoments(player) {
+  const make = (tag, more, ...children) => {
+    const element = Object.assign(document.createElement(tag), more);
+    element.append(...children);
+    return element;
+  };
+  const pictures = make("div", { className: "pictures" }), { duration } = player;
+  const moments = duration > 0 ? [["start", 0], ["middle", duration / 2], ["end", duration]]
+    : [["the pose", 0]];
+  player.stage.pictures(720, 620, moments.map(([, time]) => time), player, (source, k) => {
+    const [name, time] = moments[k];
+    const canvas = make("canvas", { width: source.width, height: source.height });
+    canvas.getContext("2d").drawImage(source, 0, 0);
+    pictures.append(make("figure", {}, canvas,
+      make("figcaption", { textContent: `${name}, ${time.toFixed(2)} s` })));
+  });
+  // What the colours mean, as the legend has it, of what is shown.
+  const legend = make("ul", {});
+  for (const line of document.querySelectorAll("#player .legend li")) {
+    if (!line.querySelector("input").checked) continue;
+    const copy = line.cloneNode(true);
+    copy.querySelectorAll("input, kbd").forEach((element) => element.remove());
+    legend.append(copy);
+  }
+  document.getElementById("moments").replaceChildren(pictures, legend);
+}
+
+// Before it goes to paper: the robot as pictures, and what is wider than a page made to fit.
+function prepareForPaper(player) {
+  addEventListener("beforeprint", () => {
+    for (const element of document.querySelectorAll(".plot, .drawing svg, .scroll table")) {
+      const wide = element.getBoundingClientRect().width;
+      const shrunk = element.matches("svg") ? element.parentElement : element;
+      shrunk.style.setProperty("--fit", Math.min(1, PAPER / wide));
+    }
+    if (player) drawMoments(player);
+  });
+}
+
 async function showReport(margins) {
   const stage = document.getElementById("player"), plots = document.getElementById("plots");
   let player = null;
@@ -70,6 +113,7 @@ async function showReport(margins) {
       complain(plots, error);
     }
   }
+  prepareForPaper(player);
   window.player = player;
   window.ready = true;
 }

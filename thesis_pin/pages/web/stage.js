@@ -102,6 +102,28 @@ function makeStage(THREE, element, scene) {
     renderer.setSize(width, height);
     stage.dirty = true;
   };
+  // Draw some moments, seen as at first, in a size of their own, and leave all as it was.
+  stage.pictures = (width, height, times, clock, take) => {
+    const place = camera.position.clone(), target = controls.target.clone(), now = clock.time;
+    const ratio = renderer.getPixelRatio();
+    renderer.setPixelRatio(1);
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.clearViewOffset();
+    stage.open = 1;
+    stage.look("3d");
+    times.forEach((time, k) => {
+      clock.time = time;
+      stage.draw();
+      take(renderer.domElement, k);
+    });
+    clock.time = now;
+    camera.position.copy(place);
+    controls.target.copy(target);
+    controls.update();
+    renderer.setPixelRatio(ratio);
+    stage.resize();
+  };
   stage.draw = () => { renderer.render(world, camera); stage.dirty = false; };
   return stage;
 }

@@ -23,6 +23,10 @@ from thesis_pin.tables.writing import WrittenUnits, heading, texts
 RATE = 50.0
 """How often a hobby servo is told where to go [Hz]: a pulse every 20 ms."""
 
+RATES = (1.0, 1e4)
+"""Least and greatest rate of a table [Hz]: hobby servos are told 50 to 333 times a second, the
+drives of industrial robots up to 8 000 times."""
+
 
 def servo_tables(
     robot: Scout, gait: Gait, rate: float = RATE, gains: ServoGains | None = None
@@ -40,11 +44,11 @@ def servo_tables(
         servos follow them, see :func:`scout_pin.study.servo.sag_compensated`.
 
     Raises:
-        BadInput: The rate isn't positive, or makes more rows than a table may have.
+        BadInput: No servo is told that often, or it makes more rows than a table may have.
     """
     walking(robot)
     instance("gait", gait, Gait, "scout_pin.plan_gait()")
-    rate = real("the servos' rate", rate, low=1e-3, high=1e6, unit="Hz")
+    rate = servo_rate("the servos' rate", rate)
     last = (gait.end - gait.start) * gait.time_unit
     count = int(np.ceil(last * rate * (1.0 - 1e-12))) + 1
     if count > LIMITS.rows:
@@ -75,3 +79,18 @@ def servo_tables(
         )
         for name, angles in (("joints.csv", joints.q), ("commands.csv", commands))
     }
+
+
+def servo_rate(name: str, rate: float) -> float:
+    """A rate at which servos can be told where to go [Hz].
+
+    Raises:
+        BadInput: It is outside :data:`RATES`.
+    """
+    if (found := real(name, rate)) < RATES[0] or found > RATES[1]:
+        raise BadInput(
+            f"{name} is {rate:g} Hz",
+            allowed=f"{RATES[0]:g} to {RATES[1]:g} Hz",
+            remedy="Hobby servos take 50 to 333 Hz, industrial drives up to 8000 Hz",
+        )
+    return found

@@ -67,7 +67,12 @@ def test_commands_are_ahead_by_torque_and_damping_over_the_stiffness(robot):
     assert np.abs(want).max() > 0.01
 
 
-@pytest.mark.parametrize(("rate", "said"), [(0.0, "rate"), (-50.0, "rate"), (1e6, "rows")])
-def test_rates_that_make_no_table_are_refused(robot, rate, said):
-    with pytest.raises(BadInput, match=said):
+@pytest.mark.parametrize("rate", [0.0, -50.0, 0.02, 2e4, 1e9, float("nan")])
+def test_rates_at_which_no_servo_is_told_are_refused(robot, rate):
+    with pytest.raises(BadInput, match="the servos' rate is"):
         servo_tables(robot, walk(), rate)
+
+
+def test_more_rows_than_a_table_may_have_are_refused(robot):
+    with pytest.raises(BadInput, match="10000 Hz make 600,001 rows of 60 s"):
+        servo_tables(robot, walk(2.0), 1e4)
