@@ -50,7 +50,7 @@ def check(arguments: argparse.Namespace) -> ExitCode:
 
 def torque(arguments: argparse.Namespace) -> ExitCode:
     """Report on a motion of any robot."""
-    if arguments.beside:
+    if arguments.beside is not None:
         return deliver(arguments, "working out the torques", lambda _: _paired(arguments), **TWO)
     return deliver(
         arguments,
@@ -81,7 +81,11 @@ def view(arguments: argparse.Namespace) -> ExitCode:
     from thesis_pin.pages.reports.torque_scene import scene
 
     def make(_: object) -> Scene:
-        return scene_of(_paired(arguments)) if arguments.beside else scene(_report(arguments))
+        return (
+            scene_of(_paired(arguments))
+            if arguments.beside is not None
+            else scene(_report(arguments))
+        )
 
     return show_scene(arguments, "thesis-pin", make)
 

@@ -83,7 +83,7 @@ def add_beside_robot(words: Words) -> None:
 
 def asked(arguments: argparse.Namespace) -> bool:
     """Whether something is to be shown beside the first motion."""
-    return any(getattr(arguments, name, None) for name in ("beside", "beside_robot"))
+    return any(getattr(arguments, name, None) is not None for name in ("beside", "beside_robot"))
 
 
 def second_of(arguments: argparse.Namespace, motion: str) -> argparse.Namespace:
@@ -94,12 +94,12 @@ def second_of(arguments: argparse.Namespace, motion: str) -> argparse.Namespace:
         motion: Name of the one that says which motion.
     """
     other = argparse.Namespace(**vars(arguments))
-    if arguments.beside:
+    if arguments.beside is not None:
         setattr(other, motion, arguments.beside)
         for own in ("duration", "placement"):  # of a curve without a file
             if hasattr(other, own):
                 setattr(other, own, None)
-    if getattr(arguments, "beside_robot", None):
+    if getattr(arguments, "beside_robot", None) is not None:
         other.specification = arguments.beside_robot
     return other
 
