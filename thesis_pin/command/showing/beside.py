@@ -128,15 +128,14 @@ class Beside:
     """
 
     hooks: Hooks
-    first: Any
-    second: Any
+    first: Report
+    second: Report
     names: tuple[str, str]
 
     @property
     def within_limits(self) -> bool | None:
         """Of the first."""
-        answer: bool | None = self.first.within_limits
-        return answer
+        return self.first.within_limits
 
     @property
     def reason(self) -> str | None:
@@ -147,11 +146,11 @@ class Beside:
     @property
     def durations(self) -> tuple[float, float]:
         """Of both [s]."""
-        first, second = (float(one.joints.time[-1] - one.joints.time[0]) for one in self._both)
-        return first, second
+        first, second = (_of(self.hooks.poses)(one)[2] for one in self._both)
+        return float(first[-1] - first[0]), float(second[-1] - second[0])
 
     @property
-    def _both(self) -> tuple[Any, Any]:
+    def _both(self) -> tuple[Report, Report]:
         return self.first, self.second
 
     def doubts(self) -> list[str]:
@@ -172,8 +171,7 @@ class Beside:
 
     def columns(self) -> Mapping[str, NDArray[np.float64] | Sequence[str]]:
         """The first one's samples."""
-        columns: Mapping[str, NDArray[np.float64] | Sequence[str]] = self.first.columns()
-        return columns
+        return self.first.columns()
 
 
 def reports(hooks: Hooks, first: Report, second: Report) -> Beside:
