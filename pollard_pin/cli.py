@@ -120,6 +120,7 @@ ROBOT = Robot(
     movement="report.movement:path_movement",
     simulation="study.simulate.draws:simulate_path",
     inverse_kinematics="model:Pollard.inverse_kinematics",
+    motion_flag="path",
 )
 
 COMMAND = Command(
