@@ -18,6 +18,7 @@ from thesis_pin.command.options import (
     add_smooth,
 )
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
+from thesis_pin.command.showing.figures import add_figures
 
 
 def _which_path(words: argparse.ArgumentParser) -> None:
@@ -83,6 +84,7 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
     add_points(words, 101)
     add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
+    add_figures(words)
 
 
 def _which_engine(words: argparse.ArgumentParser) -> None:

@@ -8,6 +8,7 @@ from thesis_pin.command import options
 from thesis_pin.command.numbers import add_count, add_number
 from thesis_pin.command.options import add_json
 from thesis_pin.command.registry import Words
+from thesis_pin.command.showing.figures import add_figures
 
 _STEPS = (
     ("--step-length", "MM", True, "from one footfall to the next (default: 30; none if aside)"),
@@ -58,5 +59,6 @@ def which_walk(words: Words) -> None:
     words.add_argument(
         "--out", metavar="DIR", help="write gaits, joint tables, report.json, samples.csv, figures"
     )
+    add_figures(words)
     add_json(words, "the plan")
     words.add_argument("--html", metavar="FILE|-", help="write the walk's report as a page to mail")

@@ -11,6 +11,7 @@ from thesis_pin.command.options import add_jobs, add_json
 from thesis_pin.command.registry import Robot, Words, found
 from thesis_pin.command.results import Report, deliver
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.showing.figures import add_figures
 from thesis_pin.command.verbs import planned
 from thesis_pin.command.warned import warned
 from thesis_pin.numeric.workers import silent
@@ -59,6 +60,7 @@ def add_simulation(words: Words) -> None:
     add_count(words, "--seed", seed, least=0, default=0)
     add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
+    add_figures(words)
     add_json(words, "the simulation")
     words.add_argument(
         "--html", metavar="FILE|-", help="write it as a page to mail, the plan beside it as a ghost"

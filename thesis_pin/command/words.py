@@ -15,6 +15,7 @@ from thesis_pin.command.options import (
     add_smooth,
 )
 from thesis_pin.command.registry import Words
+from thesis_pin.command.showing.figures import add_figures
 
 
 def which_robot(words: Words) -> None:
@@ -104,6 +105,7 @@ def which_grid(words: Words) -> None:
 def where_to(words: Words) -> None:
     """Where a workspace is written."""
     words.add_argument("--out", metavar="DIR", help="write workspace.json, .csv and figures")
+    add_figures(words)
     words.add_argument(
         "--html", metavar="FILE|-", help="write it as a page to mail: picture, numbers, animation"
     )
