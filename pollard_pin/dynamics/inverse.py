@@ -25,6 +25,7 @@ from pollard_pin.kinematics.screws import Posture
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion
 from pollard_pin.motion.trajectory import SolvedTrajectory, joint_trajectory
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import WrongShape
 from thesis_pin.numeric.arrays import finite_array, together
 from thesis_pin.numeric.checks import instance
@@ -33,7 +34,7 @@ from thesis_pin.numeric.trajectory import JointTrajectory
 
 
 @dataclass(frozen=True)
-class PollardDynamics:
+class PollardDynamics(Brief):
     """Torques and reactions of a motion.
 
     Attributes:

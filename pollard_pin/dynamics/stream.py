@@ -13,13 +13,14 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch
 from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolMotion, ToolPath
 from pollard_pin.motion.trajectory import check_steps, joint_trajectory
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.elementwise import BLOCK, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 
 @dataclass(frozen=True)
-class TorqueBlock:
+class TorqueBlock(Brief):
     """Some consecutive samples of a path.
 
     Attributes:

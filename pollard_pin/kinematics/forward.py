@@ -26,6 +26,7 @@ from pollard_pin.coordinates import pose_from_placement
 from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import ACTUATORS, PASSIVE
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import Unreachable
 from thesis_pin.numeric.arrays import finite_array, spread, wrap
 from thesis_pin.numeric.turns import fitted
@@ -38,7 +39,7 @@ _NODES = np.arange(16) * (2 * np.pi / 16)  # more than 2·4 + 1 samples fix a po
 
 
 @dataclass(frozen=True)
-class Assemblies:
+class Assemblies(Brief):
     """All assembly modes of one set of motor angles or a stack.
 
     Attributes:

@@ -12,6 +12,7 @@ import numpy as np
 
 from pollard_pin.specification import Specification
 from pollard_pin.urdf import anchors
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import choice, shown
 from thesis_pin.numeric.turns import need_turns
@@ -133,7 +134,7 @@ class SideNumbers(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Geometry:
+class Geometry(Brief):
     """Lengths and angles, with the side chains stacked.
 
     Attributes:

@@ -20,6 +20,7 @@ from pollard_pin.kinematics.geometry import Geometry
 from pollard_pin.kinematics.rates import joint_rates
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import ACTUATORS
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import SingularPose
 from thesis_pin.numeric.elementwise import blocks, cosine_sine
 
@@ -74,7 +75,7 @@ def _jacobian(posture: Posture, velocity: np.ndarray, omega: np.ndarray) -> np.n
 
 
 @dataclass(frozen=True)
-class Actuation:
+class Actuation(Brief):
     """How well the six motors hold the tool; lengths in units of :data:`LENGTH`.
 
     Attributes:

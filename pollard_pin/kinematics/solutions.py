@@ -15,11 +15,14 @@ from pollard_pin.kinematics.geometry import Branch, Geometry
 from pollard_pin.kinematics.reach import why_not
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.specification import JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell
 from thesis_pin.errors import SingularPose, Unreachable, WrongShape
 from thesis_pin.numeric.checks import element
 from thesis_pin.numeric.elementwise import LONG
 from thesis_pin.numeric.long import gathered
 from thesis_pin.numeric.turns import TURN
+from thesis_pin.report.cells import solutions_cell
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -47,7 +50,7 @@ class Solved(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Solutions:
+class Solutions(Brief):
     """Inverse kinematics of one pose or a stack, on one branch or several.
 
     Where several branches were asked for, every attribute has an axis of
@@ -103,6 +106,11 @@ class Solutions:
     def reachable(self) -> np.ndarray:
         """Whether a solution exists, joint limits aside, shape ``(...)``."""
         return np.asarray(~np.isnan(self.angles).any(axis=-1))
+
+    def _cell(self) -> Cell:
+        return solutions_cell(
+            self, "Inverse kinematics", list(map(str, self.branches)), JOINT_SYMBOLS
+        )
 
     @property
     def beyond_limits(self) -> np.ndarray:

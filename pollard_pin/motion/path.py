@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pollard_pin.coordinates import pose_from_placement, pose_rates, tool_motion
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
@@ -42,7 +43,7 @@ Sampled = tuple[BodyMotion, np.ndarray]
 
 
 @dataclass(frozen=True)
-class ToolMotion:
+class ToolMotion(Brief):
     """A sampled path.
 
     Attributes:
@@ -118,7 +119,7 @@ class LongMotion(ToolMotion):
 
 
 @dataclass(frozen=True)
-class ToolPath:
+class ToolPath(Brief):
     """The tool's motion over time.
 
     Attributes:

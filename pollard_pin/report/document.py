@@ -27,10 +27,12 @@ from pollard_pin.report import decision, verdict
 from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.report.uncertainty.document import uncertainty
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.display.cell import Cell
 from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report import pace
+from thesis_pin.report.cells import report_cell
 from thesis_pin.report.info import assumptions, odd_sizes
 from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
@@ -57,6 +59,16 @@ class TrajectoryReport(TrajectoryNumbers):
         from pollard_pin.report.reason import sentences
 
         return sentences(self)
+
+    def _cell(self) -> Cell:
+        condition, margin = self.holding.condition, self.solutions.margin
+        force = self.loop_force_size.max()
+        note = (
+            f"Condition number {condition.min():.2f} to {condition.max():.2f}; reach margin at "
+            f"least {margin.min():z.3f}; ball joints carry up to {force:.3f} N."
+        )
+        title = f"{self.robot.specification.name} on {self.path.name}: {self.path.duration:g} s"
+        return report_cell(self, title, self.actuators.table(), note)
 
     @property
     def reason(self) -> str | None:

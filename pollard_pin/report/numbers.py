@@ -22,6 +22,7 @@ from pollard_pin.specification import (
     ACTUATOR_NAMES,
     ACTUATORS,
 )
+from thesis_pin.display.brief import Brief
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.numeric.arrays import ascending
 from thesis_pin.numeric.elementwise import blocks, intervals
@@ -38,7 +39,7 @@ _REACTION_SAMPLES = 2000  # joint reactions are a loop over samples; peaks need 
 
 
 @dataclass(frozen=True)
-class TrajectoryNumbers:
+class TrajectoryNumbers(Brief):
     """Everything known of a path on a robot.
 
     Attributes:

@@ -14,6 +14,7 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, Branch, one_branch
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.kinematics.singularity import LENGTH, actuation
 from pollard_pin.model import Pollard
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import function, instance, whole
@@ -29,7 +30,7 @@ _MOST = 20_000_000
 
 
 @dataclass(frozen=True)
-class Workspace:
+class Workspace(Brief):
     """Reach and conditioning on a grid of positions.
 
     Attributes:

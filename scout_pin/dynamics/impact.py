@@ -17,6 +17,7 @@ from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import SIDES
 from thesis_pin.contacts.cones import in_sole_axes
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import choice
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -24,7 +25,7 @@ from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
 
 @dataclass(frozen=True)
-class Impact:
+class Impact(Brief):
     """An inelastic landing: what the velocity loses in an instant.
 
     Attributes:

@@ -12,13 +12,14 @@ from scout_pin.model import Scout
 from scout_pin.motion.gait import Gait, GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from thesis_pin.contacts.dynamics import ContactDynamics
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.elementwise import BLOCK, blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
 
 
 @dataclass(frozen=True)
-class TorqueBlock:
+class TorqueBlock(Brief):
     """Some consecutive samples of a gait.
 
     Attributes:

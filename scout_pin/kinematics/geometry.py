@@ -9,6 +9,7 @@ import numpy as np
 
 from scout_pin.kinematics.signs import SUMMANDS, angle_sums
 from scout_pin.specification import JOINT_NAMES, SIDES, Specification
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.arrays import wrap
 from thesis_pin.numeric.rotations import rotation
 from thesis_pin.numeric.turns import need_turns
@@ -16,7 +17,7 @@ from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
-class LegGeometry:
+class LegGeometry(Brief):
     """The lengths and angles of one leg that its kinematics need.
 
     Attributes:

@@ -13,9 +13,12 @@ from scout_pin.kinematics.closed_form.stack import ClosedForm
 from scout_pin.kinematics.forward import leg_forward_kinematics
 from scout_pin.kinematics.geometry import LegGeometry
 from scout_pin.kinematics.signs import PLANES, SUMMANDS, sum_angles
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell
 from thesis_pin.numeric.checks import element
 from thesis_pin.numeric.turns import fitted
 from thesis_pin.report.branches import label
+from thesis_pin.report.cells import solutions_cell
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -35,7 +38,7 @@ class Solved:
 
 
 @dataclass(frozen=True)
-class LegSolutions:
+class LegSolutions(Brief):
     """All branches of a leg's inverse kinematics, for one pose or a stack.
 
     At a pose that leaves an angle free a branch holds one member of its family.
@@ -76,6 +79,12 @@ class LegSolutions:
         else:
             excess = np.array(self.solved[SUMMANDS:])
         return excess if excess.shape[-1] == 8 else excess[..., PLANES]
+
+    def _cell(self) -> Cell:
+        joints = [f"θ{k + 1} °" for k in range(6)]
+        return solutions_cell(
+            self, "Inverse kinematics of a leg", list(map(label, BRANCHES)), joints
+        )
 
     @property
     def sine_axis(self) -> np.ndarray:

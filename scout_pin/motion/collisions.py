@@ -16,6 +16,7 @@ import pinocchio as pin
 from scout_pin.coordinates import free_flyer_state
 from scout_pin.model import Scout
 from scout_pin.motion.gait import GaitMotion
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.arrays import ascending
 from thesis_pin.numeric.elementwise import BLOCK
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -41,7 +42,7 @@ class Touch:
 
 
 @dataclass(frozen=True)
-class Collisions:
+class Collisions(Brief):
     """Links that touch along a motion.
 
     Attributes:

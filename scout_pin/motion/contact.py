@@ -14,6 +14,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from scout_pin.specification import SIDES
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.model.strict import Strict
 from thesis_pin.numeric.piecewise import Piecewise
@@ -36,7 +37,7 @@ class Phase(Strict):
     support: Support
 
 
-class Phased:
+class Phased(Brief):
     """What has contact phases in order begins and ends with them."""
 
     phases: tuple[Phase, ...]

@@ -17,6 +17,7 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.over_floor import OverFloor, turn_between, turned_state
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance, whole
@@ -58,7 +59,7 @@ class Gap:
 
 
 @dataclass(frozen=True)
-class Closure:
+class Closure(Brief):
     """How a gait's end fits its start.
 
     Attributes:

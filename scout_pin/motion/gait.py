@@ -20,6 +20,7 @@ import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, Phased, check_stance
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import ascending, finite_array
 from thesis_pin.numeric.checks import choice, real, whole
@@ -39,7 +40,7 @@ BODIES = ("torso", "left_foot", "right_foot")
 
 
 @dataclass(frozen=True)
-class GaitMotion:
+class GaitMotion(Brief):
     """A sampled gait: what inverse kinematics and dynamics work on.
 
     Attributes:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thesis_pin.numeric.arrays import median
 from thesis_pin.numeric.interpolation import hermite
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.numeric.rotations import euler_placement, euler_rate_matrix, rotation
@@ -166,7 +167,7 @@ def turn_between(start: np.ndarray, end: np.ndarray) -> float:
         turn = float(np.arctan2(m[1, 0] - m[0, 1], m[0, 0] + m[1, 1]))
         whole_turns = round((float(after[2, 0] - before[2, 0]) - turn) / (2 * np.pi))
         found.append(turn + 2 * np.pi * whole_turns)
-    return float(np.median(found))
+    return float(median(found))
 
 
 def turned_state(start: np.ndarray, turn: float) -> np.ndarray:

@@ -24,11 +24,13 @@ from scout_pin.report.judged.stance import Stance, branch_asked, stance
 from scout_pin.report.numbers import GaitNumbers
 from scout_pin.report.uncertainty.document import uncertainty
 from scout_pin.specification import JOINT_NAMES, JOINT_SYMBOLS, SIDES
+from thesis_pin.display.cell import Cell
 from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.elementwise import LONG, blocks
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report import pace
+from thesis_pin.report.cells import report_cell
 from thesis_pin.report.info import assumptions, odd_sizes
 from thesis_pin.report.pace import largest
 from thesis_pin.version import __version__
@@ -73,6 +75,18 @@ class GaitReport(GaitNumbers):
         from scout_pin.report.reason import sentences
 
         return sentences(self)
+
+    def _cell(self) -> Cell:
+        time, margin = self.joints.time, float(self.margin.min())
+        note = (
+            f"ZMP margin at least {margin * 1e3:z.1f} mm; servos at up to "
+            f"{self.servo_use.max():.0%} of their torque-speed line."
+        )
+        title = (
+            f"{self.robot.specification.name}, gait {self.gait.name}: {time[-1] - time[0]:g} s, "
+            f"{len(time)} samples"
+        )
+        return report_cell(self, title, self.actuators.table(), note)
 
     @property
     def reason(self) -> str | None:

@@ -19,6 +19,7 @@ from scout_pin.report.judged.limits import FastestTimeUnit, TimeUnits, fastest_t
 from scout_pin.report.judged.speeds import Speeds
 from scout_pin.specification import JOINT_NAMES
 from thesis_pin.contacts.dynamics import ContactDynamics
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.elementwise import blocks, intervals
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise_parts
@@ -31,7 +32,7 @@ if TYPE_CHECKING:  # exact gaits leave nothing open
 
 
 @dataclass(frozen=True)
-class GaitNumbers:
+class GaitNumbers(Brief):
     """Everything known of a gait on a robot.
 
     Attributes:

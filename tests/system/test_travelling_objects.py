@@ -1,6 +1,7 @@
 """Robots, solutions, motions, reports and errors travel: pickle, deepcopy, other processes."""
 
 import copy
+import html
 import multiprocessing
 import pickle
 from functools import cache
@@ -231,3 +232,22 @@ def test_every_public_class_is_tried():
             thing = getattr(package, name)
             if isinstance(thing, type) and not issubclass(thing, Exception):
                 assert name in known, name
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_an_object_shows_itself_in_a_line_and_a_short_table(name):
+    """No address, no thousands of numbers; a scene's cell plays and is tried by itself."""
+    thing = made(name)
+    line = repr(thing)
+    assert len(line) <= 200
+    assert " at 0x" not in line
+    assert "\n" not in line
+    if hasattr(thing, "_repr_html_") and name != "Scene":
+        cell = thing._repr_html_()
+        assert " at 0x" not in cell
+        assert cell.count("<tr") <= 22  # twenty rows, headings, what is left out
+        assert len(cell) < 40_000
+        verdict = getattr(thing, "verdict", None)
+        if verdict is not None:
+            assert html.escape(verdict()[0]) in cell
+            assert cell.index(html.escape(verdict()[0])) < cell.index("<table")

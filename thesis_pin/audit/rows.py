@@ -9,6 +9,8 @@ from typing import Literal
 
 from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.slips import Cause
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell
 
 Verdict = Literal["holds", "misprint", "wrong", "illegible", "not checkable", "unexplained"]
 VERDICTS: tuple[Verdict, ...] = (
@@ -29,7 +31,7 @@ Effect = dict[str, float | str]
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Brief):
     """The audit's answer on one equation.
 
     Attributes:
@@ -114,7 +116,7 @@ class Section:
 
 
 @dataclass(frozen=True)
-class AuditReport:
+class AuditReport(Brief):
     """A finished audit.
 
     Attributes:
@@ -134,6 +136,13 @@ class AuditReport:
     causes: Mapping[str, Cause]
     beyond: tuple[tuple[str, str], ...] = ()
     effects: tuple[str, ...] = ()
+
+    def _cell(self) -> Cell:
+        chapters = self.by_chapter
+        rows = [(name, *map(str, counts.values())) for name, counts in chapters.items()]
+        rows.append(("all", *map(str, self.counts.values())))
+        said = [f"{self.counts['holds']} of {len(self.rows)} printed equations hold."]
+        return Cell(f"Audit of the {self.thesis}", said, None, ("chapter", *VERDICTS), rows)
 
     @property
     def counts(self) -> dict[str, int]:

@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike
 
 from thesis_pin.contacts.facets import cone_facets
 from thesis_pin.contacts.polar import beyond_cone
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.numeric.arrays import finite_array, vector
 from thesis_pin.numeric.checks import real
@@ -38,7 +39,7 @@ FRICTION_EDGES = 8
 
 
 @dataclass(frozen=True)
-class Contact:
+class Contact(Brief):
     """The wrench cone of one sole, in the sole's axes about its origin.
 
     Attributes:

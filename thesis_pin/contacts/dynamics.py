@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from thesis_pin.contacts.cones import Contact
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.checks import element
 from thesis_pin.numeric.elementwise import LONG, Samples
 from thesis_pin.numeric.long import gathered
@@ -18,7 +19,7 @@ from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
-class ContactDynamics:
+class ContactDynamics(Brief):
     """Joint torques and floor wrenches of a motion.
 
     Attributes:

@@ -10,6 +10,7 @@ import numpy as np
 from thesis_pin.contacts.cones import Contact
 from thesis_pin.contacts.polar import beyond_cone
 from thesis_pin.contacts.programme import ConeProgramme, Held
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.arrays import skew
 
 Pair = tuple[np.ndarray, np.ndarray]
@@ -44,7 +45,7 @@ def share_load(
 
 
 @dataclass(frozen=True)
-class LoadSharing:
+class LoadSharing(Brief):
     """The problem of many samples: |target − matrix w|² as small as the two cones allow.
 
     w is the first foot's wrench, forces scaled to moments; the second foot carries the rest

@@ -7,7 +7,7 @@ first; the force reported for a loop acts on the first frame's body.
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import inf
@@ -128,6 +128,11 @@ class ClosedRobot(LoadedRobot):
         free = np.ones(self.model.nv, dtype=bool)
         free[held] = False
         self.passive = np.flatnonzero(free)
+
+    def _shown(self) -> Iterator[tuple[str, object]]:
+        yield from super()._shown()
+        yield "motors", tuple(motor.name for motor in self.motors)
+        yield "loops", tuple(loop.name for loop in self.loops)
 
     def led(self, model: pin.Model, joints: Sequence[str], loops: Sequence[Loop]) -> ClosedRobot:
         """A copy for kinematics, of which other joints and a base are led, not motors.

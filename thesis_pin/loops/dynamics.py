@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.surveying import surveyed
@@ -40,7 +41,7 @@ _CHUNK = 2048  # samples worked on at once, so that memory stays bounded
 
 
 @dataclass(frozen=True)
-class LoopDynamics:
+class LoopDynamics(Brief):
     """Motor torques and loop forces of a motion.
 
     Attributes:

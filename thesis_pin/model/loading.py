@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import sys
 import weakref
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import pinocchio as pin
 
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell, values_cell
 from thesis_pin.errors import BadInput, ModelError, UnknownName
 from thesis_pin.numeric.checks import instance, shown
 
@@ -170,7 +172,7 @@ def joint_id(model: pin.Model, name: str, *, where: str = "") -> int:
     return int(model.getJointId(name))
 
 
-class LoadedRobot:
+class LoadedRobot(Brief):
     """A Pinocchio model with its data, geometry and the URDF it came from.
 
     It has the attributes existing code expects of a ``pin.RobotWrapper``
@@ -214,6 +216,21 @@ class LoadedRobot:
         self.data = self.model.createData()
         self.q0 = pin.neutral(self.model)
         self.v0 = np.zeros(self.model.nv)
+
+    def _shown(self) -> Iterator[tuple[str, object]]:
+        yield "name", str(self.model.name)
+        yield "joints", tuple(self.model.names)[1:]
+        yield from (("nq", self.model.nq), ("nv", self.model.nv))
+        yield "mass", float(pin.computeTotalMass(self.model))
+
+    def _cell(self) -> Cell:
+        meanings = {
+            "joints": "In the model's order, the root's first.",
+            "nq": "Numbers of a configuration.",
+            "nv": "Numbers of a velocity: degrees of freedom of the tree.",
+            "mass": "Of all links [kg].",
+        }
+        return values_cell(self, self._shown(), meanings)
 
     @property
     def description(self) -> Description:

@@ -21,6 +21,7 @@ from typing import (
     get_type_hints,
 )
 
+from thesis_pin.display.brief import ROOM, Brief
 from thesis_pin.model.limits import LIMITS, Key
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ class _Fields:
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True)
-class Strict:
+class Strict(Brief):
     """Base of everything read from a file: no unknown keys, no NaN, immutable.
 
     Annotations of a class are its fields, in pydantic's terms; objects have pydantic's methods
@@ -132,7 +133,11 @@ class Strict:
         return hash((type(self), *(value for _, value in self)))
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self)})"
+        whole = f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self)})"
+        return whole if len(whole) <= ROOM else super().__repr__()
+
+    def _shown(self) -> Iterator[tuple[str, object]]:
+        return iter(self)
 
     def __setattr__(self, name: str, value: object) -> NoReturn:
         raise AttributeError(f"{type(self).__name__} is immutable; model_copy() makes another")

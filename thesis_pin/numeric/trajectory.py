@@ -7,13 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.elementwise import Samples
 from thesis_pin.numeric.rotations import transform
 from thesis_pin.numeric.vectors import cross, into, rows
 
 
 @dataclass(frozen=True)
-class JointTrajectory:
+class JointTrajectory(Brief):
     """Joint positions, rates and accelerations over time.
 
     Attributes:
@@ -44,7 +45,7 @@ class JointTrajectory:
 
 
 @dataclass(frozen=True)
-class BodyMotion:
+class BodyMotion(Brief):
     """Motion of one rigid body in the world frame.
 
     Attributes:

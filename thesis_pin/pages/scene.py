@@ -14,6 +14,7 @@ from typing import ClassVar, Literal, get_args
 
 import numpy as np
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
 from thesis_pin.numeric.arrays import thinned as thinned
 
@@ -49,7 +50,7 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Item:
+class Item(Brief):
     """Common to everything that is drawn.
 
     Attributes:
@@ -218,7 +219,7 @@ class Triad(Item):
 
 
 @dataclass(frozen=True)
-class Readout:
+class Readout(Brief):
     """A value shown as text beside the picture.
 
     Attributes:
@@ -237,7 +238,7 @@ class Readout:
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(Brief):
     """Everything a page has to know.
 
     Attributes:

@@ -7,9 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell
+from thesis_pin.report.cells import table_cell
+from thesis_pin.report.tables import Table
+
+ROUNDING = 1e-9
+"""Share of a column's largest number below which tables for notebooks say 0."""
+
 
 @dataclass(frozen=True)
-class ActuatorSummary:
+class ActuatorSummary(Brief):
     """What each actuator has to do over a motion; arrays of shape ``(k,)``.
 
     Attributes:
@@ -30,6 +38,28 @@ class ActuatorSummary:
     positive_work: np.ndarray
     negative_work: np.ndarray
 
+    def table(self, units: Sequence[tuple[str, str]] | None = None) -> Table:
+        """The same as a table.
+
+        Args:
+            units: Of each actuator's load and speed; None where all turn.
+        """
+        units = units or [("N·m", "rad/s")] * len(self.names)
+        load, speed = ([pair[k] for pair in units] for k in (0, 1))
+        watts, joules = ["W"] * len(units), ["J"] * len(units)
+        columns = {
+            "motor": self.names,
+            "peak": _texts(self.peak_torque, load),
+            "RMS": _texts(self.rms_torque, load),
+            "peak speed": _texts(self.peak_speed, speed),
+            "peak power": _texts(self.peak_power, watts),
+            "net work": _texts(self.net_work, joules, self.positive_work),
+        }
+        return Table.of("Motors", columns)
+
+    def _cell(self) -> Cell:
+        return table_cell(self.table())
+
     def document(self) -> dict[str, np.ndarray]:
         """JSON-ready, without the names."""
         own = {name: values for name, values in vars(self).items() if name != "names"}
@@ -39,6 +69,13 @@ class ActuatorSummary:
     def net_work(self) -> np.ndarray:
         """Work given minus work taken back [J]."""
         return np.asarray(self.positive_work + self.negative_work)
+
+
+def _texts(values: np.ndarray, units: Sequence[str], size: np.ndarray | None = None) -> list[str]:
+    """Numbers with units, 0 for what is only rounding beside the largest of a column."""
+    least = ROUNDING * np.abs(values if size is None else size).max(initial=0.0)
+    told = np.where(np.abs(values) <= least, 0.0, values)
+    return [f"{x:z.4g} {unit}" for x, unit in zip(told, units, strict=True)]
 
 
 def summarise(

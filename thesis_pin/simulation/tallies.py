@@ -8,6 +8,9 @@ from typing import Protocol
 
 import numpy as np
 
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell
+
 QUANTILES = (0.05, 0.5, 0.95)
 """Of draws, in summaries."""
 
@@ -37,7 +40,7 @@ Tries = Sequence[Sequence[Criterion]]
 """The criteria of each try, in one order."""
 
 
-class Tally(ABC):
+class Tally(ABC, Brief):
     """Several tries of a motion by any robot, and whether they keep what is asked."""
 
     report: Doubted
@@ -46,6 +49,20 @@ class Tally(ABC):
     @abstractmethod
     def tries(self) -> Tries:
         """What is asked of each try, with its answers."""
+
+    @abstractmethod
+    def verdict(self) -> list[str]:
+        """The answer in plain sentences, the most important first."""
+
+    def _cell(self) -> Cell:
+        names = [one.name for one in self.tries[0]]
+        met = np.array([[one.met for one in each] for each in self.tries]).sum(axis=0)
+        rows = [
+            (name.replace("_", " "), f"{count} of {len(self.tries)}")
+            for name, count in zip(names, met, strict=True)
+        ]
+        heads = ("what is asked", "tries that keep it")
+        return Cell(type(self).__name__, self.verdict(), self.passed, heads, rows)
 
     @property
     def passed(self) -> bool:

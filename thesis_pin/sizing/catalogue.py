@@ -16,6 +16,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.source import read_text
@@ -39,7 +40,7 @@ class ServoList(Strict):
 
 
 @dataclass(frozen=True)
-class Catalogue:
+class Catalogue(Brief):
     """Actuators to choose from.
 
     Attributes:

@@ -9,6 +9,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import instance, real
 from thesis_pin.sizing.actuator import RATED, Actuator
@@ -27,7 +29,7 @@ MASSES = (
 
 
 @dataclass(frozen=True, eq=False)
-class Sizing:
+class Sizing(Brief):
     """Actuators held against the joints of a motion.
 
     Attributes:
@@ -67,6 +69,15 @@ class Sizing:
     def each(self) -> list[Actuator | None]:
         """The smallest for each joint that carries it for long."""
         return [self.smallest(column) for column in self.lasting.T]
+
+    def _cell(self) -> Cell:
+        joints = self.loads.joints
+        rows = [
+            (joint, "none" if one is None else one.name)
+            for joint, one in zip(joints, self.each, strict=True)
+        ]
+        heads = ("joint", "smallest that carries it for long")
+        return Cell("Sizing", self.verdict(), self.yes, heads, rows, prose=True)
 
     @property
     def yes(self) -> bool:

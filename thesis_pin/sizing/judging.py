@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.sizing.actuator import Actuator
 from thesis_pin.sizing.loads import Array, Loads
 
 
 @dataclass(frozen=True, eq=False)
-class Fits:
+class Fits(Brief):
     """Every actuator at every joint; arrays ``(actuators, joints)``.
 
     Attributes:

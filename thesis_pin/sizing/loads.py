@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.smoothing.intervals import Interval
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Loads:
+class Loads(Brief):
     """Torques, speeds and accelerations of joints over a motion.
 
     Attributes:

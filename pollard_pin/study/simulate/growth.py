@@ -16,6 +16,7 @@ from scipy.linalg import expm
 
 from pollard_pin.model import Pollard
 from pollard_pin.study.simulate.conditions import Servo
+from thesis_pin.display.brief import Brief
 from thesis_pin.loops.dynamics import ForwardDynamics
 from thesis_pin.numeric.trajectory import JointTrajectory
 
@@ -35,7 +36,7 @@ _ARM = 0.5
 
 
 @dataclass(frozen=True)
-class Growth:
+class Growth(Brief):
     """Errors along a path.
 
     Attributes:

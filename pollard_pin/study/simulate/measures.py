@@ -11,6 +11,7 @@ from pollard_pin.model import Pollard
 from pollard_pin.study.simulate.conditions import Servo
 from pollard_pin.study.simulate.engines import Track
 from pollard_pin.study.simulate.planned import Stretch
+from thesis_pin.display.brief import Brief
 from thesis_pin.tolerances import TOLERANCES
 
 RECORDED = 2001
@@ -18,7 +19,7 @@ RECORDED = 2001
 
 
 @dataclass(frozen=True)
-class Replay:
+class Replay(Brief):
     """One replay; every sample is recorded, peaks are over all steps.
 
     Attributes:
@@ -70,7 +71,7 @@ class Replay:
 
 
 @dataclass(frozen=True)
-class Measures:
+class Measures(Brief):
     """How one robot did.
 
     Attributes:

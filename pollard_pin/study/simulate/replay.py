@@ -15,6 +15,7 @@ from pollard_pin.study.simulate.engines import LONGEST, carrier
 from pollard_pin.study.simulate.growth import Growth, felt_inertia, growth
 from pollard_pin.study.simulate.measures import Log, Replay
 from pollard_pin.study.simulate.planned import stretches
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, ModelError, SingularPose, Unreachable
 from thesis_pin.numeric.arrays import ascending
 from thesis_pin.numeric.workers import silent
@@ -33,7 +34,7 @@ _RESOLVED = 0.2
 
 
 @dataclass(frozen=True)
-class Prepared:
+class Prepared(Brief):
     """What a replay is made of: servos, steps, and how errors grow.
 
     Attributes:

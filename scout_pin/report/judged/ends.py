@@ -13,6 +13,7 @@ from scout_pin.dynamics.stability import centre_of_mass, support_margin
 from scout_pin.model import Scout
 from scout_pin.motion.cycles import Closure, Gap, closure, state
 from scout_pin.motion.gait import BODIES, Gait, GaitMotion
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.tolerances import TOLERANCES
 
@@ -50,7 +51,7 @@ class End:
 
 
 @dataclass(frozen=True)
-class Ends:
+class Ends(Brief):
     """Both ends of a gait.
 
     Attributes:

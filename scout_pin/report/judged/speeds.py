@@ -22,6 +22,7 @@ from scout_pin.report.judged.causes import CAUSES, Cause
 from scout_pin.report.judged.trial import Trial, beyond
 from thesis_pin.contacts.cones import in_sole_axes
 from thesis_pin.contacts.dynamics import ContactDynamics
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.elementwise import LONG, blocks
 from thesis_pin.numeric.inequalities import (
     Intervals,
@@ -40,7 +41,7 @@ _CONES = 128  # samples held against some hundred facets at a time
 
 
 @dataclass(frozen=True)
-class Speeds:
+class Speeds(Brief):
     """A sampled gait at any speed.
 
     Attributes:

@@ -30,13 +30,14 @@ from scout_pin.study.plan.cycles.shortfall import ALTERNATIVES, Shortfall, short
 from scout_pin.study.plan.limits import Worst
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.way import Way
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report.branches import label
 
 
 @dataclass(frozen=True)
-class CyclePlan:
+class CyclePlan(Brief):
     """A planned cycle, or the nearest to it.
 
     Attributes:

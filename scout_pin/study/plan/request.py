@@ -9,6 +9,7 @@ from typing import Literal, get_args
 import numpy as np
 
 from scout_pin.kinematics.branches import branch_words
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import choice, real, shown
 
@@ -53,7 +54,7 @@ _OPEN = frozenset({"step_length", "foot_spacing", "step_time", "speed", "line_re
 
 
 @dataclass(frozen=True)
-class PlanRequest:
+class PlanRequest(Brief):
     """What a walk is asked to be.
 
     Attributes:

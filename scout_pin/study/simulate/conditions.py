@@ -9,6 +9,7 @@ import numpy as np
 
 from scout_pin.specification import JOINT_NAMES, LINK_NAMES, SIDES
 from scout_pin.study.servo import ServoGains
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import real
 from thesis_pin.simulation.draws import check_errors, drawn
@@ -20,7 +21,7 @@ BODIES = 1 + len(SIDES) * len(LINK_NAMES)
 
 
 @dataclass(frozen=True)
-class Conditions:
+class Conditions(Brief):
     """What the engine is told besides the robot and its gait.
 
     Attributes:

@@ -12,6 +12,7 @@ from scout_pin.study.simulate.planned import Planned
 from scout_pin.study.simulate.walking import Walked
 from scout_pin.study.simulate.world import hull
 from thesis_pin.contacts.feet import sole_corners
+from thesis_pin.display.brief import Brief
 from thesis_pin.simulation.states import rotations
 from thesis_pin.tolerances import GRAVITY, TOLERANCES
 
@@ -52,7 +53,7 @@ class Stumble:
 
 
 @dataclass(frozen=True)
-class Measures:
+class Measures(Brief):
     """A try in numbers; lengths [m], angles [rad], times [s] from the gait's start.
 
     Attributes:

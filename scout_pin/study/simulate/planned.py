@@ -15,6 +15,7 @@ from scout_pin.specification import SIDES
 from scout_pin.study.servo import sag_compensated
 from scout_pin.study.simulate.conditions import Conditions
 from scout_pin.study.simulate.world import rotors, time_step
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.trajectory import JointTrajectory
@@ -32,7 +33,7 @@ _FIRST = slice(0, 1)
 
 
 @dataclass(frozen=True)
-class Planned:
+class Planned(Brief):
     """A gait as the engine is to be driven, and as it would go if all went to plan.
 
     Attributes:

@@ -12,12 +12,13 @@ from scout_pin.specification import SIDES
 from scout_pin.study.simulate.conditions import Conditions
 from scout_pin.study.simulate.planned import Planned
 from scout_pin.study.simulate.world import engine, walking_tree
+from thesis_pin.display.brief import Brief
 from thesis_pin.numeric.workers import silent
 from thesis_pin.simulation.engine import Engine
 
 
 @dataclass(frozen=True)
-class Walked:
+class Walked(Brief):
     """What a robot did, at the recorded instants of its plan.
 
     Attributes:

@@ -10,7 +10,6 @@ from thesis_pin.command.registry import Words
 from thesis_pin.command.results import put
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.text import say
-from thesis_pin.pages.meshcat.address import ALLOWED, is_address
 
 if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.scene import Scene
@@ -30,6 +29,8 @@ def add_meshcat(words: Words) -> None:
 
 
 def _address(text: str) -> str:
+    from thesis_pin.pages.meshcat.address import ALLOWED, is_address
+
     if not is_address(text):
         raise argparse.ArgumentTypeError(
             f"{text[:60]!r} is no address of a meshcat server (allowed: {ALLOWED})"

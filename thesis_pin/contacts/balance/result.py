@@ -19,6 +19,7 @@ from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.contacts.balance.stance import Stance
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot
+from thesis_pin.display.brief import Brief
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import LoopDynamics
 from thesis_pin.numeric.products import furthest
@@ -28,7 +29,7 @@ Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class FootDynamics:
+class FootDynamics(Brief):
     """Torques and contact forces of a motion, and whether the floor can give them.
 
     Attributes:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot
+from thesis_pin.display.brief import Brief
 from thesis_pin.model.loading import LoadedRobot, frame_id
 from thesis_pin.numeric.arrays import skew
 from thesis_pin.numeric.elementwise import blocks
@@ -24,7 +25,7 @@ _AXES = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
 
 @dataclass(frozen=True, eq=False)
-class Stance:
+class Stance(Brief):
     """Feet over some samples; all in the world's axes.
 
     Attributes:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.contacts.cones import Contact
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, WrongShape
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.numeric.arrays import finite_array, pose_array
@@ -27,7 +28,7 @@ ice has 1e-2, and what needs none needs not even this [-]."""
 
 
 @dataclass(frozen=True, eq=False)
-class Foot:
+class Foot(Brief):
     """What of a link meets the floor.
 
     One corner is a point: it carries a force. Two are an edge: a force at either end. Three or

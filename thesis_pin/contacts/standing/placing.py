@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from thesis_pin.contacts.balance.stance import stance
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.foot import Foot, by_name, check_free
+from thesis_pin.display.brief import Brief
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
@@ -23,7 +24,7 @@ _IN_LINE = 1e-6  # what counts as none, of the extent of points
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class Placed(Brief):
     """A robot on the floor.
 
     Attributes:

@@ -10,7 +10,7 @@ differ by a file's rounding don't brake the robot.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
@@ -18,6 +18,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, SingularPose, ThesisPinError, Unreachable
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.closing import is_closed
@@ -91,7 +92,7 @@ def forward_dynamics(
     return np.stack(rows).reshape(*stack, model.nv)
 
 
-class ForwardDynamics:
+class ForwardDynamics(Brief):
     """Accelerations of single states, with Pinocchio's data kept between calls.
 
     Args:
@@ -111,6 +112,9 @@ class ForwardDynamics:
                 self._datas.append(model.createData())
             self._settings = pin.ProximalSettings(1e-14, 1e-8, _MOST)
             pin.initConstraintDynamics(robot.model, self.data, self._models, self._datas)
+
+    def _shown(self) -> Iterator[tuple[str, object]]:
+        yield from (("robot", self.robot), ("precision", self.precision))
 
     def __reduce__(self) -> tuple[object, ...]:
         """Pinocchio's data can't travel; it is made again of the robot."""

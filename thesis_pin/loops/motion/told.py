@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.loops.motion.variants import Variants
 from thesis_pin.loops.system.rows import Mask
 
@@ -39,7 +40,7 @@ class Tool:
 
 
 @dataclass(frozen=True, eq=False)
-class JointMotion:
+class JointMotion(Brief):
     """How some joints of a robot move.
 
     Attributes:

@@ -9,6 +9,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.errors import SingularPose, TrajectoryError
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.closing import close, motor_positions
@@ -38,7 +39,7 @@ RESTS = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class WholeMotion:
+class WholeMotion(Brief):
     """What all joints do.
 
     Attributes:

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell
 from thesis_pin.errors import BadInput
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
@@ -46,7 +48,7 @@ _SHOWN = 64  # cells that show how many of a frame's motions there are
 
 
 @dataclass(frozen=True, eq=False)
-class Workspace:
+class Workspace(Brief):
     """Reach and conditioning on a grid; arrays have the grid's shape.
 
     Attributes:
@@ -78,6 +80,21 @@ class Workspace:
     joints: tuple[str, ...]
     seams: int
     rooted: bool = False
+
+    def _cell(self) -> Cell:
+        count, inside = int(self.reachable.sum()), self.condition[self.reachable]
+        said = [
+            f"{count} of {self.state.size} cells are reachable ({count / self.state.size:.0%})."
+        ]
+        if inside.size:
+            said.append(f"Condition number {inside.min():.3g} to {inside.max():.3g}; 1 is best.")
+        rows = [
+            (word, str(int((self.state == k).sum())), MEANINGS[k])
+            for k, word in enumerate(WORDS)
+            if (self.state == k).any()
+        ]
+        title = f"Workspace of {self.robot.model.name}"
+        return Cell(title, said, None, ("cells", "number", "are"), rows, prose=True)
 
     @property
     def words(self) -> tuple[str, ...]:

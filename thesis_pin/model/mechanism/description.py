@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.model.mechanism.inertia import parallel_axis
 from thesis_pin.model.mechanism.supplement import Supplement
 
@@ -19,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Inertial:
+class Inertial(Brief):
     """Mass of a link.
 
     Attributes:
@@ -34,7 +35,7 @@ class Inertial:
 
 
 @dataclass(frozen=True, eq=False)
-class Link:
+class Link(Brief):
     """A link of the file.
 
     Attributes:
@@ -49,7 +50,7 @@ class Link:
 
 
 @dataclass(frozen=True, eq=False)
-class Joint:
+class Joint(Brief):
     """A joint of the file.
 
     Attributes:
@@ -81,7 +82,7 @@ class Joint:
 
 
 @dataclass(frozen=True, eq=False)
-class Description:
+class Description(Brief):
     """A robot: its tree, as links and joints and as URDF, and what a URDF can't say.
 
     Attributes:

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.tolerances import GRAVITY
 
 FILE_KIND = "closure file"
@@ -91,7 +92,7 @@ class Spring:
 
 
 @dataclass(frozen=True)
-class Supplement:
+class Supplement(Brief):
     """What stands beside the URDF.
 
     Attributes:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.errors import ThesisPinError
 from thesis_pin.loops.checking.poses import pose_text
+from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance
 from thesis_pin.pages import player
 from thesis_pin.pages.live.hung import Places, items, samples
@@ -132,7 +133,7 @@ class LivePage:
             with self._lock:
                 stand = self._asked(asked)
                 document = self.document(stand)
-        except (ValueError, TypeError, KeyError, IndexError, RecursionError):
+        except (ValueError, TypeError, KeyError, IndexError, RecursionError, OverflowError):
             return None
         except ThesisPinError as error:
             document = {"error": str(error)}
@@ -143,7 +144,9 @@ class LivePage:
             return self.rig.start()
         request = cast("dict[str, object]", asked)
         state = np.array(request["state"], dtype=float)
-        if state.shape != (len(self.rig.start().state),) or not np.isfinite(state).all():
+        # Pinocchio's squares of larger numbers overflow, and NaN is no JSON.
+        within = np.abs(state) <= LIMITS.magnitude
+        if state.shape != (len(self.rig.start().state),) or not within.all():
             raise ValueError
         if "choice" in request:
             return self.rig.chosen(state, _index(request["choice"], len(self.rig.choices)))

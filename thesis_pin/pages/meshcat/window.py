@@ -20,7 +20,7 @@ from thesis_pin.pages.meshcat.address import ALLOWED, is_address
 
 FIRST_ANSWER = 4.0
 """Seconds within which a server that was named must answer."""
-ANSWER = 60.0
+ANSWER = 20.0
 """Seconds within which a server must have taken what it is sent."""
 START = 30.0
 """Seconds that our own server may take to start."""

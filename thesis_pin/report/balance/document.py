@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.display.cell import Cell
 from thesis_pin.report.balance import verdict
 from thesis_pin.report.balance.numbers import BalanceNumbers
+from thesis_pin.report.cells import report_cell
+from thesis_pin.report.tables import Table
 from thesis_pin.report.torque.uncertainty import uncertainty
 from thesis_pin.smoothing.intervals import Interval
 
@@ -67,6 +70,16 @@ class BalanceReport(BalanceNumbers):
                     "act where it is."
                 )
         return found
+
+    def _cell(self) -> Cell:
+        force, used = self.found.normal_force.max(axis=0), self.peak_friction
+        columns = {
+            "foot": self.names,
+            "normal force, most": [f"{x:.4g} N" for x in force],
+            "friction used": [f"{x:.0%}" for x in used],
+        }
+        title = f"{self.robot.model.name}, {self.motors.motion.name}"
+        return report_cell(self, title, Table.of("Feet", columns))
 
     @property
     def parameters(self) -> dict[str, object]:

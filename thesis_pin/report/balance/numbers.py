@@ -12,6 +12,7 @@ from thesis_pin.contacts.balance.causes import Cause, cause
 from thesis_pin.contacts.balance.result import FootDynamics
 from thesis_pin.contacts.balance.sharing import tolerance
 from thesis_pin.contacts.standing.phases import HIGHER, touch_speed
+from thesis_pin.display.brief import Brief
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.report.balance.drawn import DrawnBalance, border
 from thesis_pin.report.balance.slides import Slide, slides_of
@@ -23,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class BalanceNumbers:
+class BalanceNumbers(Brief):
     """A robot on its feet.
 
     Attributes:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from thesis_pin.display.cell import Cell
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.closing import close
@@ -19,6 +20,7 @@ from thesis_pin.loops.motion.whole import whole_motion
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.report import pace
+from thesis_pin.report.cells import report_cell
 from thesis_pin.report.torque import decision
 from thesis_pin.report.torque.drawn import drawn
 from thesis_pin.report.torque.numbers import TorqueNumbers
@@ -47,6 +49,12 @@ class TorqueReport(TorqueNumbers):
     def verdict(self) -> list[str]:
         """The answer in plain sentences, the most important first."""
         return decision.sentences(self)
+
+    def _cell(self) -> Cell:
+        time = self.joints.time
+        title = f"{self.robot.model.name}, {self.motion.name}: {time[-1] - time[0]:g} s"
+        note = f"Unexplained load: {self.unexplained.max():.1e} of the largest."
+        return report_cell(self, title, self.table(), note)
 
     @property
     def reason(self) -> str | None:

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.display.brief import Brief
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.dynamics import LoopDynamics
 from thesis_pin.loops.joints import singles
@@ -17,6 +18,7 @@ from thesis_pin.loops.motion.whole import WholeMotion
 from thesis_pin.model.formats.writer import NO_EFFORT_LIMIT
 from thesis_pin.numeric.trajectory import JointTrajectory
 from thesis_pin.report.summary import ActuatorSummary, summarise
+from thesis_pin.report.tables import Table
 from thesis_pin.report.torque.drawn import Drawn, Judged
 from thesis_pin.report.torque.nearby import Way
 from thesis_pin.report.torque.uncertainty import Headlines, headlines, shares
@@ -26,7 +28,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class TorqueNumbers:
+class TorqueNumbers(Brief):
     """A motion of a robot and what it takes.
 
     Attributes:
@@ -79,6 +81,11 @@ class TorqueNumbers:
         """Whether each motor's joint turns rather than slides, shape ``(motors,)``."""
         known = singles(self.robot.model)
         return np.array([known[name].turns for name in self.robot.actuators], dtype=bool)
+
+    def table(self) -> Table:
+        """What every motor has to do."""
+        speeds = ("rad/s" if turns else "m/s" for turns in self.turning)
+        return self.actuators.table(list(zip(self.units, speeds, strict=True)))
 
     @property
     def units(self) -> tuple[str, ...]:

@@ -10,11 +10,12 @@ import numpy as np
 from scout_pin.report.document import GaitReport
 from scout_pin.specification import JOINT_NAMES
 from scout_pin.study.plan.request import PlanRequest
+from thesis_pin.display.brief import Brief
 from thesis_pin.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
-class Judged:
+class Judged(Brief):
     """What a report found of a planned gait.
 
     Attributes:

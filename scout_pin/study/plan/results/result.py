@@ -12,13 +12,15 @@ from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.results.judged import Judged
 from scout_pin.study.plan.results.telling import nearest_words, passed_words, way_words
 from scout_pin.study.plan.walks.transitions import Transition
+from thesis_pin.display.brief import Brief
+from thesis_pin.display.cell import Cell
 
 BINDS = -0.03
 """How near to its limit something is that binds a plan, relative."""
 
 
 @dataclass(frozen=True)
-class Walk:
+class Walk(Brief):
     """A whole walk from rest to rest.
 
     Attributes:
@@ -40,7 +42,7 @@ class Walk:
 
 
 @dataclass(frozen=True)
-class Plan:
+class Plan(Brief):
     """What came of a request.
 
     Attributes:
@@ -72,6 +74,22 @@ class Plan:
     def met(self) -> bool:
         """Whether there is a walk, and its reports find every limit kept."""
         return not self.failures()
+
+    def _cell(self) -> Cell:
+        found = {"cycle": self.judged, "walk": self.walk.judged if self.walk else None}
+        rows = [
+            (
+                name,
+                f"{one.margin * 1e3:.2f} mm",
+                f"{one.torque:.1%}",
+                f"{one.speed:.1%}",
+                f"{one.line:.1%}",
+            )
+            for name, one in found.items()
+            if one is not None
+        ]
+        heads = ("", "ZMP margin", "torque of stall", "speed of no-load", "torque-speed line")
+        return Cell("Plan of a walk", self.verdict(), self.met, heads, rows)
 
     @property
     def interrupted(self) -> bool:

@@ -21,6 +21,7 @@ from scout_pin.study.plan.newton import descend
 from scout_pin.study.plan.samples import Sampler
 from scout_pin.study.plan.sampling.sloped import Sloped
 from scout_pin.study.plan.walks.course import Course
+from thesis_pin.display.brief import Brief
 
 SAMPLES = 64
 """Samples of a start or stop at which its limits are kept."""
@@ -52,7 +53,7 @@ _ADDED = 12  # samples a round
 
 
 @dataclass(frozen=True)
-class Transition:
+class Transition(Brief):
     """A start or a stop as it was found.
 
     Attributes:

@@ -10,6 +10,7 @@ from mechanisms import built, four_bar
 from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.configurations.closing import close
 from thesis_pin.loops.loading import load
+from thesis_pin.loops.moving import moving
 from thesis_pin.loops.moving.coordinates import coordinates
 from thesis_pin.loops.moving.moving import move
 
@@ -113,3 +114,22 @@ def test_a_free_root_moves_alone_and_carries_the_loops():
     assert found.q[2] == 0.7
     np.testing.assert_allclose(found.q[7:], q[7:], atol=1e-12)
     assert opening(robot, found.q) < 1e-9
+
+
+def test_a_step_that_closes_in_another_assembly_is_not_taken(monkeypatch):
+    robot, q = closed("five_bar")
+    other = close(robot, q * [1, -1, 1, -1] + [0.0, 0.6, 0.0, -0.6], q[robot.actuated_q])
+    assert np.abs(other - q).max() > 0.6  # the elbows bend the other way
+    true = moving.close_stack
+
+    def leaping(robot, data, placed, *more):
+        leapt = placed.copy()
+        leapt[:, robot.passive] = other[robot.passive]
+        return true(robot, data, leapt, *more)
+
+    one = next(c for c in coordinates(robot.model) if c.name == robot.actuators[0])
+    monkeypatch.setattr(moving, "close_stack", leaping)
+    found = move(robot, q, one, one.value(q) + 0.3)
+    assert not found.reached
+    assert "another assembly" in found.why
+    np.testing.assert_array_equal(found.q, q)

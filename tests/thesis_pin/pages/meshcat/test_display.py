@@ -43,6 +43,19 @@ VERTICES = """(() => {
 """Every vertex of a node in our world, of which meshcat's scene is a turned copy."""
 
 
+CORNERS = """(() => {
+  const box = new MeshCat.THREE.Box3().setFromObject(%s.object), across = [], high = [];
+  for (let i = 0; i < 8; i++) {
+    const corner = new MeshCat.THREE.Vector3(...["x", "y", "z"].map(
+      (axis, bit) => box[i >> bit & 1 ? "max" : "min"][axis])).project(viewer.camera);
+    across.push(Math.abs(corner.x));
+    high.push(Math.abs(corner.y));
+  }
+  return [across, high];
+})()"""
+"""Where a node's box is in the window, whose edges are at 1."""
+
+
 def picture(**more):
     """A scene with every kind of item."""
     still = np.zeros((41, 7))
@@ -225,6 +238,9 @@ def test_the_static_page_plays_alone_and_asks_for_nothing(browser, viewer, tmp_p
         browser.until("window.viewer && viewer.animator.duration > 0")
         browser.until("viewer.animator.time > 0.1")
         browser.still(artefacts / f"meshcat_static_{width}.png")
+        across, high = browser.run(CORNERS % node("polygon"))
+        assert max(across) < 1, "the picture fits the window's width"
+        assert max(high) < 1
         seek(browser, TIME[31] - TIME[0])
         np.testing.assert_allclose(tip(browser), WAY[31] + SCALE * FORCE[31], atol=2e-6)
         assert browser.requests() == [file.as_uri()]

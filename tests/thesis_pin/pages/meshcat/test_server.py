@@ -178,6 +178,17 @@ def test_it_ends_with_its_program_however_that_ends(number):
         time.sleep(0.05)
 
 
+def test_a_server_that_has_died_is_an_error_and_no_hang(monkeypatch):
+    monkeypatch.setattr(window, "ANSWER", 0.5)
+    drawn = visualizer(port=0)
+    drawn.window.server_proc.kill()
+    drawn.window.server_proc.wait()
+    for _ in range(2):  # the second time there is nothing left to send to
+        with pytest.raises(BadInput, match="doesn't answer any more"):
+            drawn["ball"].set_transform(np.eye(4))
+    drawn.close()
+
+
 def test_a_port_that_is_taken_is_one_error(server):
     with pytest.raises(BadInput, match=rf"port {port_of(server)}: the port is in use"):
         Window(port=port_of(server))
