@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
+from thesis_pin.command.drawn_as import add_figures
 from thesis_pin.command.numbers import add_number, number
 from thesis_pin.command.options import (
     add_branch,
@@ -18,7 +19,6 @@ from thesis_pin.command.options import (
     add_smooth,
 )
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
-from thesis_pin.command.showing.figures import add_figures
 
 
 def _which_path(words: argparse.ArgumentParser) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from scout_pin.cli.gaits import add_branch
 from scout_pin.cli.servos import add_gains
 from thesis_pin.command import options
+from thesis_pin.command.drawn_as import add_figures
 from thesis_pin.command.numbers import add_count, add_number
 from thesis_pin.command.options import add_json
 from thesis_pin.command.registry import Words
-from thesis_pin.command.showing.figures import add_figures
 
 _STEPS = (
     ("--step-length", "MM", True, "from one footfall to the next (default: 30; none if aside)"),

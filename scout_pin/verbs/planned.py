@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from scout_pin.model import load
 from scout_pin.verbs import gains
+from thesis_pin.command.drawn_as import figure_style
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, put_folder
 from thesis_pin.command.running import ExitCode, free
-from thesis_pin.command.showing.figures import figure_style
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput

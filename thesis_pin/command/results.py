@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
+from thesis_pin.command.drawn_as import figure_style
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import found
 from thesis_pin.command.running import ExitCode, free
-from thesis_pin.command.showing.figures import figure_style
 from thesis_pin.command.text import say
 from thesis_pin.errors import BadInput
 from thesis_pin.files import Claim, is_standard_output, write_file, write_folder

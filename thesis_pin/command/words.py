@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from thesis_pin.command.drawn_as import add_figures
 from thesis_pin.command.numbers import add_number, slope, wrench
 from thesis_pin.command.options import (
     LISTS,
@@ -15,7 +16,6 @@ from thesis_pin.command.options import (
     add_smooth,
 )
 from thesis_pin.command.registry import Words
-from thesis_pin.command.showing.figures import add_figures
 
 
 def which_robot(words: Words) -> None:

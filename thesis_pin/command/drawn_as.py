@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from thesis_pin.command.numbers import add_count
 from thesis_pin.command.registry import Words
-from thesis_pin.command.showing.size import Size, add_size
+from thesis_pin.command.sizes import Size, add_size
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import shown
 
