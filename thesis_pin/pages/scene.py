@@ -2,6 +2,7 @@
 
 A scene is data. :mod:`thesis_pin.pages.drawing` makes items from Pinocchio models,
 :mod:`thesis_pin.pages.player` turns scenes into pages; nothing here knows of either.
+In a notebook a scene plays in its cell.
 Every array's first axis is the scene's time; a NaN in an item's sample hides
 the item there. Lengths in metres, world frame.
 """
@@ -9,7 +10,7 @@ the item there. Lengths in metres, world frame.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, get_args
 
 import numpy as np
@@ -17,6 +18,7 @@ import numpy as np
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, NotFinite, UnknownName, WrongShape
 from thesis_pin.numeric.arrays import thinned as thinned
+from thesis_pin.pages import notebook
 
 GREY = "#9AA0A6"
 
@@ -73,6 +75,12 @@ class Item(Brief):
         """What doesn't change: JSON-ready or arrays."""
         own = (name for name in vars(self) if name not in ("name", "group", *self.sampled))
         return {name: getattr(self, name) for name in own}
+
+    def document(self) -> dict[str, object]:
+        """Its kind and all of it, as the player takes it."""
+        kind = type(self).__name__.lower()
+        words = {"kind": kind, "name": self.name, "group": self.group}
+        return {**words, **self.constants(), "samples": self.arrays()}
 
 
 @dataclass(frozen=True)
@@ -297,6 +305,40 @@ class Scene(Brief):
                     np.shape(readout.values),
                     str(time.shape),
                 )
+
+    def document(self) -> dict[str, object]:
+        """The scene as nested dictionaries and arrays, as the player takes it."""
+        return {
+            "title": self.title,
+            "description": self.description,
+            "start": float(self.time[0]),
+            # From the start on: 32 bits can't tell samples apart by seconds since 1970.
+            "time": np.asarray(self.time) - self.time[0],
+            "floor": self.floor,
+            "forward": self.forward,
+            "camera": None if self.camera is None else np.asarray(self.camera).tolist(),
+            "groups": [vars(group) for group in self.groups],
+            "items": [item.document() for item in self.items],
+            "readouts": [vars(readout) for readout in self.readouts],
+        }
+
+    def every(self, step: int) -> Scene:
+        """The same with each ``step``-th of its samples, and the last."""
+        keep = np.unique(np.append(np.arange(0, len(self.time), step), len(self.time) - 1))
+        items = (
+            replace(item, **{name: values[keep] for name, values in item.arrays().items()})
+            for item in self.items
+        )
+        readouts = (replace(one, values=np.asarray(one.values)[keep]) for one in self.readouts)
+        time = np.asarray(self.time)[keep]
+        return replace(self, time=time, items=tuple(items), readouts=tuple(readouts))
+
+    def _repr_html_(self) -> str:
+        """The scene, playing in a notebook's cell; of a large one fewer samples, which is said."""
+        sampled = {id(x): x.size for item in self.items for x in item.arrays().values()}
+        step = max(1, min(-(-sum(sampled.values()) // notebook.MOST), len(self.time) - 1))
+        fewer = f"One of {step} samples is shown, of {len(self.time)} in all." if step > 1 else ""
+        return notebook.playing(self.every(step).document(), fewer)
 
 
 def frames(duration: float) -> int:

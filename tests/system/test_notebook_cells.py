@@ -1,0 +1,100 @@
+"""Scenes in a notebook's cell: they play in a frame of their own, and leave the notebook alone."""
+
+import time
+from pathlib import Path
+
+import chromium
+import numpy as np
+import pytest
+
+from thesis_pin.pages.notebook import MOST
+from thesis_pin.pages.scene import Ball, Group, Readout, Scene
+
+EVIL = "</script><script>parent.stolen = 1</script>'\"><b>"
+
+
+def swing(title, samples=31):
+    """A ball on a swing, called as someone may who means no good."""
+    time = np.linspace(0.0, 3.0, samples)
+    position = np.stack([np.sin(time), np.cos(time), time], axis=1)
+    ball = Ball("ball", "balls", position, 0.1, ("#0072B2",))
+    height = Readout("height", position[:, 2], "m")
+    return Scene(title, EVIL, time, (Group("balls", EVIL),), (ball,), (height,))
+
+
+def test_a_large_scene_keeps_its_ends_and_says_what_it_left_out():
+    large = swing("long", MOST)  # three numbers a sample
+    cell = large._repr_html_()
+    assert f"One of 3 samples is shown, of {MOST} in all." in cell
+    few = large.every(3)
+    assert few.time[[0, -1]].tolist() == [0.0, 3.0]
+    np.testing.assert_array_equal(few.items[0].position[1], large.items[0].position[3])
+    assert "is shown, of" not in swing("short")._repr_html_()
+
+
+def test_nothing_of_a_scene_ends_its_frame():
+    cell = swing(EVIL)._repr_html_()
+    assert cell.count("<iframe") == cell.count("</iframe>") == 1
+    assert "<script" not in cell
+    assert "<b>" not in cell
+
+
+@pytest.fixture(scope="module")
+def notebook(tmp_path_factory):
+    """A dark page with two scenes among text that hears keys, as a notebook does."""
+    if chromium.find() is None:
+        pytest.skip("no Chromium on this machine")
+    page = tmp_path_factory.mktemp("notebook") / "cells.html"
+    cells = "<p>between</p>".join(swing(title)._repr_html_() for title in ("one", "two"))
+    page.write_text(
+        "<!doctype html><meta charset='utf-8'><script>window.heard = [];"
+        "document.addEventListener('keydown', (event) => heard.push(event.key));</script>"
+        f"<body style='background:#111;color:#ddd'><p>before</p>{cells}<p>after</p></body>",
+        encoding="utf-8",
+    )
+    with chromium.Chromium() as browser:
+        browser.open(page.as_uri(), height=1200)
+        browser.page.wait_for_load_state("load")  # frames come with it
+        yield browser
+
+
+def in_frame(notebook, number, script):
+    """Value of an expression in a cell's frame."""
+    return notebook.page.frames[1 + number].evaluate(script)
+
+
+def drawn(notebook, number):
+    deadline = time.monotonic() + 60
+    while not in_frame(notebook, number, "Boolean(window.player && player.framesDrawn > 0)"):
+        assert time.monotonic() < deadline, notebook.complaints()
+        time.sleep(0.1)
+
+
+@pytest.mark.browser
+def test_two_scenes_play_beside_each_other_and_steal_nothing(notebook, tmp_path):
+    for k in (0, 1):
+        drawn(notebook, k)
+    assert notebook.run("document.activeElement === document.body")
+    notebook.press(" ")
+    assert notebook.run("heard") == [" "]
+    assert not in_frame(notebook, 0, "player.playing")
+    in_frame(notebook, 0, "player.time = 1.5")
+    assert in_frame(notebook, 0, "player.time") == pytest.approx(1.5)
+    assert in_frame(notebook, 1, "player.time") == 0.0
+    assert notebook.run("window.stolen") is None
+    assert in_frame(notebook, 1, "document.querySelector('summary').textContent") == "two"
+    assert notebook.requests() == [notebook.page.url]
+    assert notebook.complaints() == []
+    picture = notebook.still(Path(tmp_path, "cells.png"))
+    assert picture.shape[0] == 1200
+
+
+@pytest.mark.browser
+def test_a_key_in_a_frame_stays_there(notebook):
+    drawn(notebook, 1)
+    notebook.run("heard.length = 0")
+    notebook.page.frames[2].locator("canvas").focus()
+    notebook.press(" ")
+    assert in_frame(notebook, 1, "player.playing")
+    assert notebook.run("heard") == []
+    in_frame(notebook, 1, "player.pause()")
