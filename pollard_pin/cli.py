@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
+from thesis_pin.command.drawn_as import add_figures
 from thesis_pin.command.numbers import add_number, number
 from thesis_pin.command.options import (
     add_branch,
@@ -83,6 +84,7 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
     add_points(words, 101)
     add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write workspace.csv, .json and figures")
+    add_figures(words)
 
 
 def _which_engine(words: argparse.ArgumentParser) -> None:
@@ -120,6 +122,7 @@ ROBOT = Robot(
     movement="report.movement:path_movement",
     simulation="study.simulate.draws:simulate_path",
     inverse_kinematics="model:Pollard.inverse_kinematics",
+    motion_flag="path",
 )
 
 COMMAND = Command(

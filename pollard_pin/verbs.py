@@ -12,6 +12,7 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, USEFUL_BRANCHES, Bra
 from pollard_pin.model import Pollard, load
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.specification import Specification
+from thesis_pin.command.drawn_as import figure_style
 from thesis_pin.command.options import refuse_beside
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
@@ -166,6 +167,7 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
     from pollard_pin.study.workspace import evaluate_workspace
     from thesis_pin.report.writers import csv_bytes, json_bytes
 
+    style = figure_style(arguments)
     axes = {name: _axis(name, getattr(arguments, name), arguments.points) for name in "xyz"}
     robot = load(arguments.specification, inertia=arguments.inertia)
     files: dict[str, bytes] = {}
@@ -181,9 +183,11 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         content = json_bytes(space.document()) if arguments.json or arguments.out else b""
         if arguments.out:
             from pollard_pin.study.figures import workspace_files
+            from thesis_pin.report.figures import written_as
 
             files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
-            files |= workspace_files(space)
+            with written_as(style):
+                files |= workspace_files(space)
     write_results(arguments, files, content)
     if free(arguments):
         rows = [

@@ -24,6 +24,7 @@ ROBOT = Robot(
     simulation="study.simulate.draws:simulate_gait",
     inverse_kinematics="model:Scout.leg_inverse_kinematics",
     still="verbs:still",
+    motion_flag="gait",
 )
 
 COMMAND = Command(

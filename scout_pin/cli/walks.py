@@ -5,6 +5,7 @@ from __future__ import annotations
 from scout_pin.cli.gaits import add_branch
 from scout_pin.cli.servos import add_gains
 from thesis_pin.command import options
+from thesis_pin.command.drawn_as import add_figures
 from thesis_pin.command.numbers import add_count, add_number
 from thesis_pin.command.options import add_json
 from thesis_pin.command.registry import Words
@@ -58,5 +59,6 @@ def which_walk(words: Words) -> None:
     words.add_argument(
         "--out", metavar="DIR", help="write gaits, joint tables, report.json, samples.csv, figures"
     )
+    add_figures(words)
     add_json(words, "the plan")
     words.add_argument("--html", metavar="FILE|-", help="write the walk's report as a page to mail")

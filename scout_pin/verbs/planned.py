@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from scout_pin.model import load
 from scout_pin.verbs import gains
+from thesis_pin.command.drawn_as import figure_style
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, put_folder
@@ -69,11 +70,12 @@ _USUAL = {"inertia": "physical", "steps": 10, "samples": 801}
 
 def plan(arguments: argparse.Namespace) -> ExitCode:
     """Plan a walk; write it only if its reports find every limit kept."""
-    request, tables = _request(arguments), _tables(arguments)
+    request, tables, style = _request(arguments), _tables(arguments), figure_style(arguments)
     made, page, content = dict[str, bytes](), b"", b""
     with Bar("planning a walk") as bar:
         from scout_pin.study.plan.planning import plan_gait
         from scout_pin.study.plan.results.document import document, files
+        from thesis_pin.report.figures import written_as
         from thesis_pin.report.writers import json_bytes
 
         with warned():
@@ -87,7 +89,8 @@ def plan(arguments: argparse.Namespace) -> ExitCode:
             try:
                 if arguments.out:
                     made = files(found, _command(arguments), rate=tables[0], gains=tables[1])
-                    made |= _drawn(found)
+                    with written_as(style):
+                        made |= _drawn(found)
                 page = _page(found) if arguments.html else b""
             except Exception:  # a figure or the page: the data are written all the same
                 _written(arguments, made, content)

@@ -72,6 +72,8 @@ NUMBERS = {
     "--at": {"0", "2.5"},
     "--fps": {"2.5"},
     "--size": set(),
+    "--formats": set(),
+    "--dpi": set(),
     "--samples": set(),
     "--repeat": set(),
     "--feed": {"2.5"},

@@ -9,6 +9,7 @@ import pinocchio as pin
 
 from thesis_pin.command.results import Answer, deliver, give, put_folder
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.showing.beside import ANY, TWO, Beside, reports, scene_of, second_of
 from thesis_pin.command.showing.sliders import any_robot, show_sliders
 from thesis_pin.command.verbs import deliver_sizes, show_scene
 from thesis_pin.command.warned import warned
@@ -23,6 +24,7 @@ from thesis_pin.loops.motion.told import JointMotion
 from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.model.pair import pair
 from thesis_pin.numeric.checks import shown
+from thesis_pin.pages.scene import Scene
 from thesis_pin.report import formats as read
 from thesis_pin.report.tables import Part, Table
 from thesis_pin.report.torque.document import TorqueReport, torque_report
@@ -48,7 +50,8 @@ def check(arguments: argparse.Namespace) -> ExitCode:
 
 def torque(arguments: argparse.Namespace) -> ExitCode:
     """Report on a motion of any robot."""
-
+    if arguments.beside is not None:
+        return deliver(arguments, "working out the torques", lambda _: _paired(arguments), **TWO)
     return deliver(
         arguments,
         "working out the torques",
@@ -77,7 +80,19 @@ def view(arguments: argparse.Namespace) -> ExitCode:
         )
     from thesis_pin.pages.reports.torque_scene import scene
 
-    return show_scene(arguments, "thesis-pin", lambda _: scene(_report(arguments)))
+    def make(_: object) -> Scene:
+        return (
+            scene_of(_paired(arguments))
+            if arguments.beside is not None
+            else scene(_report(arguments))
+        )
+
+    return show_scene(arguments, "thesis-pin", make)
+
+
+def _paired(arguments: argparse.Namespace) -> Beside:
+    """The reports on both motions that the arguments name."""
+    return reports(ANY, _report(arguments), _report(second_of(arguments, "motion")))
 
 
 def _report(arguments: argparse.Namespace) -> TorqueReport:

@@ -9,6 +9,7 @@ from functools import partial
 from thesis_pin.command import options, simulating, verbs
 from thesis_pin.command.figured import add_figure
 from thesis_pin.command.registry import Robot, Verb, Words
+from thesis_pin.command.showing.beside import add_beside, add_beside_robot
 from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.showing.words import add_sliders
@@ -49,14 +50,29 @@ def report_verb(
         breaks: When ``--strict`` exits with 1.
     """
     how_many = partial(options.add_samples, default=samples)
-    add = (robot.motion, how_many, partial(options.add_report, breaks=breaks), add_figure)
+    add = (
+        robot.motion,
+        how_many,
+        partial(options.add_report, breaks=breaks),
+        add_figure,
+        add_beside,
+        add_beside_robot,
+    )
     run = partial(verbs.report, what=f"working out the {name}")
     return _verb(robot, name, (help, description, example), robot.report, run, *add)
 
 
 def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
     """The verb that shows a motion, or the robot moved by sliders."""
-    add = (robot.motion, add_sliders, options.add_view, add_meshcat, add_film)
+    add = (
+        robot.motion,
+        add_sliders,
+        options.add_view,
+        add_meshcat,
+        add_film,
+        add_beside,
+        add_beside_robot,
+    )
     return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
 
 

@@ -48,4 +48,8 @@ def without(
 ) -> dict[str, bytes]:
     """Files of a report but for the figures that aren't to be kept."""
     drop = set(known) - keep
-    return {name: content for name, content in files.items() if name.rpartition(".")[0] not in drop}
+    return {
+        name: content
+        for name, content in files.items()
+        if name.removeprefix("beside_").rpartition(".")[0] not in drop
+    }

@@ -7,6 +7,7 @@ from functools import partial
 
 from thesis_pin.command.options import add_json, add_report, add_sizing, add_view
 from thesis_pin.command.registry import Command, Parser, Verb
+from thesis_pin.command.showing.beside import add_beside
 from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.words import (
@@ -58,6 +59,7 @@ COMMAND = Command(
                 which_pose,
                 which_wrenches,
                 partial(add_report, breaks="a motor or joint leaves its limits"),
+                add_beside,
             ),
         ),
         Verb(
@@ -107,6 +109,7 @@ COMMAND = Command(
                 which_pose,
                 which_wrenches,
                 add_view,
+                add_beside,
                 add_meshcat,
                 add_film,
             ),

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.command.any_robot import loaded
+from thesis_pin.command.drawn_as import figure_style
 from thesis_pin.command.numbers import quantity
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
@@ -31,6 +32,7 @@ Array = NDArray[np.float64]
 
 def workspace(arguments: argparse.Namespace) -> ExitCode:
     """Map where a robot can go, and how well its motors hold it there."""
+    style = figure_style(arguments)
     files: dict[str, bytes] = {}
     page = b""
     with Bar("mapping the workspace") as bar:
@@ -50,10 +52,13 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         wanted = arguments.json or arguments.out
         content = json_bytes(written.document(space)) if wanted else b""
         if arguments.out:
+            from thesis_pin.report.figures import written_as
             from thesis_pin.report.workspace.figures import workspace_files
 
             table = csv_bytes(written.columns(space))
-            files = {"workspace.json": content, "workspace.csv": table} | workspace_files(space)
+            files = {"workspace.json": content, "workspace.csv": table}
+            with written_as(style):
+                files |= workspace_files(space)
         if arguments.html:
             from thesis_pin.pages.reports.workspace import workspace_page
 

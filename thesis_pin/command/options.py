@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from thesis_pin.command.drawn_as import add_figures
 from thesis_pin.command.numbers import add_count, add_number
 from thesis_pin.command.registry import Words
 from thesis_pin.errors import BadInput
@@ -104,6 +105,7 @@ def add_json(words: Words, what: str) -> None:
 def add_report(words: Words, breaks: str) -> None:
     """Where a report goes; ``breaks`` says when ``--strict`` exits with 1."""
     words.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
+    add_figures(words)
     add_json(words, "the report")
     words.add_argument(
         "--html", metavar="FILE|-", help="write the report as a page to mail: animation and plots"

@@ -171,6 +171,7 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
         package: Its package.
         another: What another specification may describe, for help.
         motion: Add the options that say which motion.
+        motion_flag: The option of those that names a motion's file, without dashes.
         makes_report: Report on the motion that the arguments ask for; see
             :class:`thesis_pin.command.verbs.MakeReport`.
         report: The public function behind it.
@@ -208,6 +209,7 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     inverse_kinematics: str
     movement: str
     simulation: str
+    motion_flag: str = ""
     makes_report: str = "verbs:report"
     moves: str = "verbs:motion"
     conditions: str = "verbs:conditions"

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
+from thesis_pin.command.drawn_as import figure_style
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import found
@@ -105,8 +106,10 @@ def deliver(
         strict: Whether the exit code is always that of the answer.
         keep: Chooses among the files of ``figures``.
     """
+    from thesis_pin.report.figures import written_as
     from thesis_pin.report.writers import csv_bytes, json_bytes
 
+    style = figure_style(arguments)
     files: dict[str, bytes] = {}
     content = written = b""
     with Bar(what) as bar:
@@ -116,7 +119,10 @@ def deliver(
         if arguments.out:
             files = {"report.json": content, "samples.csv": csv_bytes(answer.columns())}
         try:
-            drawn = keep(_called(figures)(answer)) if arguments.out else {}
+            drawn = {}
+            if arguments.out:
+                with written_as(style):
+                    drawn = keep(_called(figures)(answer))
             written = _called(page)(answer) if arguments.html else b""
         except Exception:
             write_results(arguments, files, content)

@@ -6,6 +6,7 @@ import argparse
 import math
 from typing import TYPE_CHECKING, TypedDict, cast
 
+from thesis_pin.command.drawn_as import add_figures
 from thesis_pin.command.numbers import add_count, add_number
 from thesis_pin.command.options import add_jobs, add_json
 from thesis_pin.command.registry import Robot, Words, found
@@ -59,6 +60,7 @@ def add_simulation(words: Words) -> None:
     add_count(words, "--seed", seed, least=0, default=0)
     add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")
+    add_figures(words)
     add_json(words, "the simulation")
     words.add_argument(
         "--html", metavar="FILE|-", help="write it as a page to mail, the plan beside it as a ghost"

@@ -22,6 +22,15 @@ from thesis_pin.command.results import (
     write_results,
 )
 from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.showing.beside import (
+    TWO,
+    Beside,
+    asked,
+    hooks_of,
+    reports,
+    scene_of,
+    second_of,
+)
 from thesis_pin.command.showing.film import check_film, shoot, shown_first
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
@@ -59,20 +68,42 @@ def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion that the robot's own options ask for; see :func:`deliver`."""
     known: Mapping[str, str] = _hook(robot, robot.figure_numbers) if arguments.figure else {}
     names = chosen(arguments, known)
+
+    def keep(files: dict[str, bytes]) -> dict[str, bytes]:
+        return without(files, known, names)
+
+    def samples(_: float) -> int:
+        count: int = arguments.samples
+        return count
+
+    if asked(arguments):
+        return deliver(
+            arguments, what, lambda bar: _paired(robot, arguments, samples, bar), keep=keep, **TWO
+        )
     return deliver(
         arguments,
         what,
-        lambda bar: planned(robot, arguments, lambda _: arguments.samples, bar),
+        lambda bar: planned(robot, arguments, samples, bar),
         figures=robot.name_of(robot.figures),
         page=robot.name_of(robot.page),
         table=robot.name_of(robot.table),
-        keep=lambda files: without(files, known, names),
+        keep=keep,
     )
+
+
+def _paired(
+    robot: Robot, arguments: argparse.Namespace, samples: Callable[[float], int], bar: Bar
+) -> Beside:
+    """The reports on both motions that the arguments ask for."""
+    first = planned(robot, arguments, samples, bar)
+    second = planned(robot, second_of(arguments, robot.motion_flag), samples, bar)
+    return reports(hooks_of(robot), first, second)
 
 
 def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Show a motion in the browser, or sliders that move the robot, or write it as a page."""
     if arguments.sliders:
+        refuse_beside(arguments, "sliders", ("beside", "beside-robot"))
         from thesis_pin.command.showing.sliders import show_sliders
 
         def page() -> LivePage:
@@ -84,6 +115,8 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     def make(bar: Bar) -> Scene:
         from thesis_pin.pages.scene import frames
 
+        if asked(arguments):
+            return scene_of(_paired(robot, arguments, frames, bar))
         scene: Scene | None = None
         if robot.still:
             scene = _hook(robot, robot.still)(arguments, _load(robot, arguments))

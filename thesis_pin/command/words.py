@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from thesis_pin.command.drawn_as import add_figures
 from thesis_pin.command.numbers import add_number, slope, wrench
 from thesis_pin.command.options import (
     LISTS,
@@ -104,6 +105,7 @@ def which_grid(words: Words) -> None:
 def where_to(words: Words) -> None:
     """Where a workspace is written."""
     words.add_argument("--out", metavar="DIR", help="write workspace.json, .csv and figures")
+    add_figures(words)
     words.add_argument(
         "--html", metavar="FILE|-", help="write it as a page to mail: picture, numbers, animation"
     )

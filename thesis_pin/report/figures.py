@@ -10,8 +10,11 @@ from __future__ import annotations
 import io
 import os
 import sys
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
+from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -20,16 +23,73 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput
+from thesis_pin.numeric.checks import shown
 from thesis_pin.report.curves import Plot, condensed
 from thesis_pin.report.plotting.grid import arranged
 from thesis_pin.report.plotting.panel import panel
-from thesis_pin.report.plotting.sheet import DOTS, Sheet, png, svg
+from thesis_pin.report.plotting.sheet import DOTS, Sheet, fitted, pdf, png, svg
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+_TRIES = 16
+"""Times that texts shrink, by 0.85 each: to a thirteenth."""
+
 STRETCHES = 1333
 """Of a plot's x axis: as many as the widest has columns of pixels."""
+
+
+FORMATS = ("png", "svg", "pdf")
+"""What figures can be written as."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """How figures are to be written.
+
+    Attributes:
+        formats: Of :data:`FORMATS`, each once.
+        dots: Pixels of an inch, of PNGs.
+        size: Width and height [inch]; None for what suits each figure.
+    """
+
+    formats: tuple[str, ...] = ("png", "svg")
+    dots: int = DOTS
+    size: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what can't be written.
+
+        Raises:
+            BadInput: Says what.
+        """
+        known = set(self.formats) <= set(FORMATS)
+        if not known or not self.formats or len(set(self.formats)) < len(self.formats):
+            said = ",".join(map(str, self.formats))
+            raise BadInput(
+                f"formats of figures are {shown(said)}", allowed=f"{', '.join(FORMATS)}, each once"
+            )
+        if not 30 <= self.dots <= 1200:
+            raise BadInput(f"dots of an inch are {shown(self.dots)}", allowed="30 to 1200")
+        if self.size is not None and not all(0.5 <= side <= 50 for side in self.size):
+            width, height = self.size
+            raise BadInput(
+                f"the size of figures is {width:.4g} by {height:.4g} inches",
+                allowed="0.5 to 50 inches (12.7 to 1270 mm) each way",
+            )
+
+
+_WANTED: ContextVar[Wanted] = ContextVar("_WANTED", default=Wanted())  # noqa: B039 (frozen)
+
+
+@contextmanager
+def written_as(wanted: Wanted) -> Iterator[None]:
+    """Figures made meanwhile are laid out and written so, whoever makes them."""
+    before = _WANTED.set(wanted)
+    try:
+        yield
+    finally:
+        _WANTED.reset(before)
 
 
 @contextmanager
@@ -73,10 +133,12 @@ def panels(rows: Sequence[Sequence[Plot]], width: float, height: float, title: s
 
     Args:
         rows: Rows of equally many plots; those of a row that name the same things share a legend.
-        width: Width [inch]; it gets wider and higher where axes would vanish.
-        height: Height [inch].
+        width: Width [inch] unless one is :class:`Wanted`; it gets wider and higher where axes
+            would vanish.
+        height: Height [inch], likewise.
         title: Headline above all; empty for none.
     """
+    width, height = _WANTED.get().size or (width, height)
     table = [[panel(condensed(plot, STRETCHES)) for plot in row] for row in rows]
     return arranged(table, width, height, title)
 
@@ -103,26 +165,67 @@ def new_figure(
 
 @default_style()
 def figure_files(name: str, figure: Sheet | Figure) -> dict[str, bytes]:
-    """A figure as ``name.png`` and ``name.svg``, the same bytes for the same figure."""
+    """A figure as ``name.png`` and ``name.svg``, the same bytes for the same figure.
+
+    Or in the formats and the size that are :class:`Wanted`: what needs more room is drawn
+    smaller, so that no label is ever cut.
+    """
     import matplotlib as mpl
 
     with mpl.rc_context({"svg.hashsalt": name}):
-        if isinstance(figure, Sheet):
-            return {f"{name}.png": png(figure), f"{name}.svg": svg(figure)}
-        return _general(name, figure)
+        wanted = _WANTED.get()
+        if not isinstance(figure, Sheet):
+            return _general(name, figure, wanted)
+        if wanted.size is not None:
+            figure = fitted(figure, *wanted.size)
+        drawn = {"png": lambda: png(figure, wanted.dots), "svg": lambda: svg(figure)}
+        drawn["pdf"] = lambda: pdf(figure)
+        return {f"{name}.{form}": drawn[form]() for form in wanted.formats}
 
 
-def _general(name: str, figure: Figure) -> dict[str, bytes]:
+def _general(name: str, figure: Figure, wanted: Wanted) -> dict[str, bytes]:
+    import matplotlib as mpl
     from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     # Laid out once, and each format drawn once: savefig does both again and again.
-    figure.set_dpi(DOTS)
+    figure.set_dpi(wanted.dots)
+    if wanted.size is not None:
+        _fit(figure, *wanted.size)
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)
         figure.set_layout_engine("none")
-    raster, vector = io.BytesIO(), io.BytesIO()
-    FigureCanvasAgg(figure).print_png(raster, metadata={"Software": None})
-    FigureCanvasSVG(figure).print_svg(vector, metadata={"Date": None})
-    return {f"{name}.png": raster.getvalue(), f"{name}.svg": vector.getvalue()}
+    found = {}
+    for form in wanted.formats:
+        content = io.BytesIO()
+        if form == "png":
+            figure.set_dpi(wanted.dots)  # which print_pdf changes
+            FigureCanvasAgg(figure).print_png(content, metadata={"Software": None})
+        elif form == "svg":
+            FigureCanvasSVG(figure).print_svg(content, metadata={"Date": None})
+        else:
+            with mpl.rc_context({"pdf.fonttype": 42}):
+                FigureCanvasPdf(figure).print_pdf(content, metadata={"CreationDate": None})
+        found[f"{name}.{form}"] = content.getvalue()
+    return found
+
+
+def _fit(figure: Figure, width: float, height: float) -> None:
+    """Give a figure a size [inch], and its texts one at which none is cut."""
+    from matplotlib.text import Text
+
+    figure.set_size_inches(width, height)
+    engine = figure.get_layout_engine()
+    for _ in range(_TRIES):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            if engine is not None:
+                engine.execute(figure)
+        box = figure.get_tightbbox()
+        spare = min(box.x0, box.y0, width - box.x1, height - box.y1)
+        if not told and spare >= 0.0:
+            return
+        for text in figure.findobj(Text):
+            text.set_fontsize(0.85 * float(text.get_fontsize()))

@@ -19,26 +19,30 @@ def trajectory_page(report: TrajectoryReport) -> bytes:
     Args:
         report: The report; plots show every peak of its curves.
     """
-    return html(
-        Page(
-            title=f"{report.robot.specification.name.capitalize()}: path {report.path.name}",
-            subtitle=f"{report.path.duration:.4g} s, branch {report.branch}, "
-            f"{report.robot.inertia} inertias, {len(report.joints.time)} samples",
-            good=report.within_limits,
-            verdict=[
-                *(f"Warning: {one}." for one in report.doubts()),
-                *report.verdict(),
-                *(f"Note: {note}." for note in report.path.notes),
-            ],
-            tiles=_tiles(report),
-            plots=plots(report),
-            tables=_tables(report),
-            scene=path_scene(report),
-        )
+    return html(page_of(report))
+
+
+def page_of(report: TrajectoryReport) -> Page:
+    """The same before it becomes HTML."""
+    return Page(
+        title=f"{report.robot.specification.name.capitalize()}: path {report.path.name}",
+        subtitle=f"{report.path.duration:.4g} s, branch {report.branch}, "
+        f"{report.robot.inertia} inertias, {len(report.joints.time)} samples",
+        good=report.within_limits,
+        verdict=[
+            *(f"Warning: {one}." for one in report.doubts()),
+            *report.verdict(),
+            *(f"Note: {note}." for note in report.path.notes),
+        ],
+        tiles=tiles(report),
+        plots=plots(report),
+        tables=_tables(report),
+        scene=path_scene(report),
     )
 
 
-def _tiles(report: TrajectoryReport) -> list[Tile]:
+def tiles(report: TrajectoryReport) -> list[Tile]:
+    """The report's key numbers."""
     a = report.actuators
     return [
         Tile("peak torque at the base", f"{a.peak_torque[:3].max():.3f} N·m"),

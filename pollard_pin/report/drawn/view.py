@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
 
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
@@ -89,6 +91,14 @@ def path_scene(report: TrajectoryReport) -> Scene:
         floor=low - 0.05,
         forward=(1.0, 0.0),
     )
+
+
+def poses(
+    report: TrajectoryReport,
+) -> tuple[pin.Model, pin.GeometryModel, NDArray[np.float64], NDArray[np.float64]]:
+    """A report's model and visual geometry, times ``(n,)`` [s], configurations ``(n, nq)``."""
+    robot = report.robot
+    return robot.model, robot.visual_model, report.joints.time, report.joints.q
 
 
 def colour_of_part(name: str) -> str:

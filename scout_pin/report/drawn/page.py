@@ -23,28 +23,32 @@ def gait_page(report: GaitReport) -> bytes:
     Args:
         report: The report; its animation shows at most 1 201 of its samples, plots every peak.
     """
+    return html(page_of(report))
+
+
+def page_of(report: GaitReport) -> Page:
+    """The same before it becomes HTML."""
     seconds = report.joints.time[-1] - report.joints.time[0]
-    return html(
-        Page(
-            title=f"{report.robot.specification.name.capitalize()}: gait {report.gait.name}",
-            subtitle=f"{seconds:.4g} s, time unit {report.time_unit:g} s, "
-            f"{len(report.joints.time)} samples. {report.gait.source}",
-            good=report.within_limits,
-            verdict=[
-                *(f"Warning: {one}." for one in report.doubts()),
-                *report.verdict(),
-                *(f"Note: {note}." for note in report.gait.notes),
-                *(f"Warning: {one}" for one in implausible(report.robot.specification)),
-            ],
-            tiles=_tiles(report),
-            plots=plots(report),
-            tables=_tables(report),
-            scene=gait_scene(report),
-        )
+    return Page(
+        title=f"{report.robot.specification.name.capitalize()}: gait {report.gait.name}",
+        subtitle=f"{seconds:.4g} s, time unit {report.time_unit:g} s, "
+        f"{len(report.joints.time)} samples. {report.gait.source}",
+        good=report.within_limits,
+        verdict=[
+            *(f"Warning: {one}." for one in report.doubts()),
+            *report.verdict(),
+            *(f"Note: {note}." for note in report.gait.notes),
+            *(f"Warning: {one}" for one in implausible(report.robot.specification)),
+        ],
+        tiles=tiles(report),
+        plots=plots(report),
+        tables=_tables(report),
+        scene=gait_scene(report),
     )
 
 
-def _tiles(report: GaitReport) -> list[Tile]:
+def tiles(report: GaitReport) -> list[Tile]:
+    """The report's key numbers."""
     use = report.servo_use.max()
     used, held = report.peak_friction_used, report.headlines
     margin = None if held is None else held.margin

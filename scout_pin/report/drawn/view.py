@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
 
 from scout_pin.coordinates import free_flyer_state
 from scout_pin.dynamics.stability import polygons
@@ -78,6 +80,15 @@ def gait_scene(report: GaitReport) -> Scene:
             Readout("force, right", report.dynamics.wrench[keep, 1, 2], "N", 2),
         ),
     )
+
+
+def poses(
+    report: GaitReport,
+) -> tuple[pin.Model, pin.GeometryModel, NDArray[np.float64], NDArray[np.float64]]:
+    """A report's model and visual geometry, times ``(n,)`` [s], configurations ``(n, nq)``."""
+    robot = report.robot
+    q = free_flyer_state(report.motion.torso, report.joints)[0]
+    return robot.model, robot.visual_model, report.joints.time, q
 
 
 def _groups(force_scale: float) -> tuple[Group, ...]:

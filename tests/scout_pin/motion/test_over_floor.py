@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from scout_pin.motion.over_floor import OverFloor, turned_jets
+from scout_pin.motion.over_floor import OverFloor, turn_between, turned_jets, turned_state
 from thesis_pin.numeric.interpolation import free_quintic
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.tolerances import TOLERANCES
@@ -82,3 +82,31 @@ def test_motions_compose_and_undo_each_other():
     assert moved(thrice, z) == pytest.approx(moved(one, moved(one, moved(one, z))))
     assert thrice.turn == pytest.approx(0.9)
     assert OverFloor(0.1, 0.2).times(3) == OverFloor(3 * 0.1, 3 * 0.2)
+
+
+@pytest.mark.parametrize("turn", [0.4, -2.5, 3.5, -7.0])
+def test_a_turned_state_is_the_whole_motion_turned_and_its_turn_is_found_again(rng, turn):
+    start = rng.uniform(-0.4, 0.4, (3, 6, 3))
+    end = turned_state(start, turn)
+    about = Rotation.from_euler("z", turn).as_matrix()
+    np.testing.assert_allclose(end[:, :3], about @ start[:, :3], atol=1e-12)
+    for before, after in zip(start[:, 3:], end[:, 3:], strict=True):
+        own = Rotation.from_euler("XYZ", before[:, 0]).as_matrix()
+        found = Rotation.from_euler("XYZ", after[:, 0]).as_matrix()
+        np.testing.assert_allclose(found, about @ own, atol=1e-12)
+        assert after[2, 0] - before[2, 0] == pytest.approx(turn, abs=0.5)  # not a whole turn less
+        expected = turned_jets(before.T[:, None], np.array([turn]))[:, 0]
+        np.testing.assert_allclose(after.T, expected, atol=1e-12)
+    assert turn_between(start, end) == pytest.approx(turn, abs=1e-12)
+    # What two of three bodies say holds.
+    end[0, 5, 0] += 0.3
+    assert turn_between(start, end) == pytest.approx(turn, abs=1e-12)
+
+
+def test_turned_angles_may_jump_where_their_curves_do():
+    jump = Piecewise([[0.1, 0.0], [0.2, -0.3]], [0.0, 1.0, 2.0])
+    level = Piecewise([[0.0]], [0.0, 2.0])
+    found = OverFloor(turn=0.8).moved([level, level, level, jump, level, level])[3:]
+    for t, pitch in ((np.nextafter(1.0, 0.0), 0.3), (1.0, -0.3)):
+        own = Rotation.from_euler("z", 0.8) * Rotation.from_euler("XYZ", [pitch, 0.0, 0.0])
+        np.testing.assert_allclose([one(t) for one in found], own.as_euler("XYZ"), atol=1e-9)

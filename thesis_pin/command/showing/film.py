@@ -9,7 +9,7 @@ from thesis_pin.command.numbers import add_number
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Words
 from thesis_pin.command.results import said
-from thesis_pin.command.showing.size import Size, add_size
+from thesis_pin.command.sizes import Size, add_size
 from thesis_pin.command.text import say
 from thesis_pin.errors import BadInput
 

@@ -107,6 +107,7 @@ def any_robot(arguments: argparse.Namespace, robot: ClosedRobot) -> LivePage:
         ("euler", arguments.euler is not None),
         ("external", bool(arguments.external)),
         ("smooth", arguments.smooth != "auto"),
+        ("beside", arguments.beside is not None),
     ):
         if given:
             raise BadInput(

@@ -23,22 +23,25 @@ def torque_page(report: TorqueReport) -> bytes:
     Args:
         report: The report; plots show every peak of its curves.
     """
+    return html(page_of(report))
+
+
+def page_of(report: TorqueReport) -> Page:
+    """The same before it becomes HTML."""
     time = report.joints.time
-    return html(
-        Page(
-            title=f"{report.robot.model.name}: {report.motion.name}",
-            subtitle=f"{time[-1] - time[0]:.4g} s, {len(time)} samples, {len(report.names)} motors",
-            good=report.within_limits,
-            verdict=[
-                *report.doubts(),
-                *report.verdict(),
-                *without_folder(report.robot, report.warnings()),
-            ],
-            tiles=_tiles(report),
-            plots=plots(report),
-            tables=[*motors_tables(report), parameters_table(report.parameters), software()],
-            scene=scene(report),
-        )
+    return Page(
+        title=f"{report.robot.model.name}: {report.motion.name}",
+        subtitle=f"{time[-1] - time[0]:.4g} s, {len(time)} samples, {len(report.names)} motors",
+        good=report.within_limits,
+        verdict=[
+            *report.doubts(),
+            *report.verdict(),
+            *without_folder(report.robot, report.warnings()),
+        ],
+        tiles=tiles(report),
+        plots=plots(report),
+        tables=[*motors_tables(report), parameters_table(report.parameters), software()],
+        scene=scene(report),
     )
 
 
@@ -61,7 +64,8 @@ def without_folder(robot: ClosedRobot, sentences: Iterable[str]) -> list[str]:
     return [one.replace(file, os.path.basename(file)) for one in sentences]
 
 
-def _tiles(report: TorqueReport) -> list[Tile]:
+def tiles(report: TorqueReport) -> list[Tile]:
+    """The report's key numbers."""
     a = report.actuators
     tiles = [
         *peak_tiles(report),

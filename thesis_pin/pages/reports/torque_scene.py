@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.loops.joints import singles
@@ -61,6 +62,14 @@ def scene(report: TorqueReport) -> Scene:
         ),
         floor=float(moves[..., 2].min()) - 0.05 * size,
     )
+
+
+def poses(
+    report: TorqueReport,
+) -> tuple[pin.Model, pin.GeometryModel, Array, Array]:
+    """A report's model and visual geometry, times ``(n,)`` [s], configurations ``(n, nq)``."""
+    robot = report.robot
+    return robot.model, robot.visual_model, report.joints.time, report.joints.q
 
 
 def _forces(

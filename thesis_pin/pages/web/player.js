@@ -16,7 +16,8 @@ function locate(time, t) {
     const middle = (low + high) >> 1;
     if (time[middle] <= t) low = middle; else high = middle;
   }
-  const f = Math.min(1, Math.max(0, (t - time[low]) / (time[high] - time[low])));
+  const apart = time[high] - time[low];  // none where 32 bits can't tell samples apart
+  const f = apart > 0 ? Math.min(1, Math.max(0, (t - time[low]) / apart)) : 1;
   return { k: low, f, nearest: f < 0.5 ? low : high };
 }
 

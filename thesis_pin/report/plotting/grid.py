@@ -43,7 +43,8 @@ def arranged(
     left = [max(one.left(tall) for one in column) for column in columns]
     right = [max(one.right(tall) for one in column) for column in columns]
     used = 2 * PAD * len(columns) + sum(left) + sum(right)
-    wide = max((width * INCH - used) / len(columns), LEAST)
+    legends = max(one.least() for row in rows for one in row)
+    wide = max((width * INCH - used) / len(columns), LEAST, legends)
     across = used + wide * len(columns)
     marks: list[Mark] = []
     top = high - PAD

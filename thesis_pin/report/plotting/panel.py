@@ -67,6 +67,10 @@ class Panel:
         labels = _TICK + _GAP + LABEL + _SPACE + LABEL + 2.0 if self.marked[0] else 0.0
         return labels + (2 * _SPACE + self._under().height if self.plane and self.entries else 0.0)
 
+    def least(self) -> float:
+        """Width that a legend below the axes takes [pt]; 0 without one."""
+        return self._under().width if self.plane and self.entries else 0.0
+
     def left(self, height: float) -> float:
         """Room to the left of axes of that height [pt]."""
         if not self.marked[1]:

@@ -1,4 +1,4 @@
-"""Drawings in points, written as PNG and as SVG by Matplotlib's renderers.
+"""Drawings in points, written as PNG, SVG and PDF by Matplotlib's renderers.
 
 Below Matplotlib's figures, whose general axes, ticks and layout took four fifths of a
 report's time: what a sheet holds is placed already.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import io
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Literal
 
@@ -156,18 +156,18 @@ def size_within(text: str, size: float, room: float) -> float:
     return size * min(1.0, room / max(text_width(text, size), 1.0))
 
 
-def png(sheet: Sheet) -> bytes:
-    """A sheet as PNG, without its time."""
+def png(sheet: Sheet, dots: float = DOTS) -> bytes:
+    """A sheet as PNG, without its time, with so many pixels an inch."""
     from matplotlib.backends.backend_agg import RendererAgg
     from PIL import Image
 
-    size = round(sheet.width * DOTS), round(sheet.height * DOTS)
-    renderer = RendererAgg(*size, DOTS)
-    _draw(sheet, renderer, DOTS / INCH)
+    size = round(sheet.width * dots), round(sheet.height * dots)
+    renderer = RendererAgg(*size, dots)
+    _draw(sheet, renderer, dots / INCH)
     image = Image.frombuffer("RGBA", size, renderer.buffer_rgba(), "raw", "RGBA", 0, 1)
     content = io.BytesIO()
     # Without the opacity, which is 1, and compressing runs only, writing takes half as long.
-    image.convert("RGB").save(content, "PNG", dpi=(DOTS, DOTS), compress_type=zlib.Z_RLE)
+    image.convert("RGB").save(content, "PNG", dpi=(dots, dots), compress_type=zlib.Z_RLE)
     return content.getvalue()
 
 
@@ -181,6 +181,67 @@ def svg(sheet: Sheet) -> bytes:
     _draw(sheet, renderer, 1.0)
     renderer.finalize()
     return content.getvalue().encode()
+
+
+def pdf(sheet: Sheet) -> bytes:
+    """A sheet as PDF, its texts as text, without its time."""
+    import matplotlib as mpl
+    from matplotlib.backends.backend_pdf import PdfFile, RendererPdf
+
+    content = io.BytesIO()
+    with mpl.rc_context({"pdf.fonttype": 42}):  # TrueType, which journals ask for
+        file = PdfFile(content, metadata={"CreationDate": None})
+        file.newPage(sheet.width, sheet.height)
+        renderer = RendererPdf(file, INCH, sheet.height, sheet.width)
+        _draw(sheet, renderer, 1.0)
+        renderer.finalize()
+        file.finalize()
+    return content.getvalue()
+
+
+def fitted(sheet: Sheet, width: float, height: float) -> Sheet:
+    """A sheet of exactly that size [inch], with all that is on another and beside it."""
+    held = _reach(sheet)
+    scale = min(width * INCH / held.width, height * INCH / held.height)
+    right = (width * INCH - scale * held.width) / 2 - scale * held.left
+    up = (height * INCH - scale * held.height) / 2 - scale * held.bottom
+
+    def moved(mark: Mark) -> Mark:
+        if isinstance(mark, Text):
+            x, y = right + scale * mark.x, up + scale * mark.y
+            return replace(mark, x=x, y=y, size=scale * mark.size)
+        look, clip = mark.look, mark.clip
+        if clip is not None:
+            left, bottom = right + scale * clip.left, up + scale * clip.bottom
+            clip = Box(left, bottom, left + scale * clip.width, bottom + scale * clip.height)
+        return replace(
+            mark,
+            points=scale * mark.points + (right, up),
+            look=replace(look, width=scale * look.width, size=scale * look.size),
+            clip=clip,
+        )
+
+    return Sheet(width, height, [moved(mark) for mark in sheet.marks])
+
+
+_BESIDE = 2.0
+"""Room for the width of a line along a sheet's border [pt]."""
+
+
+def _reach(sheet: Sheet) -> Box:
+    """What holds a sheet and all that is on it, where its legends are wider than it is."""
+    corners = [np.array([(0.0, 0.0), (sheet.width * INCH, sheet.height * INCH)])]
+    for mark in sheet.marks:
+        if isinstance(mark, Text):
+            long = text_width(mark.text, mark.size) if mark.text else 0.0
+            along = np.array([-mark.align, 1.0 - mark.align]) * long
+            across = np.array([-0.24, 0.76]) * mark.size
+            sides = (-across, along) if mark.upright else (along, across)
+            corners.append(np.stack(sides, axis=-1) + np.array([mark.x, mark.y]))
+        elif mark.clip is None and len(mark.points):
+            corners += [mark.points - _BESIDE, mark.points + _BESIDE]
+    every = np.concatenate(corners)
+    return Box(*np.nanmin(every, axis=0).tolist(), *np.nanmax(every, axis=0).tolist())
 
 
 @lru_cache(maxsize=32)
@@ -244,6 +305,6 @@ def _text(text: Text, renderer: RendererBase, scale: float, height: float) -> No
     back = text.align * text_width(text.text, text.size) if text.align else 0.0
     x, y = (text.x, text.y - back) if text.upright else (text.x - back, text.y)
     angle = 90.0 if text.upright else 0.0
-    place = scale * x, scale * (height - y)
+    place = scale * x, scale * (height - y if renderer.flipy() else y)
     renderer.draw_text(gc, *place, text.text, _font(text.size), angle, ismath=False)
     gc.restore()

@@ -262,3 +262,18 @@ def test_what_turns_in_its_place_may_stray_by_two_millimetres(case, strays, met)
     first = next(one for one in criteria(found) if one.name == "distance")
     assert first.met == met
     assert ("turns in its place" in first.words) == met
+
+
+@pytest.mark.parametrize("turn", [np.pi - 0.05, 1.5 * np.pi])
+def test_a_try_that_turns_past_half_a_turn_keeps_its_way_and_its_heading(case, turn):
+    radius = 0.06  # less than the distance of the feet, more than half of it
+    scout, plan, walked = going_round(case, radius, turn, steps=18)
+    off = 0.1 / 2  # to the left all the way, which comes past half a turn before the plan does
+    half = pin.Quaternion(np.array([0.0, 0.0, np.sin(off), np.cos(off)]))
+    for q in walked.q[1:]:
+        q[3:7] = (half * pin.Quaternion(q[3:7])).coeffs()
+    found = measures(scout, plan, walked)
+    assert found.planned_turn == pytest.approx(turn)
+    assert not found.stays
+    assert found.planned_distance == pytest.approx(radius * turn, rel=0.02)
+    assert found.heading == pytest.approx(0.1)

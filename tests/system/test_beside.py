@@ -1,0 +1,116 @@
+"""``--beside``: two motions, or two robots, in one report and one page."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import MODULES
+
+import scout_pin
+
+ROOT = Path(__file__).parents[2]
+POLLARD = ("urdf/pollard/pollard.urdf", "urdf/pollard/pollard.closures.yaml")
+
+
+def run(command, *words):
+    code = f"import sys; from {MODULES[command]} import main; sys.exit(main())"
+    return subprocess.run(
+        [sys.executable, "-c", code, *map(str, words)], cwd=ROOT, capture_output=True, text=True
+    )
+
+
+def document(done):
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_a_gaits_json_has_both_reports():
+    words = ("gait", "--samples", "41", "--json", "-")
+    both = document(run("scout-pin", *words, "--beside", "examples/cruise.toml"))
+    first = document(run("scout-pin", *words))
+    second = document(run("scout-pin", *words, "--gait", "examples/cruise.toml"))
+    beside = both.pop("beside")
+    assert both == first
+    assert beside == {"names": ["thesis", "walk"], "aligned": "from the start", "report": second}
+
+
+def test_both_verdicts_are_told_side_by_side():
+    done = run("scout-pin", "gait", "--samples", "41", "--beside", "examples/cruise.toml")
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"within all limits +no +yes", done.stdout)
+    assert "thesis ends after 4 s and stands still, walk goes on to 5.16 s" in " ".join(
+        done.stdout.split()
+    )
+
+
+def test_a_second_robot_walks_beside_the_first_with_its_own_torques(tmp_path):
+    text = (ROOT / "scout_pin" / "specifications" / "scout.toml").read_text()
+    heavy, count = re.subn(
+        r"(\nmass = )([\d.]+)", lambda found: f"{found[1]}{1.2 * float(found[2]):.6g}", text
+    )
+    assert count
+    (tmp_path / "heavy.toml").write_text(heavy)
+    words = ("gait", "--samples", "21", "--json", "-", "--gait", "examples/walk.toml")
+    both = document(run("scout-pin", *words, "--beside-robot", tmp_path / "heavy.toml"))
+    second = both["beside"]["report"]
+    assert second["theta"] == both["theta"]
+    assert np.abs(second["torque"]).max() > np.abs(both["torque"]).max()
+
+
+def test_a_path_beside_appendix_b_and_a_motion_beside_a_motion(tmp_path):
+    out = tmp_path / "out"
+    words = ("trajectory", "--samples", "21", "--beside", "examples/spray_arch.toml")
+    done = run("pollard-pin", *words, "--duration", "10", "--out", out, "--figure", "4.4")
+    assert done.returncode == 0, done.stderr
+    assert {file.name for file in out.glob("*.svg")} == {"actuators.svg", "beside_actuators.svg"}
+    saved = json.loads((out / "report.json").read_text())
+    assert saved["time"][-1] == 10
+    assert saved["beside"]["report"]["time"][-1] == 5
+    motion = "examples/pollard_motors.csv"
+    done = run("thesis-pin", "torque", *POLLARD, motion, "--beside", motion, "--json", "-")
+    both = document(done)
+    assert both["beside"]["report"]["torque"] == both["torque"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("view", "--sliders", "--beside", "examples/walk.toml"), "--beside means nothing"),
+        (("gait", "--beside", "none.toml"), "none.toml"),
+        (("gait", "--beside-robot", "none.toml"), "none.toml"),
+    ],
+)
+def test_what_cannot_stand_beside_is_refused(words, said):
+    done = run("scout-pin", *words)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert said in done.stderr
+
+
+@pytest.mark.browser
+def test_the_page_has_both_curves_and_the_second_robot_where_it_is(browser, folder, artefacts):
+    file = folder / "beside.html"
+    words = ("gait", "--samples", "101", "--beside", "examples/cruise.toml", "--html", file)
+    done = run("scout-pin", *words)
+    assert done.returncode == 0, done.stderr
+    robot = scout_pin.load()
+    cruise = scout_pin.gait_report(robot, scout_pin.load_gait(ROOT / "examples" / "cruise.toml"))
+    for width in (1280, 390):
+        browser.open(file.as_uri(), width, 844)
+        browser.until("window.ready && player.framesDrawn > 0")
+        assert browser.complaints() == []
+        assert browser.requests() == [file.as_uri()]
+        assert browser.cut_numbers() == []
+        assert browser.run("document.documentElement.scrollWidth") <= width
+        browser.run("player.pause(); player.time = player.duration")
+        browser.still(artefacts / f"beside_{width}.png")
+    assert browser.run("player.duration") == pytest.approx(cruise.joints.time[-1], abs=1e-6)
+    ghost = browser.run("player.items.find((i) => i.name.startsWith('ghost of left_sole')).name")
+    place = cruise.motion.left_foot.position[-1, :2]
+    corners = browser.vertices(ghost)[:, :2]
+    assert (corners.min(axis=0) < place).all()
+    assert (corners.max(axis=0) > place).all()
+    assert file.stat().st_size < 3e6
