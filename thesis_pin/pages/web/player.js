@@ -227,10 +227,8 @@ function makePlayer(root, scene, options = {}) {
   for (const t of [start, (start + end) / 2, end]) {
     apply(t);
     stage.world.updateMatrixWorld(true);
-    for (const item of bodies.length ? bodies : items) box.expandByObject(item.object);
-  }
-  if (box.isEmpty()) {
-    for (const item of items) {
+    for (const item of bodies.length ? bodies : items) {
+      // What is nowhere would put the camera nowhere.
       if (item.object.visible && groups.get(item.group).visible) box.expandByObject(item.object);
     }
   }

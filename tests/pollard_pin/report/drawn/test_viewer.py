@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import pollard_pin
+from pollard_pin.report.drawn.page import trajectory_page
 from pollard_pin.report.drawn.viewer import overlays, zone
 from pollard_pin.report.judged.limits import distance_class
 
@@ -45,3 +46,10 @@ def test_an_open_loop_has_no_margin_and_shows_its_opening(robot):
     wanted = np.linalg.norm(robot.posture(opened).opening, axis=-1)
     assert sorted(gap[1] for gap in gaps) == pytest.approx(sorted(wanted), abs=1e-12)
     assert max(gap[0] for gap in gaps) < 1e-9
+
+
+def test_the_report_page_of_appendix_b_in_20_s_stays_under_3_mb(robot):
+    report = pollard_pin.trajectory_report(
+        robot, pollard_pin.appendix_b(duration=20.0), samples=2001
+    )
+    assert len(trajectory_page(report)) < 3e6
