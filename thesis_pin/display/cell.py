@@ -135,9 +135,10 @@ def _few(all_: Sequence[str], most: int, what: str) -> list[str]:
 
 def _table(cell: Cell) -> str:
     def row(tag: str, texts: Sequence[str]) -> str:
+        whole = "" if cell.prose else ";white-space:nowrap"  # a number stays with its unit
         sides = ["left" if cell.prose or not k else "right" for k in range(len(texts))]
         cells = (
-            f"<{tag} style='{_EDGE}text-align:{side}'>{escape(text)}</{tag}>"
+            f"<{tag} style='{_EDGE}text-align:{side}{whole}'>{escape(text)}</{tag}>"
             for text, side in zip(texts, sides, strict=True)
         )
         return f"<tr style='background:none'>{''.join(cells)}</tr>"
