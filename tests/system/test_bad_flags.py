@@ -152,8 +152,7 @@ CONTRADICTIONS = {
     "scout-pin gait": [
         ["--json", "-", "--html", "-"],
         ["--branch=+-"],
-        ["--figure", "5.2"],
-        ["--figure", "4.1", "--out", "out"],
+        ["--figure", "4.1"],
     ],
     "scout-pin view": [
         ["--port", "0"],
@@ -209,7 +208,7 @@ CONTRADICTIONS = {
         ["--timing", "constant-rate"],
         ["--placement", "0", "0", "0"],
         ["--branch=+-"],
-        ["--figure", "4.1"],
+        ["--figure", "5.2"],
     ],
     "pollard-pin simulate": [
         ["--json", "-", "--html", "-"],
