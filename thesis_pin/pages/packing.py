@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import gzip
 import json
+import math
 import re
 import struct
 from collections.abc import Mapping
@@ -92,12 +93,15 @@ def _meshcat_bundle() -> bytes:
 def encode(document: Mapping[str, object]) -> bytes:
     """A scene's document in the player's format.
 
-    Four bytes with the length of a JSON text, the text, then 32-bit floats,
-    all little-endian. In the text, ``{"$": [start, count]}`` stands for a run
-    of the floats. Arrays that several items share are stored once.
+    Four bytes with the length of a JSON text, little-endian, the text, then the numbers of all
+    arrays as 32-bit floats, to the bit. In the text, ``{"$": [start, count, width]}`` stands for
+    ``count`` of them in rows of ``width``. They lie column by column, each as the difference of its
+    bits from the one above, and first come the lowest bytes of all numbers, then the next ones:
+    neighbours in time share their upper bytes, so gzip leaves two thirds of what it would of rows.
+    Arrays that several items share are stored once.
     """
     blob: list[np.ndarray] = []
-    known: dict[bytes, dict[str, object]] = {}
+    known: dict[tuple[bytes, int], dict[str, object]] = {}
     size = 0
 
     def store(value: object) -> object:
@@ -108,14 +112,17 @@ def encode(document: Mapping[str, object]) -> bytes:
             return [store(entry) for entry in value]
         if not isinstance(value, np.ndarray):
             return value
-        flat = np.ascontiguousarray(value, dtype="<f4").ravel()
-        key = flat.tobytes()
+        width = math.prod(value.shape[1:])
+        columns = np.ascontiguousarray(value.reshape(-1, width).T, dtype="<f4").view("<u4")
+        key = columns.tobytes(), width
         if key not in known:
-            known[key] = {"$": [size, len(flat)]}
-            blob.append(flat)
-            size += len(flat)
+            known[key] = {"$": [size, columns.size, width]}
+            blob.append(np.diff(columns, axis=1, prepend=np.uint32(0)).ravel())
+            size += columns.size
         return known[key]
 
     text = json.dumps(store(document), separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-len(text) % 4)
-    return struct.pack("<I", len(text)) + text + b"".join(part.tobytes() for part in blob)
+    numbers = np.concatenate([np.empty(0, "<u4"), *blob]).astype("<u4")
+    planes = numbers.view(np.uint8).reshape(-1, 4).T
+    return struct.pack("<I", len(text)) + text + planes.tobytes()

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from example_robots import NAMES, SHARE
 
+from thesis_pin.pages import packing, scene
 from thesis_pin.pages import player as viewer
-from thesis_pin.pages import scene
 
 TIME = np.linspace(0.0, 1.0, 5)
 GROUPS = (scene.Group("a", "all"),)
@@ -28,15 +28,20 @@ def ball(name, position):
 def decoded(buffer):
     """The player's format, read by a reader of its own."""
     (length,) = struct.unpack("<I", buffer[:4])
-    floats = np.frombuffer(buffer[4 + length :], dtype="<f4")
+    content = buffer[4 + length :]
+    quarter = len(content) // 4
+    planes = (content[k * quarter : (k + 1) * quarter] for k in range(4))
+    differences = [int.from_bytes(four, "little") for four in zip(*planes, strict=True)]
 
     def revive(value):
         if set(value) == {"$"}:
-            start, count = value["$"]
-            return floats[start : start + count]
+            start, count, width = value["$"]
+            columns = np.reshape(differences[start : start + count], (width, -1))
+            bits = (np.cumsum(columns, axis=1) % 2**32).astype("<u4")
+            return np.ascontiguousarray(bits.T).view("<f4").ravel()
         return value
 
-    return json.loads(buffer[4 : 4 + length], object_hook=revive), len(floats)
+    return json.loads(buffer[4 : 4 + length], object_hook=revive), quarter
 
 
 def test_encoding_keeps_every_number_to_single_precision():
@@ -48,6 +53,19 @@ def test_encoding_keeps_every_number_to_single_precision():
     np.testing.assert_array_equal(second["samples"]["vector"], (2 * path).astype("f4").ravel())
     assert (second["kind"], second["scale"], second["colour"]) == ("arrow", 0.5, "#112233")
     np.testing.assert_array_equal(document["time"], TIME.astype("f4"))
+
+
+def test_places_that_are_unknown_and_of_any_size_come_back_to_the_bit():
+    path = np.array([[np.nan, -0.0, 3e38], [1e-40, -1e-45, np.nan], *np.eye(3)])
+    document, _ = decoded(viewer.encode(made(ball("ball", path))))
+    found = document["items"][0]["samples"]["position"]
+    np.testing.assert_array_equal(found.view("u4"), path.astype("f4").ravel().view("u4"))
+
+
+def test_arrays_of_nothing_are_nothing():
+    arrays = {"none": np.empty((0, 3)), "no": np.empty(0), "one": np.ones(1)}
+    document, _ = decoded(packing.encode(arrays))
+    assert [len(document[name]) for name in ("none", "no", "one")] == [0, 0, 1]
 
 
 def test_arrays_that_items_share_are_stored_once():

@@ -1,11 +1,25 @@
 "use strict";
 // Plays a scene (thesis_pin/pages/scene.py) with the three.js and camera controls of meshcat's bundle.
 
+// The numbers of a scene as thesis_pin/pages/packing.py lays them.
 function decodeScene(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
-  const floats = new Float32Array(buffer, 4 + length);
-  const revive = (key, value) =>
-    value && value.$ ? floats.subarray(value.$[0], value.$[0] + value.$[1]) : value;
+  const planes = new Uint8Array(buffer, 4 + length), count = planes.length / 4, known = new Map();
+  const array = ([start, size, width]) => {
+    const bits = new Uint32Array(size), rows = size / width;
+    for (let column = 0, k = start; column < width; column++) {
+      for (let row = 0, sum = 0; row < rows; row++, k++) {
+        sum += planes[k] | planes[count + k] << 8 | planes[2 * count + k] << 16 | planes[3 * count + k] << 24;
+        bits[row * width + column] = sum |= 0;
+      }
+    }
+    return new Float32Array(bits.buffer);
+  };
+  const revive = (key, value) => {
+    if (!value || !value.$) return value;
+    if (!known.has(value.$[0])) known.set(value.$[0], array(value.$));
+    return known.get(value.$[0]);
+  };
   return JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)), revive);
 }
 
