@@ -3,7 +3,6 @@
 import time
 from pathlib import Path
 
-import chromium
 import numpy as np
 import pytest
 
@@ -40,10 +39,8 @@ def test_nothing_of_a_scene_ends_its_frame():
 
 
 @pytest.fixture(scope="module")
-def notebook(tmp_path_factory):
+def notebook(running_browser, tmp_path_factory):
     """A dark page with two scenes among text that hears keys, as a notebook does."""
-    if chromium.find() is None:
-        pytest.skip("no Chromium on this machine")
     page = tmp_path_factory.mktemp("notebook") / "cells.html"
     cells = "<p>between</p>".join(swing(title)._repr_html_() for title in ("one", "two"))
     page.write_text(
@@ -52,10 +49,10 @@ def notebook(tmp_path_factory):
         f"<body style='background:#111;color:#ddd'><p>before</p>{cells}<p>after</p></body>",
         encoding="utf-8",
     )
-    with chromium.Chromium() as browser:
-        browser.open(page.as_uri(), height=1200)
-        browser.page.wait_for_load_state("load")  # frames come with it
-        yield browser
+    running_browser.open(page.as_uri(), height=1200)
+    running_browser.page.wait_for_load_state("load")  # frames come with it
+    yield running_browser
+    running_browser.leave()
 
 
 def in_frame(notebook, number, script):

@@ -22,6 +22,9 @@ MOST_CURVES = 6
 MOST_AFTER = 601
 """Samples of a scene for what the second motion still does when the first has ended."""
 
+_SAME = 1e-9  # of a duration: less is rounding
+_APART = 1e-3  # s: of times closer than that a page, which has 32 bits for each, might make one
+
 Names = tuple[str, str]
 """Of the first motion and of the second."""
 
@@ -62,7 +65,7 @@ def beside_page(first: Page, second: Page, names: Names, durations: tuple[float,
 def aligned(names: Names, durations: tuple[float, float]) -> str:
     """How the times of two motions go together, in a sentence."""
     text = "Both begin at the same moment"
-    if abs(durations[0] - durations[1]) <= 1e-9 * max(durations):
+    if abs(durations[0] - durations[1]) <= _SAME * max(durations):
         return f"{text} and take {durations[0]:.4g} s."
     short = int(durations[1] < durations[0])
     return (
@@ -206,8 +209,7 @@ def with_second(
     """
     own = np.asarray(scene.time, dtype=float)
     there = np.asarray(time, dtype=float) - time[0] + own[0]
-    # Of times closer than 1 ms a page, which has 32 bits for each, might make one.
-    after = there[there > own[-1] + 1e-3]
+    after = there[there > own[-1] + _APART]
     if len(after):
         keep = np.linspace(0, len(after) - 1, min(len(after), MOST_AFTER)).round().astype(int)
         scene = _held(scene, after[keep])

@@ -37,6 +37,9 @@ def test_a_simulation_passes_if_every_try_keeps_all_and_is_doubted_as_its_report
         report = SimpleNamespace(doubts=lambda: ["is this in degrees?"])
         tries = TRIES[some]
 
+        def verdict(self):
+            return ""
+
     found = Simulated()
     assert (found.passed, found.within_limits) == (passes, passes)
     assert found.doubts() == ["is this in degrees?"]

@@ -6,6 +6,7 @@ import subprocess
 import chromium
 import numpy as np
 import pytest
+from loops import beside
 from PIL import Image
 
 from thesis_pin.errors import BadInput
@@ -199,5 +200,5 @@ def test_films_are_made_while_a_loop_runs_as_in_a_notebook(needs_browser):
     async def cell():
         return making.picture(moving(), view=SMALL)
 
-    made = asyncio.run(cell())
+    made = beside(lambda: asyncio.run(cell()))
     assert opened(made).shape == (180, 320, 3)

@@ -14,6 +14,7 @@ import pytest
 import tornado.httpclient
 import tornado.ioloop
 import tornado.websocket
+from loops import beside
 
 from thesis_pin.errors import BadInput
 from thesis_pin.pages.meshcat import window
@@ -113,7 +114,7 @@ def connect(server, **headers):
             request.headers[name] = value
         (await tornado.websocket.websocket_connect(request)).close()
 
-    tornado.ioloop.IOLoop(make_current=False).run_sync(attempt, timeout=20)
+    beside(lambda: tornado.ioloop.IOLoop(make_current=False).run_sync(attempt, timeout=20))
 
 
 def test_only_its_own_page_is_told_what_is_drawn(server):
