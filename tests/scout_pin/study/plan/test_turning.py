@@ -25,7 +25,7 @@ from .steps import states
 STEPS = 4
 REQUESTS = {
     "aside": PlanRequest(side=-0.02),
-    "round": PlanRequest(turn=math.radians(12.0)),
+    "round": PlanRequest(turn=math.radians(12.0), yaw=math.radians(1.0)),
     "curve": PlanRequest(step_length=0.02, side=0.01, turn=math.radians(-10.0)),
 }
 
@@ -88,6 +88,12 @@ def test_a_repeated_cycle_goes_its_way_as_often(plan):
     assert not again.rate_jumps()
     assert closure(cycle).closed
     assert closure(cycle).turn == pytest.approx(turn, abs=1e-9)
+    # A cycle's displacement is that of the middle of its feet; the right one is a step behind.
+    went = [gone(plan.request, 2 - k, lane(plan, k)) for k in (0, 1)]
+    came = [gone(plan.request, -k, lane(plan, k)) for k in (0, 1)]
+    assert complex(*closure(cycle).displacement) == pytest.approx(
+        (sum(went) - sum(came)) / 2, abs=1e-9
+    )
     # Each pair of steps asks the same of the servos.
     robot = plan.cycle.robot
     t = np.linspace(0.01, cycle.end - 0.01, 40)
