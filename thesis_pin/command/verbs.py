@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
-from thesis_pin.command.figured import chosen, without
-from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.flags.figured import chosen, without
+from thesis_pin.command.flags.options import refuse_beside
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Robot, found
@@ -133,7 +133,7 @@ def show_scene(
     """Show a scene in the browser, or write it as a page.
 
     Args:
-        arguments: With what :func:`thesis_pin.command.options.add_view` adds.
+        arguments: With what :func:`thesis_pin.command.flags.options.add_view` adds.
         command: Which command asks, for the schema's name.
         make: Makes the scene.
     """

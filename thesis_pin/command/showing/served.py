@@ -24,7 +24,7 @@ def served(arguments: argparse.Namespace, shown: Mapping[str, object]) -> Served
     """How the arguments want a page served; ``--json`` is written once its address is known.
 
     Args:
-        arguments: With what :func:`thesis_pin.command.options.add_view` adds.
+        arguments: With what :func:`thesis_pin.command.flags.options.add_view` adds.
         shown: What ``--json`` says of it, but for the address.
     """
     return Served(

@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.flags.options import refuse_beside
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put
 from thesis_pin.command.running import ExitCode
@@ -28,7 +28,7 @@ def show_sliders(
     """Show a robot with sliders in the browser, or write it as a page that shows its pose.
 
     Args:
-        arguments: With what :func:`thesis_pin.command.options.add_view` adds.
+        arguments: With what :func:`thesis_pin.command.flags.options.add_view` adds.
         command: Which command asks, for the schema's name.
         make: Makes the page.
 
