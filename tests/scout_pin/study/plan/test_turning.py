@@ -9,6 +9,7 @@ import pytest
 
 import scout_pin
 from scout_pin.motion.cycles import closure, repeat_gait
+from scout_pin.motion.exact import exact_toml
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.swings import sole_gap
 from scout_pin.motion.trajectory import joint_trajectory
@@ -16,7 +17,6 @@ from scout_pin.study.plan.cycles.feet import Moments, Steps
 from scout_pin.study.plan.planning import MOST_TURNS, plan_gait, walk
 from scout_pin.study.plan.request import GAP, PlanRequest
 from scout_pin.study.plan.results.document import document, files
-from scout_pin.study.plan.results.writing import exact_toml
 from thesis_pin.errors import BadInput
 from thesis_pin.model.limits import LIMITS
 

@@ -1,4 +1,4 @@
-"""A planned gait as a file: its curves to the bit, and how it was made."""
+"""A gait of exact curves as a file: its curves to the bit, and how it was made."""
 
 from __future__ import annotations
 
