@@ -11,7 +11,7 @@ from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import BODIES
 from thesis_pin.errors import BadInput, SpecificationError
 
-from ...conftest import EXAMPLES
+from ..conftest import EXAMPLES
 
 
 def again(gait, folder, header=()):
