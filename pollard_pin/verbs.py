@@ -183,7 +183,7 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         content = json_bytes(space.document()) if arguments.json or arguments.out else b""
         if arguments.out:
             from pollard_pin.study.figures import workspace_files
-            from thesis_pin.report.figures import written_as
+            from thesis_pin.report.plotting.wanted import written_as
 
             files = {"workspace.csv": csv_bytes(space.columns()), "workspace.json": content}
             with written_as(style):

@@ -75,7 +75,7 @@ def plan(arguments: argparse.Namespace) -> ExitCode:
     with Bar("planning a walk") as bar:
         from scout_pin.study.plan.planning import plan_gait
         from scout_pin.study.plan.results.document import document, files
-        from thesis_pin.report.figures import written_as
+        from thesis_pin.report.plotting.wanted import written_as
         from thesis_pin.report.writers import json_bytes
 
         with warned():

@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 HEAVY = {
     *("pydantic", "scipy", "rich", "yaml", "matplotlib", "shapely", "yourdfpy", "trimesh"),
     *("lxml", "meshcat", "numpy.ma", "plotly", "jinja2", "urllib.request", "tomllib"),
-    "multiprocessing",
+    *("multiprocessing", "html", "thesis_pin.report.figures", "thesis_pin.report.curves"),
 }
 IK = ("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")
 TOOL = ("ik", "0.45", "0", "0.05", "0", "10", "0")

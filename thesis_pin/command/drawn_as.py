@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
 from thesis_pin.command.numbers import add_count
 from thesis_pin.command.registry import Words
 from thesis_pin.command.sizes import Size, add_size
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import shown
-
-if TYPE_CHECKING:  # help has to be quick
-    from thesis_pin.report.figures import Wanted
-
-FORMATS = ("png", "svg", "pdf")
+from thesis_pin.report.plotting.wanted import FORMATS, Wanted
 
 
 def add_figures(words: Words) -> None:
@@ -44,8 +39,6 @@ def figure_style(arguments: argparse.Namespace) -> Wanted:
     Raises:
         BadInput: There is no ``--out``, or the size is none of figures.
     """
-    from thesis_pin.report.figures import Wanted
-
     given: dict[str, object] = {
         name: getattr(arguments, name, None) for name in ("formats", "dpi", "size")
     }

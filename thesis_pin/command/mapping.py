@@ -52,7 +52,7 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         wanted = arguments.json or arguments.out
         content = json_bytes(written.document(space)) if wanted else b""
         if arguments.out:
-            from thesis_pin.report.figures import written_as
+            from thesis_pin.report.plotting.wanted import written_as
             from thesis_pin.report.workspace.figures import workspace_files
 
             table = csv_bytes(written.columns(space))

@@ -16,6 +16,7 @@ from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.errors import BadInput
 from thesis_pin.files import Claim, is_standard_output, write_file, write_folder
+from thesis_pin.report.plotting.wanted import written_as
 from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:  # help has to be quick
@@ -106,7 +107,6 @@ def deliver(
         strict: Whether the exit code is always that of the answer.
         keep: Chooses among the files of ``figures``.
     """
-    from thesis_pin.report.figures import written_as
     from thesis_pin.report.writers import csv_bytes, json_bytes
 
     style = figure_style(arguments)

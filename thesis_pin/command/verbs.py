@@ -221,7 +221,7 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
             "robot": loaded.specification.name,
             "file": arguments.to,
             "form": form,
-            "samples": len(motion.time),
+            "samples": 0 if form == "toml" and motion.curves else len(motion.time),
             "duration": float(motion.time[-1] - motion.time[0]),
             "joints": list(motion.joints),
         }

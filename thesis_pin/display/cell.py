@@ -9,7 +9,6 @@ import inspect
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 
 import numpy as np
 
@@ -51,6 +50,8 @@ class Cell:
 
 def html(cell: Cell) -> str:
     """A cell as HTML that needs no style sheet and no script."""
+    from html import escape  # its list of entities takes as long to import as ten of our files
+
     parts = [f"<p style='margin:.2em 0'><strong>{escape(cell.title)}</strong></p>"]
     if cell.said:
         colour = _OPEN if cell.good is None else _GOOD if cell.good else _BAD
@@ -134,6 +135,8 @@ def _few(all_: Sequence[str], most: int, what: str) -> list[str]:
 
 
 def _table(cell: Cell) -> str:
+    from html import escape
+
     def row(tag: str, texts: Sequence[str]) -> str:
         whole = "" if cell.prose else ";white-space:nowrap"  # a number stays with its unit
         sides = ["left" if cell.prose or not k else "right" for k in range(len(texts))]

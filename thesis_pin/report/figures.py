@@ -13,8 +13,6 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from contextvars import ContextVar
-from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -23,11 +21,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput
-from thesis_pin.numeric.checks import shown
 from thesis_pin.report.curves import Plot, condensed
 from thesis_pin.report.plotting.grid import arranged
 from thesis_pin.report.plotting.panel import panel
-from thesis_pin.report.plotting.sheet import DOTS, Sheet, fitted, pdf, png, svg
+from thesis_pin.report.plotting.sheet import Sheet, fitted, pdf, png, svg
+from thesis_pin.report.plotting.wanted import Wanted, wanted_now
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,59 +35,6 @@ _TRIES = 16
 
 STRETCHES = 1333
 """Of a plot's x axis: as many as the widest has columns of pixels."""
-
-
-FORMATS = ("png", "svg", "pdf")
-"""What figures can be written as."""
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """How figures are to be written.
-
-    Attributes:
-        formats: Of :data:`FORMATS`, each once.
-        dots: Pixels of an inch, of PNGs.
-        size: Width and height [inch]; None for what suits each figure.
-    """
-
-    formats: tuple[str, ...] = ("png", "svg")
-    dots: int = DOTS
-    size: tuple[float, float] | None = None
-
-    def __post_init__(self) -> None:
-        """Refuse what can't be written.
-
-        Raises:
-            BadInput: Says what.
-        """
-        known = set(self.formats) <= set(FORMATS)
-        if not known or not self.formats or len(set(self.formats)) < len(self.formats):
-            said = ",".join(map(str, self.formats))
-            raise BadInput(
-                f"formats of figures are {shown(said)}", allowed=f"{', '.join(FORMATS)}, each once"
-            )
-        if not 30 <= self.dots <= 1200:
-            raise BadInput(f"dots of an inch are {shown(self.dots)}", allowed="30 to 1200")
-        if self.size is not None and not all(0.5 <= side <= 50 for side in self.size):
-            width, height = self.size
-            raise BadInput(
-                f"the size of figures is {width:.4g} by {height:.4g} inches",
-                allowed="0.5 to 50 inches (12.7 to 1270 mm) each way",
-            )
-
-
-_WANTED: ContextVar[Wanted] = ContextVar("_WANTED", default=Wanted())  # noqa: B039 (frozen)
-
-
-@contextmanager
-def written_as(wanted: Wanted) -> Iterator[None]:
-    """Figures made meanwhile are laid out and written so, whoever makes them."""
-    before = _WANTED.set(wanted)
-    try:
-        yield
-    finally:
-        _WANTED.reset(before)
 
 
 @contextmanager
@@ -138,7 +83,7 @@ def panels(rows: Sequence[Sequence[Plot]], width: float, height: float, title: s
         height: Height [inch], likewise.
         title: Headline above all; empty for none.
     """
-    width, height = _WANTED.get().size or (width, height)
+    width, height = wanted_now().size or (width, height)
     table = [[panel(condensed(plot, STRETCHES)) for plot in row] for row in rows]
     return arranged(table, width, height, title)
 
@@ -173,7 +118,7 @@ def figure_files(name: str, figure: Sheet | Figure) -> dict[str, bytes]:
     import matplotlib as mpl
 
     with mpl.rc_context({"svg.hashsalt": name}):
-        wanted = _WANTED.get()
+        wanted = wanted_now()
         if not isinstance(figure, Sheet):
             return _general(name, figure, wanted)
         if wanted.size is not None:

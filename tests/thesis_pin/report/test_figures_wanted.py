@@ -9,14 +9,8 @@ from PIL import Image
 
 from thesis_pin.errors import BadInput
 from thesis_pin.report.curves import Area, Curve, Limit, Plot
-from thesis_pin.report.figures import (
-    Wanted,
-    default_style,
-    figure_files,
-    new_figure,
-    panels,
-    written_as,
-)
+from thesis_pin.report.figures import default_style, figure_files, new_figure, panels
+from thesis_pin.report.plotting.wanted import Wanted, written_as
 
 pdfium = pytest.importorskip("pypdfium2", reason="pip install pypdfium2")
 

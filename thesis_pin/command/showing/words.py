@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import shlex
 
 from thesis_pin.command.registry import Words
 from thesis_pin.errors import BadInput
@@ -39,6 +38,8 @@ def refuse_set(arguments: argparse.Namespace, flag: str, **usual: object) -> Non
 
 def shown_by(arguments: argparse.Namespace, command: str) -> str:
     """The command line that shows a robot's sliders, for pages whose sliders don't move."""
+    import shlex
+
     own = arguments.specification
     words = [command, "view", "--sliders", *(["--specification", str(own)] if own else [])]
     return shlex.join(words)

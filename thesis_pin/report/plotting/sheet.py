@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.report.curves import STROKES, Dash
+from thesis_pin.report.plotting.wanted import DOTS
 
 if TYPE_CHECKING:
     from matplotlib.backend_bases import GraphicsContextBase, RendererBase
@@ -28,9 +29,6 @@ Colour = tuple[float, float, float, float]
 
 INCH = 72.0
 """Points."""
-
-DOTS = 150
-"""Pixels of an inch."""
 
 
 def colour(code: str, opacity: float = 1.0) -> Colour:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import scout_pin
+from scout_pin.motion.exact import exact_toml
 from scout_pin.motion.files import load_gait
 from scout_pin.study.plan import planning
 from scout_pin.study.plan.cycles import aims
@@ -14,7 +15,6 @@ from scout_pin.study.plan.planning import MOST_STEPS, plan_gait, walk
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.results.document import document, files
 from scout_pin.study.plan.results.result import Plan
-from scout_pin.study.plan.results.writing import exact_toml
 from thesis_pin.errors import BadInput
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.report.writers import json_bytes

@@ -209,8 +209,11 @@ def test_a_foot_that_lands_early_slips_from_where_it_took_load(case):
     assert found.worst_slip.distance == pytest.approx(1.5e-3)
 
 
-def going_round(case, radius, turn=np.pi / 2, steps=6):
-    """The same time filled with steps round a place to the robot's left, ``radius`` away."""
+def going_round(case, radius, turn=np.pi / 2, steps=6, toward=-1.0):
+    """The same time filled with steps round a place ``radius`` away, to the robot's left.
+
+    Or where ``toward`` leads, x + iy: 1j is ahead, so that the robot goes aside, to its right.
+    """
     scout, plan, walked = case
     each = turn / steps
     landings = np.linspace(0.5, 1.5, steps)
@@ -218,11 +221,10 @@ def going_round(case, radius, turn=np.pi / 2, steps=6):
     # The right foot lands first, one step round; each landing is two steps after its last one.
     fallen = np.stack([2 * gone[1], np.maximum(2 * gone[0] - 1, 0)])
     fallen[0, plan.time >= 1.6] = fallen[1, plan.time >= 1.6] = steps
-    middle = -radius
-    lanes = np.array([-0.04, 0.04])[:, None] - middle
+    middle = radius * toward
+    places = middle + (np.array([-0.04, 0.04])[:, None] - middle) * np.exp(1j * each * fallen)
     feet = np.zeros(plan.feet.shape)
-    feet[..., 0] = middle + lanes * np.cos(each * fallen)
-    feet[..., 1] = lanes * np.sin(each * fallen)
+    feet[..., 0], feet[..., 1] = places.real, places.imag
     q = plan.q.copy()
     q[:, 1] = 0.0
     half = each * fallen.mean(axis=0) / 2
@@ -252,16 +254,41 @@ def test_a_plan_that_turns_is_held_against_its_way_round(case):
     assert "far, round to the left" in words
 
 
+@pytest.mark.parametrize("turn", [np.pi / 2, -np.pi / 2])
 @pytest.mark.parametrize(("strays", "met"), [(0.0019, True), (0.0021, False)])
-def test_what_turns_in_its_place_may_stray_by_two_millimetres(case, strays, met):
-    scout, plan, walked = going_round(case, 0.0)
+def test_what_turns_in_its_place_may_stray_by_two_millimetres(case, strays, met, turn):
+    scout, plan, walked = going_round(case, 0.0, turn)
     walked.soles[:, -1, 1, 3] += strays
     found = measures(scout, plan, walked)
     assert found.stays
+    assert found.sideways == 0.0
     assert found.distance == pytest.approx(strays)
     first = next(one for one in criteria(found) if one.name == "distance")
     assert first.met == met
     assert ("turns in its place" in first.words) == met
+
+
+@pytest.mark.parametrize(("radius", "stays"), [(0.03, True), (0.06, False), (0.3, False)])
+def test_a_way_aside_and_round_is_as_long_as_its_arc_not_as_the_zigzag_of_its_landings(
+    case, radius, stays
+):
+    scout, plan, walked = going_round(case, radius, steps=24, toward=1j)
+    found = measures(scout, plan, walked)
+    assert found.stays == stays  # nearer than half the distance of its feet
+    assert found.planned_distance == pytest.approx((not stays) * radius * np.pi / 2, rel=0.02)
+    if not stays:  # it ends going along y, to its right: 10 mm farther, 5 mm to the right of that
+        walked.soles[:, -1, :2, 3] += [0.005, 0.010]
+        farther = measures(scout, plan, walked)
+        assert farther.distance - farther.planned_distance == pytest.approx(0.010, abs=1e-3)
+        assert farther.sideways == pytest.approx(0.005, abs=1e-3)
+
+
+def test_a_torso_that_leans_ahead_turns_no_farther(case):
+    scout, plan, walked = going_round(case, 0.3, np.pi / 4)
+    lean = pin.Quaternion(pin.exp3(np.array([-0.5, 0.0, 0.0])))
+    for q in plan.q:
+        q[3:7] = (pin.Quaternion(q[3:7]) * lean).coeffs()
+    assert measures(scout, plan, walked).planned_turn == pytest.approx(np.pi / 4)
 
 
 @pytest.mark.parametrize("turn", [np.pi - 0.05, 1.5 * np.pi])
