@@ -32,7 +32,7 @@ from thesis_pin.command.showing.beside import (
     second_of,
 )
 from thesis_pin.command.showing.film import check_film, shoot, shown_first
-from thesis_pin.command.text import say
+from thesis_pin.command.showing.served import served, write_shown
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 
@@ -145,8 +145,6 @@ def show_scene(
     if arguments.meshcat is not None and arguments.look != "3d":
         raise BadInput("--look means nothing beside --meshcat", remedy="Leave one of them out")
     with Bar("working out the motion") as bar:
-        from thesis_pin.report.writers import json_bytes
-
         scene = shown_first(make(bar), arguments)
     shown = {
         "schema": f"{command}/view",
@@ -170,24 +168,9 @@ def show_scene(
         said(arguments.html)
     shoot(scene, arguments)
     if arguments.html or arguments.film or arguments.picture:
-        if arguments.json:
-            put(arguments.json, json_bytes(shown | {"address": None}))
+        write_shown(arguments, shown, None)
         return ExitCode.DONE
-
-    def ready(address: str) -> None:
-        if arguments.json:
-            put(arguments.json, json_bytes(shown | {"address": address}))
-
-    serving.show(
-        scene,
-        speed=arguments.speed,
-        look=arguments.look,
-        port=arguments.port,
-        browser=not arguments.no_browser,
-        hold=arguments.hold,
-        say=say,
-        ready=ready,
-    )
+    serving.show(scene, speed=arguments.speed, look=arguments.look, **served(arguments, shown))
     return ExitCode.DONE
 
 

@@ -12,6 +12,7 @@ from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.showing.film import check_film, shoot, shown_first
+from thesis_pin.command.showing.served import served, write_shown
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
@@ -48,8 +49,6 @@ def show_sliders(
         if given:
             raise BadInput(f"--{flag} belongs to a motion", remedy="Leave it out, or name a motion")
     with Bar("drawing the robot"):
-        from thesis_pin.report.writers import json_bytes
-
         with warned():
             page = make()
         content = page.html() if arguments.html else b""
@@ -73,24 +72,12 @@ def show_sliders(
             put(arguments.html, content)
         if scene is not None:
             shoot(scene, arguments)
-        if arguments.json:
-            put(arguments.json, json_bytes(shown | {"address": None}))
+        write_shown(arguments, shown, None)
         return ExitCode.DONE
 
     from thesis_pin.pages.live import making
 
-    def ready(address: str) -> None:
-        if arguments.json:
-            put(arguments.json, json_bytes(shown | {"address": address}))
-
-    making.show_sliders(
-        page,
-        port=arguments.port,
-        browser=not arguments.no_browser,
-        hold=arguments.hold,
-        say=say,
-        ready=ready,
-    )
+    making.show_sliders(page, **served(arguments, shown))
     return ExitCode.DONE
 
 
