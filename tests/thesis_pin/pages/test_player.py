@@ -1,5 +1,6 @@
 """Scenes reach the page whole; the viewer's modules stay light."""
 
+import base64
 import json
 import re
 import struct
@@ -8,6 +9,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 from example_robots import NAMES, SHARE
 
 from thesis_pin.pages import packing, scene
@@ -66,6 +68,34 @@ def test_arrays_of_nothing_are_nothing():
     arrays = {"none": np.empty((0, 3)), "no": np.empty(0), "one": np.ones(1)}
     document, _ = decoded(packing.encode(arrays))
     assert [len(document[name]) for name in ("none", "no", "one")] == [0, 0, 1]
+
+
+READ = """(() => {
+  const scene = decodeScene(Uint8Array.from(atob(%s), (one) => one.charCodeAt(0)).buffer);
+  return Object.values(scene).map((array) => Array.from(new Uint32Array(array.buffer)));
+})()"""
+
+
+@pytest.mark.browser
+def test_the_page_reads_every_bit_of_every_array_also_behind_an_empty_one(browser, tmp_path):
+    (tmp_path / "page.html").write_bytes(viewer.html(made(ball("ball", np.zeros((5, 3))))))
+    browser.open((tmp_path / "page.html").as_uri())
+    browser.until("window.player && player.framesDrawn > 0")
+    random = np.random.default_rng(7)
+    arrays = {
+        "none": np.empty((0, 3)),
+        "time": TIME,
+        "odd": np.array([np.inf, -0.0, 3e38, 1e-40, -1e-45, -1.0]),
+        "places": random.normal(size=(7, 3)),
+        "matrices": random.normal(size=(3, 4, 4)),
+        "column": np.arange(6.0),
+        "columns": np.arange(6.0).reshape(3, 2).T,  # the same numbers, column by column
+        "again": TIME,
+    }
+    content = base64.b64encode(packing.encode(arrays)).decode()
+    found = browser.run(READ % json.dumps(content))
+    for bits, array in zip(found, arrays.values(), strict=True):
+        assert bits == array.astype("<f4").ravel().view("<u4").tolist()
 
 
 def test_arrays_that_items_share_are_stored_once():

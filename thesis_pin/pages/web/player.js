@@ -17,8 +17,9 @@ function decodeScene(buffer) {
   };
   const revive = (key, value) => {
     if (!value || !value.$) return value;
-    if (!known.has(value.$[0])) known.set(value.$[0], array(value.$));
-    return known.get(value.$[0]);
+    const place = value.$.join();  // an array of nothing begins where the next one does
+    if (!known.has(place)) known.set(place, array(value.$));
+    return known.get(place);
   };
   return JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)), revive);
 }

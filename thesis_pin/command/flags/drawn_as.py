@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from thesis_pin.command.numbers import add_count
+from thesis_pin.command.flags.numbers import add_count
+from thesis_pin.command.flags.sizes import Size, add_size
 from thesis_pin.command.registry import Words
-from thesis_pin.command.sizes import Size, add_size
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import shown
 
