@@ -7,10 +7,10 @@ import json
 import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
+from scout_pin.motion.exact import fits, key_ending, toml_number
 from scout_pin.motion.gait import BODIES, Gait
 from thesis_pin.numeric.interpolation import interpolate
 from thesis_pin.numeric.piecewise import Piecewise
-from thesis_pin.tables.units import Unit
 from thesis_pin.tables.writing import WrittenUnits, texts
 from thesis_pin.tolerances import TOLERANCES
 
@@ -28,18 +28,39 @@ def rows_of(gait: Gait, samples: int | None = None, *, usual: int = 401) -> np.n
             is smooth within their resolution.
         usual: How many, where it wasn't made of samples.
     """
-    if samples is None and gait.variants is not None and gait.rows is not None:
-        return np.array(gait.rows.t)
-    moving = [c for curves in gait.curves.values() for c in curves if len(c.x) > 2]
-    if samples is None and moving:
-        t = moving[0].x
-        ends = {gait.start, gait.end} <= {float(t[0]), float(t[-1])}
-        if len(t) > 3 and ends and all(_through(curve, t) for curve in moving):
-            return np.asarray(t)
+    if samples is None and (own := _own_rows(gait)) is not None:
+        return own
     changes = np.unique([*(phase.start for phase in gait.phases), gait.end])
     even = np.linspace(gait.start, gait.end, samples or usual)
     apart = np.abs(even[:, None] - changes).min(axis=1) > _APART * (gait.end - gait.start)
     return np.union1d(even[apart], changes)
+
+
+def _own_rows(gait: Gait) -> np.ndarray | None:
+    """The samples that a gait was made of; None if a spline through some isn't all that it is."""
+    if gait.variants is not None and gait.rows is not None:
+        return np.array(gait.rows.t)
+    moving = [c for curves in gait.curves.values() for c in curves if len(c.x) > 2]
+    if not moving:
+        return None
+    t = moving[0].x
+    ends = {gait.start, gait.end} <= {float(t[0]), float(t[-1])}
+    if len(t) > 3 and ends and all(_through(curve, t) for curve in moving):
+        return np.asarray(t)
+    return None
+
+
+def keeps_curves(gait: Gait, samples: int | None) -> bool:
+    """Whether our own format takes a gait's own curves rather than splines through samples.
+
+    Splines lose more than digits: the end of a cycle no longer fits its start.
+
+    Args:
+        gait: The gait.
+        samples: How many were asked for; None takes what suits the gait.
+    """
+    made_of_samples = gait.variants is not None or _own_rows(gait) is not None
+    return samples is None and not made_of_samples and fits(gait)
 
 
 def supports(gait: Gait, t: np.ndarray) -> list[str]:
@@ -103,24 +124,14 @@ def gait_toml(gait: Gait, t: np.ndarray, units: WrittenUnits) -> str:
         for name, curve in zip(POSE_NAMES, gait.curves[body], strict=True):
             unit = units.length if name in "xyz" else units.angle
             values = texts(curve(t), unit)
-            key = name + _ending(unit)
+            key = name + key_ending(unit)
             if len(set(values)) == 1:
-                lines.append(f"{key} = {_number(values[0])}")
+                lines.append(f"{key} = {toml_number(values[0])}")
             else:
-                row = ", ".join(map(_number, values))
+                row = ", ".join(map(toml_number, values))
                 lines.append(f"{key} = [{{ t = [{nodes}], value = [{row}] }}]")
     for phase in gait.phases:
         start, end = (at * gait.time_unit for at in (phase.start, phase.end))
         support = f'support = "{phase.support}"'
         lines += ["", "[[phases]]", f"start = {start!r}", f"end = {end!r}", support]
     return "\n".join(lines) + "\n"
-
-
-def _ending(unit: Unit) -> str:
-    """How a key says a unit: SI is said by nothing."""
-    return "" if unit.ending in ("_m", "_rad") else unit.ending
-
-
-def _number(text: str) -> str:
-    """A number as TOML has it."""
-    return text if "." in text or "e" in text else f"{text}.0"

@@ -12,9 +12,10 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.kinematics.branches import branch_label
 from scout_pin.model import Scout
+from scout_pin.motion.exact import exact_toml
 from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.trajectory import joint_trajectory
-from scout_pin.motion.writing import gait_toml, rows_of, supports
+from scout_pin.motion.writing import gait_toml, keeps_curves, rows_of, supports
 from scout_pin.report.document import GaitReport
 from scout_pin.report.judged.stance import branch_asked
 from scout_pin.specification import JOINT_NAMES
@@ -37,7 +38,8 @@ def gait_movement(
     Args:
         robot: The biped.
         gait: The gait.
-        samples: Number of evenly spaced times; None takes the samples it was made of, or 401.
+        samples: Number of evenly spaced times; None takes the samples it was made of, or 401,
+            in our own format its curves themselves.
         time_unit: Seconds in the gait's unit of t; None for the gait's own.
         branch: As in :func:`scout_pin.joint_trajectory`.
 
@@ -48,7 +50,7 @@ def gait_movement(
         gait = replace(gait, time_unit=time_unit)
     if branch is not None:  # what is written asks for it too
         gait = replace(gait, branch=branch_label(branch))
-    t = rows_of(gait, samples)
+    t, curves = rows_of(gait, samples), keeps_curves(gait, samples)
     motion = gait.sample(t)
 
     @cache
@@ -72,7 +74,8 @@ def gait_movement(
         JOINT_NAMES,
         lambda: joints().q,
         states,
-        partial(gait_toml, gait, t),
+        (lambda units: exact_toml(gait, units=units)) if curves else partial(gait_toml, gait, t),
+        curves,
     )
 
 

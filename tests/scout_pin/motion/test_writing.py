@@ -56,6 +56,29 @@ def test_what_is_written_reads_back_at_every_row(given, form, units, tmp_path):
     assert same.all()
 
 
+@pytest.mark.parametrize("units", ["", "mm,deg"])
+def test_our_own_format_keeps_the_curves_of_a_gait_that_was_not_sampled(given, tmp_path, units):
+    robot, gait = given
+    file, chosen = tmp_path / "a.toml", WrittenUnits.parse(units) if units else WrittenUnits()
+    file.write_bytes(content(gait_movement(robot, gait), "toml", chosen))
+    again = scout_pin.load_gait(file)
+    t = gait.sample_times(73)
+    for body in BODIES:
+        for one, two in zip(gait.curves[body], again.curves[body], strict=True):
+            for order in (0, 1, 2):
+                scale = max(1e-3, np.abs(one(t, order)).max())
+                atol = 1e-13 * scale if units else 0.0
+                np.testing.assert_allclose(two(t, order), one(t, order), atol=atol, rtol=0)
+    assert (again.phases, again.time_unit) == (gait.phases, gait.time_unit)
+
+
+def test_a_gait_of_more_pieces_than_a_file_may_hold_is_splined_so_that_it_can_be_read(tmp_path):
+    gait = scout_pin.repeat_gait(scout_pin.load_gait(EXAMPLES / "walk.toml"), 400)
+    file = tmp_path / "long.toml"
+    file.write_bytes(content(gait_movement(scout_pin.load(), gait), "toml"))
+    assert scout_pin.load_gait(file).end == pytest.approx(gait.end * gait.time_unit)
+
+
 def test_a_gait_made_of_samples_is_written_at_its_samples(given, tmp_path):
     robot, gait = given
     first, second = tmp_path / "1.csv", tmp_path / "2.csv"

@@ -40,6 +40,7 @@ class Movement:
         angles: Works their angles out [rad], shape ``(n, joints)``.
         states: Works out everything about them.
         toml: Writes it in our own format, in some units.
+        curves: Whether that holds curves, piece by piece, and no samples.
     """
 
     time: Array
@@ -49,6 +50,7 @@ class Movement:
     angles: Callable[[], Array]
     states: Callable[[], JointStates]
     toml: Callable[[WrittenUnits], str]
+    curves: bool = False
 
 
 def form_of(file: str, form: str | None) -> str:

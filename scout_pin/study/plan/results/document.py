@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from scout_pin.kinematics.branches import BRANCHES
+from scout_pin.motion.exact import exact_toml
 from scout_pin.study.plan.limits import KINDS, UNITS, Worst
 from scout_pin.study.plan.results.result import Plan, Walk
 from scout_pin.study.plan.results.tables import RATE, servo_tables
-from scout_pin.study.plan.results.writing import exact_toml
 from scout_pin.study.plan.walks.transitions import Transition
 from scout_pin.study.servo import ServoGains
 from thesis_pin.errors import BadInput

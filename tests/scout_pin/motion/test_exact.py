@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import scout_pin
+from scout_pin.motion.exact import exact_toml
 from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import BODIES
-from scout_pin.study.plan.results.writing import exact_toml
 from thesis_pin.errors import BadInput, SpecificationError
 
-from ....conftest import EXAMPLES
+from ..conftest import EXAMPLES
 
 
 def again(gait, folder, header=()):

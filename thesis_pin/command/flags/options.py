@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from thesis_pin.command.drawn_as import add_figures
-from thesis_pin.command.numbers import add_count, add_number
+from thesis_pin.command.flags.drawn_as import add_figures
+from thesis_pin.command.flags.numbers import add_count, add_number
 from thesis_pin.command.registry import Words
 from thesis_pin.errors import BadInput
 
@@ -157,7 +157,8 @@ def add_convert(words: Words) -> None:
         help="of tables, as mm,deg,ms (default: SI; of m mm cm, rad deg, s ms us)",
     )
     samples = "evenly spaced samples; more stand beside abrupt changes (default: the motion's own, "
-    add_count(words, "--samples", f"{samples}or 401)", least=2)
+    own = "or 401; in our own format a gait's own curves)"
+    add_count(words, "--samples", f"{samples}{own}", least=2)
     words.add_argument(
         "--servos",
         metavar="FILE",
