@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from functools import partial
 
 from thesis_pin.command import common
-from thesis_pin.command.drawn_as import add_figures
-from thesis_pin.command.numbers import add_number, number
-from thesis_pin.command.options import (
+from thesis_pin.command.flags.drawn_as import add_figures
+from thesis_pin.command.flags.numbers import add_number, number
+from thesis_pin.command.flags.options import (
     add_branch,
     add_euler,
     add_jobs,

@@ -12,8 +12,8 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH, USEFUL_BRANCHES, Bra
 from pollard_pin.model import Pollard, load
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.specification import Specification
-from thesis_pin.command.drawn_as import figure_style
-from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.flags.drawn_as import figure_style
+from thesis_pin.command.flags.options import refuse_beside
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import Answer, give, write_results

@@ -96,7 +96,7 @@ def test_imports_keep_the_contract(name, whole_graph):
         ("thesis_pin.numeric.checks", "thesis_pin.equations.values", "Layers of thesis_pin"),
         ("thesis_pin.equations.values", "thesis_pin.loops.closures", "Equations stand"),
         ("pollard_pin.urdf", "pollard_pin.model", "Layers of a robot"),
-        ("scout_pin.model", "thesis_pin.command.options", "Only commands"),
+        ("scout_pin.model", "thesis_pin.command.flags.options", "Only commands"),
         ("thesis_pin.tables.reading", "thesis_pin.command.progress", "Only commands"),
         ("thesis_pin.numeric.checks", "thesis_pin", "Layers of thesis_pin"),
         ("thesis_pin.errors", "thesis_pin.files", "No circles"),

@@ -10,7 +10,7 @@ from scout_pin.cli.making import which_new, which_urdf
 from scout_pin.cli.servos import which_servos
 from scout_pin.cli.walks import which_walk
 from thesis_pin.command import common
-from thesis_pin.command.options import add_json, add_robot
+from thesis_pin.command.flags.options import add_json, add_robot
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 ROBOT = Robot(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from thesis_pin.command import options
-from thesis_pin.command.numbers import add_count, add_number
+from thesis_pin.command.flags import options
+from thesis_pin.command.flags.numbers import add_count, add_number
 from thesis_pin.command.registry import Words
 
 add_branch = partial(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from thesis_pin.command import options
-from thesis_pin.command.numbers import add_number
+from thesis_pin.command.flags import options
+from thesis_pin.command.flags.numbers import add_number
 from thesis_pin.command.registry import Words
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from scout_pin.cli.gaits import add_branch
 from scout_pin.cli.servos import add_gains
-from thesis_pin.command import options
-from thesis_pin.command.drawn_as import add_figures
-from thesis_pin.command.numbers import add_count, add_number
-from thesis_pin.command.options import add_json
+from thesis_pin.command.flags import options
+from thesis_pin.command.flags.drawn_as import add_figures
+from thesis_pin.command.flags.numbers import add_count, add_number
+from thesis_pin.command.flags.options import add_json
 from thesis_pin.command.registry import Words
 
 _STEPS = (

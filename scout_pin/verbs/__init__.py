@@ -12,7 +12,7 @@ import numpy as np
 from scout_pin.implausible import implausible
 from scout_pin.model import Scout, load
 from scout_pin.specification import NEW_PATH, SIDES
-from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.flags.options import refuse_beside
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import Answer, check_new, put, put_new
 from thesis_pin.command.running import ExitCode

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from scout_pin.model import load
 from scout_pin.verbs import gains
-from thesis_pin.command.drawn_as import figure_style
+from thesis_pin.command.flags.drawn_as import figure_style
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, put_folder

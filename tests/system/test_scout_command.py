@@ -5,11 +5,9 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from commands import run
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -24,20 +22,6 @@ def process(*arguments, code="import sys; from scout_pin.cli import main; sys.ex
         env=environment,
         check=False,
     )
-
-
-@pytest.fixture
-def scout_pin(capfd, monkeypatch):
-    """The command called in this process: saves starting Python sixty times."""
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*arguments, cwd=None):
-        if cwd is not None:
-            monkeypatch.chdir(cwd)
-        code, out, err = run("scout-pin", list(map(str, arguments)), capfd)
-        return SimpleNamespace(returncode=code, stdout=out, stderr=err)
-
-    return call
 
 
 def test_default_report_says_plainly_that_the_thesis_gait_cannot_walk():

@@ -202,3 +202,16 @@ def test_pollards_tool_changes_its_branch_and_says_what_it_cannot_reach(
     browser.run("live.ask({slider: 1, value: 0.01})")
     settled(browser, 3)
     assert "has ended" in browser.run("document.querySelector('#panel .status').textContent")
+
+
+def test_a_long_path_in_the_command_stays_inside_the_panel(browser, robot, tmp_path):
+    q = assembly(robot).q
+    drawn = layers(robot, q)
+    command = f"thesis-pin view /{'a_folder_with_a_long_name/' * 4}arm.urdf"
+    file = tmp_path / "pose.html"
+    file.write_bytes(LivePage(JointRig(robot, q, drawn.size), drawn, "Pollard", command).html())
+    for width in (1280, 390):
+        opened(browser, file.as_uri(), width, 844)
+        assert command in browser.run("document.querySelector('#panel code').textContent")
+        wide, room = browser.run("[panel.scrollWidth, panel.clientWidth]")
+        assert wide <= room

@@ -4,25 +4,11 @@ import json
 import re
 import shlex
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
-from commands import run
 
 ROOT = Path(__file__).parents[2]
 URDF = ROOT / "urdf" / "scout" / "scout.urdf"
-
-
-@pytest.fixture
-def scout_pin(capfd, monkeypatch):
-    """The command called in this process."""
-    monkeypatch.setenv("COLUMNS", "80")
-
-    def call(*arguments):
-        code, out, err = run("scout-pin", list(map(str, arguments)), capfd)
-        return SimpleNamespace(returncode=code, stdout=out, stderr=err)
-
-    return call
 
 
 def commands(page):

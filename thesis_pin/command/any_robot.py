@@ -7,13 +7,13 @@ import warnings
 
 import pinocchio as pin
 
+from thesis_pin.command.flags.words import closures_and_motion
 from thesis_pin.command.results import Answer, deliver, give, put_folder
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.showing.beside import ANY, TWO, Beside, reports, scene_of, second_of
 from thesis_pin.command.showing.sliders import any_robot, show_sliders
 from thesis_pin.command.verbs import deliver_sizes, show_scene
 from thesis_pin.command.warned import warned
-from thesis_pin.command.words import closures_and_motion
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.loops.checking import soundness
 from thesis_pin.loops.checking.assembly import assembly

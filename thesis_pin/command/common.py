@@ -6,8 +6,9 @@ import argparse
 from collections.abc import Callable
 from functools import partial
 
-from thesis_pin.command import options, simulating, verbs
-from thesis_pin.command.figured import add_figure
+from thesis_pin.command import simulating, verbs
+from thesis_pin.command.flags import options
+from thesis_pin.command.flags.figured import add_figure
 from thesis_pin.command.registry import Robot, Verb, Words
 from thesis_pin.command.showing.beside import add_beside, add_beside_robot
 from thesis_pin.command.showing.film import add_film

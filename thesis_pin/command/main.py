@@ -5,12 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command.options import add_json, add_report, add_sizing, add_view
-from thesis_pin.command.registry import Command, Parser, Verb
-from thesis_pin.command.showing.beside import add_beside
-from thesis_pin.command.showing.film import add_film
-from thesis_pin.command.showing.meshcat import add_meshcat
-from thesis_pin.command.words import (
+from thesis_pin.command.flags.options import add_json, add_report, add_sizing, add_view
+from thesis_pin.command.flags.words import (
     perhaps_motion,
     strictly,
     where_to,
@@ -23,6 +19,10 @@ from thesis_pin.command.words import (
     which_wrenches,
     written,
 )
+from thesis_pin.command.registry import Command, Parser, Verb
+from thesis_pin.command.showing.beside import add_beside
+from thesis_pin.command.showing.film import add_film
+from thesis_pin.command.showing.meshcat import add_meshcat
 
 COMMAND = Command(
     "thesis-pin",

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.command.any_robot import loaded
-from thesis_pin.command.drawn_as import figure_style
-from thesis_pin.command.numbers import quantity
+from thesis_pin.command.flags.drawn_as import figure_style
+from thesis_pin.command.flags.numbers import quantity
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, write_results

@@ -9,10 +9,10 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from thesis_pin.command.flags.words import closures_and_motion
 from thesis_pin.command.results import deliver
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.warned import warned
-from thesis_pin.command.words import closures_and_motion
 from thesis_pin.contacts.floor import Floor
 from thesis_pin.contacts.soles.finding import find_feet
 from thesis_pin.contacts.soles.foot import Foot

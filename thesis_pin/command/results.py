@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
-from thesis_pin.command.drawn_as import figure_style
+from thesis_pin.command.flags.drawn_as import figure_style
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import found
@@ -16,7 +16,6 @@ from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.errors import BadInput
 from thesis_pin.files import Claim, is_standard_output, write_file, write_folder
-from thesis_pin.report.plotting.wanted import written_as
 from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:  # help has to be quick
@@ -107,6 +106,7 @@ def deliver(
         strict: Whether the exit code is always that of the answer.
         keep: Chooses among the files of ``figures``.
     """
+    from thesis_pin.report.plotting.wanted import written_as
     from thesis_pin.report.writers import csv_bytes, json_bytes
 
     style = figure_style(arguments)

@@ -6,9 +6,9 @@ import argparse
 import math
 from typing import TYPE_CHECKING, TypedDict, cast
 
-from thesis_pin.command.drawn_as import add_figures
-from thesis_pin.command.numbers import add_count, add_number
-from thesis_pin.command.options import add_jobs, add_json
+from thesis_pin.command.flags.drawn_as import add_figures
+from thesis_pin.command.flags.numbers import add_count, add_number
+from thesis_pin.command.flags.options import add_jobs, add_json
 from thesis_pin.command.registry import Robot, Words, found
 from thesis_pin.command.results import Report, deliver
 from thesis_pin.command.running import ExitCode

@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
-from thesis_pin.command.figured import chosen, without
-from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.flags.figured import chosen, without
+from thesis_pin.command.flags.options import refuse_beside
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Robot, found
@@ -32,7 +32,7 @@ from thesis_pin.command.showing.beside import (
     second_of,
 )
 from thesis_pin.command.showing.film import check_film, shoot, shown_first
-from thesis_pin.command.text import say
+from thesis_pin.command.showing.served import served, write_shown
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 
@@ -133,7 +133,7 @@ def show_scene(
     """Show a scene in the browser, or write it as a page.
 
     Args:
-        arguments: With what :func:`thesis_pin.command.options.add_view` adds.
+        arguments: With what :func:`thesis_pin.command.flags.options.add_view` adds.
         command: Which command asks, for the schema's name.
         make: Makes the scene.
     """
@@ -145,8 +145,6 @@ def show_scene(
     if arguments.meshcat is not None and arguments.look != "3d":
         raise BadInput("--look means nothing beside --meshcat", remedy="Leave one of them out")
     with Bar("working out the motion") as bar:
-        from thesis_pin.report.writers import json_bytes
-
         scene = shown_first(make(bar), arguments)
     shown = {
         "schema": f"{command}/view",
@@ -170,24 +168,9 @@ def show_scene(
         said(arguments.html)
     shoot(scene, arguments)
     if arguments.html or arguments.film or arguments.picture:
-        if arguments.json:
-            put(arguments.json, json_bytes(shown | {"address": None}))
+        write_shown(arguments, shown, None)
         return ExitCode.DONE
-
-    def ready(address: str) -> None:
-        if arguments.json:
-            put(arguments.json, json_bytes(shown | {"address": address}))
-
-    serving.show(
-        scene,
-        speed=arguments.speed,
-        look=arguments.look,
-        port=arguments.port,
-        browser=not arguments.no_browser,
-        hold=arguments.hold,
-        say=say,
-        ready=ready,
-    )
+    serving.show(scene, speed=arguments.speed, look=arguments.look, **served(arguments, shown))
     return ExitCode.DONE
 
 

@@ -162,7 +162,7 @@ def _overlaid(first: Plot, second: Plot, names: Names) -> Plot:
     more = [limit for limit in second.limits if (limit.name, limit.value) not in known]
     return replace(
         first,
-        text=f"{first.text} Solid: {names[0]}; dashed or pale: {names[1]}.",
+        dashes=f"Solid: {names[0]}; dashed or pale: {names[1]}.",
         curves=curves,
         time=time,
         areas=areas,

@@ -140,7 +140,7 @@ class Plot:
 
     Attributes:
         title: Heading.
-        text: What is to be seen in it, in a sentence; also its alternative text.
+        text: What is to be seen in it, in a sentence.
         label: Quantity and unit of the y axis.
         curves: What is drawn.
         time: Sample times [s], shape ``(n,)``; None for a plane.
@@ -148,6 +148,7 @@ class Plot:
         limits: Values the curves are held against.
         bands: Stretches of time.
         areas: Polygons, below the curves.
+        dashes: What the ways its lines are broken mean, in a sentence, where they mean something.
     """
 
     title: str
@@ -159,6 +160,12 @@ class Plot:
     limits: Sequence[Limit] = ()
     bands: Sequence[Band] = ()
     areas: Sequence[Area] = ()
+    dashes: str = ""
+
+    @property
+    def caption(self) -> str:
+        """All that is said of it, also as its alternative text."""
+        return f"{self.text} {self.dashes}".rstrip()
 
     def __post_init__(self) -> None:
         """Refuse curves that have no place.

@@ -147,11 +147,12 @@ def torques(report: GaitReport, side: str = "") -> Plot:
     stall = report.robot.stall_torque[_columns(side)]
     return _over_time(report)(
         f"Joint torques{_of(side)}",
-        f"Against the servos' stall torque.{_reading(side)}",
+        "Against the servos' stall torque.",
         "torque [N·m]",
         _joints(report.dynamics.torque, side),
         limits=both_signs("stall torque", stall),
         areas=_open_torques(report, side),
+        dashes=_reading(side),
     )
 
 
@@ -173,17 +174,19 @@ def _servos(report: GaitReport) -> list[Plot]:
     return [
         _over_time(report)(
             "Joint speeds",
-            f"Against the servos' no-load speed.{_reading('')}",
+            "Against the servos' no-load speed.",
             "speed [rad/s]",
             _joints(speed),
             limits=both_signs("no-load speed", no_load),
+            dashes=_reading(),
         ),
         _over_time(report)(
             "Use of the torque-speed line",
-            f"|τ|/stall + |θ̇|/no-load of each servo.{_reading('')}",
+            "|τ|/stall + |θ̇|/no-load of each servo.",
             "use [%]",
             _joints(use * 100),
             limits=[Limit("limit", 100.0)],
+            dashes=_reading(),
         ),
     ]
 
@@ -221,9 +224,10 @@ def joint_angles(report: GaitReport, side: str = "") -> Plot:
     """Joint angles over time, of one leg or of both: figure 5.2 of the thesis."""
     return _over_time(report)(
         f"Joint angles{_of(side)}",
-        f"From the servos' neutral pose.{_reading(side)}",
+        "From the servos' neutral pose.",
         "angle [°]",
         _joints(np.degrees(report.joints.q), side),
+        dashes=_reading(side),
     )
 
 
@@ -268,5 +272,5 @@ def _of(side: str) -> str:
     return f", {side} leg" if side else ""
 
 
-def _reading(side: str) -> str:
-    return "" if side else " Left leg in lines and dashes, right leg in dots."
+def _reading(side: str = "") -> str:
+    return "" if side else "Left leg in lines and dashes, right leg in dots."

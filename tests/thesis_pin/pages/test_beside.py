@@ -34,6 +34,13 @@ def test_the_second_motion_is_dashed_from_the_same_start_and_its_limits_are_kept
     assert len(same.limits) == 1
 
 
+def test_what_the_first_alone_says_of_its_lines_is_not_said_of_both():
+    alone = replace(plot(EARLY, 1, 3.0), dashes="Left in lines, right in dots.")
+    assert alone.caption == "Of motors. Left in lines, right in dots."
+    (both,) = overlaid(alone, plot(LATE, 1, 3.0), NAMES)
+    assert both.caption == "Of motors. Solid: one; dashed or pale: two."
+
+
 def test_many_curves_are_parted_among_plots_that_show_each_once():
     parts = overlaid(plot(EARLY, 14, 1.0), plot(LATE, 14, 1.0), NAMES)
     assert [len(one.curves) for one in parts] == [2 * MOST_CURVES, 2 * MOST_CURVES, 4]

@@ -89,7 +89,7 @@ def test_the_page_reads_every_bit_of_every_array_also_behind_an_empty_one(browse
         "places": random.normal(size=(7, 3)),
         "matrices": random.normal(size=(3, 4, 4)),
         "column": np.arange(6.0),
-        "rows": np.arange(6.0).reshape(2, 3),
+        "columns": np.arange(6.0).reshape(3, 2).T,  # the same numbers, column by column
         "again": TIME,
     }
     content = base64.b64encode(packing.encode(arrays)).decode()

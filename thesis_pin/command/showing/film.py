@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from thesis_pin.command.numbers import add_number
+from thesis_pin.command.flags.numbers import add_number
+from thesis_pin.command.flags.sizes import Size, add_size
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Words
 from thesis_pin.command.results import said
-from thesis_pin.command.sizes import Size, add_size
 from thesis_pin.command.text import say
 from thesis_pin.errors import BadInput
 

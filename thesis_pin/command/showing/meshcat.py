@@ -7,8 +7,8 @@ import threading
 from typing import TYPE_CHECKING
 
 from thesis_pin.command.registry import Words
-from thesis_pin.command.results import put
 from thesis_pin.command.running import ExitCode
+from thesis_pin.command.showing.served import write_shown
 from thesis_pin.command.text import say
 
 if TYPE_CHECKING:  # help has to be quick
@@ -53,14 +53,11 @@ def show_in_meshcat(
     """
     named = None if arguments.meshcat is True else str(arguments.meshcat)
     from thesis_pin.pages.meshcat.display import show
-    from thesis_pin.report.writers import json_bytes
 
     with show(scene, named, speed=arguments.speed, port=arguments.port) as viewer:
         ends = "" if named else " (Ctrl-C ends)"
         say(f"showing {scene.title} in meshcat at {viewer.url}{ends}")
-        if arguments.json:
-            where = {"address": viewer.url, "meshcat": viewer.visualizer.window.zmq_url}
-            put(arguments.json, json_bytes(shown | where))
+        write_shown(arguments, shown | {"meshcat": viewer.visualizer.window.zmq_url}, viewer.url)
         if named:
             return ExitCode.DONE
         if not arguments.no_browser:

@@ -7,11 +7,12 @@ import shlex
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from thesis_pin.command.options import refuse_beside
+from thesis_pin.command.flags.options import refuse_beside
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.showing.film import check_film, shoot, shown_first
+from thesis_pin.command.showing.served import served, write_shown
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
@@ -27,7 +28,7 @@ def show_sliders(
     """Show a robot with sliders in the browser, or write it as a page that shows its pose.
 
     Args:
-        arguments: With what :func:`thesis_pin.command.options.add_view` adds.
+        arguments: With what :func:`thesis_pin.command.flags.options.add_view` adds.
         command: Which command asks, for the schema's name.
         make: Makes the page.
 
@@ -48,8 +49,6 @@ def show_sliders(
         if given:
             raise BadInput(f"--{flag} belongs to a motion", remedy="Leave it out, or name a motion")
     with Bar("drawing the robot"):
-        from thesis_pin.report.writers import json_bytes
-
         with warned():
             page = make()
         content = page.html() if arguments.html else b""
@@ -73,24 +72,12 @@ def show_sliders(
             put(arguments.html, content)
         if scene is not None:
             shoot(scene, arguments)
-        if arguments.json:
-            put(arguments.json, json_bytes(shown | {"address": None}))
+        write_shown(arguments, shown, None)
         return ExitCode.DONE
 
     from thesis_pin.pages.live import making
 
-    def ready(address: str) -> None:
-        if arguments.json:
-            put(arguments.json, json_bytes(shown | {"address": address}))
-
-    making.show_sliders(
-        page,
-        port=arguments.port,
-        browser=not arguments.no_browser,
-        hold=arguments.hold,
-        say=say,
-        ready=ready,
-    )
+    making.show_sliders(page, **served(arguments, shown))
     return ExitCode.DONE
 
 

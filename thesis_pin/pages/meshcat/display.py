@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from types import TracebackType
-
 import numpy as np
 from meshcat import Visualizer
 from meshcat.animation import Animation
@@ -11,7 +9,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.numeric.checks import instance, real
 from thesis_pin.pages.meshcat.drawing import Drawing, word
-from thesis_pin.pages.meshcat.page import static
+from thesis_pin.pages.meshcat.shown import Shown
 from thesis_pin.pages.meshcat.stage import box_of, dress, floor_grid
 from thesis_pin.pages.meshcat.tracks import SetMotion, animation, samples
 from thesis_pin.pages.meshcat.window import visualizer
@@ -50,7 +48,7 @@ def show(
         raise
 
 
-class SceneViewer:
+class SceneViewer(Shown):
     """A scene in meshcat; a context manager that ends our own server.
 
     Args:
@@ -60,11 +58,10 @@ class SceneViewer:
 
     Attributes:
         visualizer: meshcat's own object, for all else that it can do.
-        url: Address of the page.
     """
 
     def __init__(self, scene: Scene, drawn: Visualizer, speed: float = 1.0) -> None:
-        self.visualizer, self.url = drawn, str(drawn.url())
+        self.visualizer = drawn
         self._time, self._speed = np.asarray(scene.time, dtype=float), speed
         box = box_of(scene.items)
         if drawn.window.own:
@@ -101,33 +98,8 @@ class SceneViewer:
         for place, node in self._nodes:
             self._drawing.put(place, node, *((k + 1, 0.0) if f == 1.0 else (k, f)))
 
-    def static_html(self) -> str:
-        """The page as one that works alone: everything in it, and no request to the network."""
-        return static(str(self.visualizer.static_html()))
-
-    def jupyter_cell(self, height: int = 400) -> object:
-        """The page in a cell of a notebook on this machine: IPython's HTML.
-
-        Args:
-            height: Of the cell, in pixels.
-        """
-        cell: object = self.visualizer.jupyter_cell(height)
-        return cell
-
-    def close(self) -> None:
-        """Let go of the server; our own ends."""
-        self.visualizer.close()
-
-    def __enter__(self) -> SceneViewer:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
+    def _meshcat(self) -> Visualizer:
+        return self.visualizer
 
     def __repr__(self) -> str:
         return f"SceneViewer({self.url})"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterable
-from types import TracebackType
 
 import numpy as np
 import pinocchio as pin
+from meshcat import Visualizer
 from meshcat.geometry import TriangularMeshGeometry
 from numpy.typing import ArrayLike, NDArray
 from pinocchio.visualize import MeshcatVisualizer
@@ -22,8 +22,8 @@ from thesis_pin.pages.drawing import joint_placements
 from thesis_pin.pages.live.meshes import seen
 from thesis_pin.pages.meshcat.collada import is_mixed
 from thesis_pin.pages.meshcat.drawing import Drawing, word
-from thesis_pin.pages.meshcat.page import static
 from thesis_pin.pages.meshcat.shapes import shares
+from thesis_pin.pages.meshcat.shown import Shown
 from thesis_pin.pages.meshcat.stage import box_of, dress, floor_grid
 from thesis_pin.pages.meshcat.window import visualizer
 from thesis_pin.pages.robot import around, size_of
@@ -70,7 +70,7 @@ def closed(robot: ClosedRobot) -> Array:
     return np.asarray(found.q if found.closed else robot.q0)
 
 
-class RobotViewer(MeshcatVisualizer):  # type: ignore[misc] # Pinocchio has no types
+class RobotViewer(Shown, MeshcatVisualizer):  # type: ignore[misc] # Pinocchio has no types
     """Pinocchio's ``MeshcatVisualizer`` on a server of ours or a named one, its model loaded.
 
     All that Pinocchio's can do it does: ``display(q)``, ``play``, ``displayFrames``,
@@ -87,7 +87,6 @@ class RobotViewer(MeshcatVisualizer):  # type: ignore[misc] # Pinocchio has no t
 
     Attributes:
         viewer: meshcat's own object, of the robot's node's parent.
-        url: Address of the page.
     """
 
     def __init__(
@@ -148,11 +147,6 @@ class RobotViewer(MeshcatVisualizer):  # type: ignore[misc] # Pinocchio has no t
             high.append(middle + scale * one.geometry.aabb_radius)
         return np.array([np.min(low, axis=0), np.max(high, axis=0)])
 
-    @property
-    def url(self) -> str:
-        """Address of the page."""
-        return str(self.viewer.url())
-
     def display(self, q: ArrayLike | None = None) -> None:
         """Show a configuration, with all that stands beside the robot.
 
@@ -184,33 +178,8 @@ class RobotViewer(MeshcatVisualizer):  # type: ignore[misc] # Pinocchio has no t
             return TriangularMeshGeometry(corners, [[one[j] for j in range(3)] for one in faces])
         return super().loadMeshFromFile(geometry_object)
 
-    def static_html(self) -> str:
-        """The page as one that works alone: everything in it, and no request to the network."""
-        return static(str(self.viewer.static_html()))
-
-    def jupyter_cell(self, height: int = 400) -> object:
-        """The page in a cell of a notebook on this machine: IPython's HTML.
-
-        Args:
-            height: Of the cell, in pixels.
-        """
-        cell: object = self.viewer.jupyter_cell(height)
-        return cell
-
-    def close(self) -> None:
-        """Let go of the server; our own ends."""
-        self.viewer.close()
-
-    def __enter__(self) -> RobotViewer:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
+    def _meshcat(self) -> Visualizer:
+        return self.viewer
 
     def __repr__(self) -> str:
         return f"RobotViewer({self.model.name}, {self.url})"

@@ -1,5 +1,5 @@
 "use strict";
-// Items of a scene (thesis_pin/pages/scene.py) as objects of the three.js in meshcat's bundle.
+// Items of a scene (thesis_pin/pages/items.py) as objects of the three.js in meshcat's bundle.
 
 // Drawing: one maker for each kind of item; each returns {object, update(at)}.
 function makers(THREE) {

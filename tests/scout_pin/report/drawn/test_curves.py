@@ -10,6 +10,7 @@ from plotted import assert_arrives
 import scout_pin
 from scout_pin.report.drawn import curves
 from scout_pin.report.drawn.figures import NUMBERS, figures
+from thesis_pin.pages.beside import overlaid_plots
 
 WALK = Path(__file__).parents[4] / "examples" / "walk.toml"
 
@@ -88,3 +89,12 @@ def test_every_figure_comes_as_png_and_svg(report):
         if name not in drawn:  # held to their own form where motions are written
             continue
         assert content.startswith(b"\x89PNG" if name.endswith("png") else b"<?xml")
+
+
+def test_beside_another_gait_no_plot_tells_the_legs_by_dots(report, plots):
+    both = overlaid_plots(plots.values(), list(plots.values()), ("one", "two"))
+    told = [plot.title for plot in plots.values() if "right leg in dots" in plot.caption]
+    assert {"Joint torques", "Joint angles", "Joint speeds"} < set(told)
+    for plot in both:
+        assert "in dots" not in plot.caption
+        assert plot.caption.endswith("Solid: one; dashed or pale: two.")

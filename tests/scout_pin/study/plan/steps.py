@@ -57,3 +57,9 @@ def states(gait, t):
     return np.array(
         [[[float(c(t, n)) for n in range(3)] for c in gait.curves[body]] for body in BODIES]
     )
+
+
+def jumps(gait, t):
+    """Largest jumps at t of places, rates and accelerations of the torso and the feet."""
+    gap = states(gait, t) - states(gait, np.nextafter(t, 0.0))
+    return np.abs(gap).max(axis=(0, 1))

@@ -79,8 +79,9 @@ def test_the_centre_of_mass_of_a_robot_that_flies_is_pinocchios():
     np.testing.assert_allclose(where, com, atol=1e-12)
 
 
-def test_masses_weighed_together_make_the_centre_of_mass():
-    robot = load("example:solo12")
+@pytest.mark.parametrize("name", ["example:solo12", "example:panda"])
+def test_masses_weighed_together_make_the_centre_of_mass(name):
+    robot = load(name)
     every = drawn(robot, robot.q0)[1]
     links = robot.description.links
     total, moment = 0.0, np.zeros(3)
@@ -91,7 +92,9 @@ def test_masses_weighed_together_make_the_centre_of_mass():
     np.testing.assert_allclose(moment / total, every["centre of mass"].position[0], atol=1e-9)
 
 
-@pytest.mark.parametrize("radii", [(0.1, 0.2, 0.3), (0.02, 0.02, 0.5), (0.3, 0.3, 0.3)])
+@pytest.mark.parametrize(
+    "radii", [(0.1, 0.2, 0.3), (0.3, 0.1, 0.2), (0.2, 0.1, 0.3), (0.02, 0.02, 0.5), (0.3, 0.3, 0.3)]
+)
 def test_an_ellipsoid_has_the_inertia_it_was_made_of(radii):
     turn = pin.rpy.rpyToMatrix(0.3, 0.5, -0.7)
     solid = pin.Inertia.FromEllipsoid(2.0, *radii)
@@ -102,6 +105,7 @@ def test_an_ellipsoid_has_the_inertia_it_was_made_of(radii):
     again = pin.Inertia.FromEllipsoid(2.0, *found).inertia
     np.testing.assert_allclose(local[:3, :3] @ again @ local[:3, :3].T, tensor, atol=1e-12)
     np.testing.assert_allclose(local[:3, 3], [0.1, 0.2, 0.3])
+    assert np.linalg.det(local[:3, :3]) == pytest.approx(1.0)
 
 
 def test_an_inertia_that_no_mass_can_have_has_no_ellipsoid():

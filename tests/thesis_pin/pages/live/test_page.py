@@ -13,7 +13,8 @@ from thesis_pin.loops.checking.assembly import assembly
 from thesis_pin.loops.checking.poses import named_pose
 from thesis_pin.loops.kinematics import residual
 from thesis_pin.loops.loading import load
-from thesis_pin.pages.live.joints import JointRig
+from thesis_pin.loops.moving.coordinates import coordinates
+from thesis_pin.pages.live.joints import JointRig, _value
 from thesis_pin.pages.live.layers import layers
 from thesis_pin.pages.live.page import PATH, LivePage
 from thesis_pin.pages.serving import LONGEST_QUESTION, PageServer
@@ -176,6 +177,19 @@ def test_joints_at_and_beyond_their_limits_are_told():
     assert stand.marks[1] == "5.73° beyond its limit"
     assert (stand.levels[1], stand.levels[2]) == (0, 1)
     assert names[0] == "panda_joint1"
+
+
+def test_what_slides_is_told_in_millimetres():
+    robot = load("example:panda")
+    rig = JointRig(robot, robot.q0, layers(robot, robot.q0).size)
+    number = next(k for k, one in enumerate(rig.sliders) if "finger" in one.name)
+    assert rig.sliders[number].unit == "mm"
+    assert rig.sliders[number].high * rig.sliders[number].factor == pytest.approx(40.0)
+    finger = coordinates(robot.model)[number]
+    q = finger.placed(robot.q0, 0.05)
+    assert JointRig(robot, q, 1.0).start().marks[number] == "10 mm beyond its limit"
+    assert _value(finger, q) == "50 mm"
+    assert _value(coordinates(robot.model)[0], np.full(robot.model.nq, 0.5)) == "28.65°"
 
 
 def test_names_of_a_stranger_end_no_script_and_no_string(tmp_path):

@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from meshcat.path import Path
 from scipy.spatial.transform import Rotation
 
 from thesis_pin.errors import BadInput
 from thesis_pin.pages.meshcat.drawing import Drawing, _matrix, word
 from thesis_pin.pages.meshcat.nodes import held, nodes
 from thesis_pin.pages.meshcat.shapes import look, surface, threshold, tube
-from thesis_pin.pages.meshcat.tracks import MOST_BYTES, samples
+from thesis_pin.pages.meshcat.tracks import MOST_BYTES, animation, samples
 from thesis_pin.pages.scene import Arc, Arrow, Ball, Item, Polygon, Shape, Trace, Triad
 
 NONE = np.full(3, np.nan)
@@ -54,7 +55,9 @@ def moved(points, *matrices):
 @pytest.mark.parametrize("head", [True, False])
 def test_an_arrows_tip_is_at_origin_plus_scaled_vector_at_every_sample(head):
     rng = np.random.default_rng(1)
-    vectors = np.concatenate([rng.normal(size=(20, 3)), [[0, 0, -2.0]], [[0, 0, 3.0]], [[1, 0, 0]]])
+    vectors = np.concatenate(
+        [rng.normal(size=(20, 3)), [[0, 0, -2.0]], [[0, 0, 3.0]], [[0.02, 0, 0]]]
+    )
     origins = rng.normal(size=vectors.shape)
     found = by_path(arrow(vectors, origins, head))
     part = found["head"] if head else found[""]
@@ -100,7 +103,8 @@ def test_a_turning_body_is_halfway_between_samples():
 
 def test_an_arc_is_as_long_as_its_angle_and_turns_the_way_of_its_sign():
     angle = np.array([1.0, -2.0, 2 * np.pi, 0.0])
-    still = np.tile([0, 0, 0, 0, 0, 0, 1.0], (4, 1))
+    about = Rotation.from_euler("xyz", [0.4, -0.7, 1.1])
+    still = np.tile([0, 0, 0, *about.as_quat()], (4, 1))
     item = Arc("a", "g", still, angle, 0.3, ("#000000", "#ffffff"), np.array([0, 1, 1, 0]))
     found = by_path(item)
     assert found[""].visible.tolist() == [True, True, True, False]
@@ -108,7 +112,7 @@ def test_an_arc_is_as_long_as_its_angle_and_turns_the_way_of_its_sign():
     for k in range(3):
         opacity = found["ring"].shape.geometry.color[:, 3]
         points = found["ring"].shape.geometry.vertices[opacity >= threshold(found["ring"].share[k])]
-        drawn = moved(points, _matrix(found[""], k, 0.0))
+        drawn = about.inv().apply(moved(points, _matrix(found[""], k, 0.0)))
         swept = np.unwrap(np.arctan2(drawn[:, 1], drawn[:, 0]))
         assert np.sign(angle[k]) == np.sign(swept[-1] - swept[0])
         assert np.ptp(swept) == pytest.approx(abs(angle[k]), abs=2 * np.pi / 48 + 1e-9)
@@ -116,17 +120,21 @@ def test_an_arc_is_as_long_as_its_angle_and_turns_the_way_of_its_sign():
             corners(found["head"]), _matrix(found[""], k, 0.0), _matrix(found["head"], k, 0.0)
         )
         end = 0.3 * np.array([np.cos(angle[k]), np.sin(angle[k]), 0])
-        np.testing.assert_allclose(tip.mean(axis=0), end, atol=1e-9)
+        np.testing.assert_allclose(tip.mean(axis=0), about.apply(end), atol=1e-9)
 
 
 def test_a_triads_bars_lie_along_the_frames_axes():
     local = np.eye(4)
     local[:3, :3] = Rotation.from_euler("xyz", [0.3, -0.5, 0.7]).as_matrix()
     local[:3, 3] = 0.1, 0.2, 0.3
-    item = Triad("t", "g", np.tile([0.0, 0, 0, 0, 0, 0, 1], (2, 1)), local, 0.4, "name")
-    found = by_path(item)
+    body = np.eye(4)
+    body[:3, :3] = (about := Rotation.from_euler("xyz", [1.0, 0.2, -0.6])).as_matrix()
+    body[:3, 3] = 1.0, -2.0, 0.5
+    place = np.tile([*body[:3, 3], *about.as_quat()], (2, 1))
+    found = by_path(Triad("t", "g", place, local, 0.4, "name"))
     for k, axis in enumerate("xyz"):
-        own = moved(corners(found[axis]), np.linalg.inv(local))
+        drawn = moved(corners(found[axis]), _matrix(found[""], 0, 0.0))
+        own = moved(drawn, np.linalg.inv(body @ local))
         assert own[:, k].min() == pytest.approx(0.0, abs=1e-12)
         assert own[:, k].max() == pytest.approx(0.4)
         assert np.abs(np.delete(own, k, axis=1)).max() < 0.02
@@ -183,6 +191,29 @@ def test_round_shapes_lie_along_z_and_a_cones_tip_is_above(geometry, low, high):
     assert top == pytest.approx({"cone": 0, "cylinder": 0.2}.get(geometry["type"], 0), abs=1e-6)
 
 
+def test_an_ellipsoid_is_swollen_along_its_own_axes_and_then_turned():
+    from meshcat.geometry import MeshLambertMaterial
+
+    place = np.eye(4)
+    place[:3, :3] = turn = Rotation.from_euler("xyz", [0.3, -0.5, 0.7]).as_matrix()
+    geometry = {"type": "ellipsoid", "radii": [0.1, 0.2, 0.3]}
+    shape = surface(geometry, MeshLambertMaterial(), place)
+    assert shape.geometry.radius == 1.0
+    for k, radius in enumerate(geometry["radii"]):
+        np.testing.assert_allclose(shape.place[:3, :3] @ np.eye(3)[k], radius * turn[:, k])
+
+
+def test_a_motion_plays_at_its_speed_and_changes_colour_halfway_to_the_next_sample():
+    time = np.array([3.0, 4.0, 6.0, 7.0])
+    places = np.column_stack([time, 0 * time, 0 * time])
+    ball = Ball("b", "g", places, 0.1, ("#ff0000", "#0000ff"), np.array([0.0, 0, 1, 1]))
+    made = animation([(Path(("b",)), next(nodes(ball)))], time, 2.0)
+    tracks = {name: track for clip in made.clips.values() for name, track in clip.tracks.items()}
+    np.testing.assert_allclose(tracks["position"].frames, [0.0, 0.5, 1.5, 2.0])
+    colour = tracks["material.color"]
+    assert (colour.frames[1], colour.values[1].tolist()) == (1.0, [0, 0, 1])  # at 5 s
+
+
 def test_another_kind_of_item_is_refused_by_name():
     with pytest.raises(BadInput, match="can't draw a Item in meshcat"):
         next(nodes(Item("x", "g")))
@@ -197,8 +228,6 @@ def test_names_that_javascript_or_meshcat_uses_are_no_steps_of_a_path():
 
 
 def test_two_names_never_share_a_node():
-    from meshcat.path import Path
-
     class Tree:
         def __init__(self, path=()):
             self.path = Path(path)

@@ -1,13 +1,15 @@
 """Requests next to one that can't be met."""
 
+import math
 from dataclasses import dataclass
 
 import pytest
 
 from scout_pin.study.plan.cycles import nearest as module
+from scout_pin.study.plan.cycles.feet import least_spacing
 from scout_pin.study.plan.cycles.nearest import Change, changes, nearest
 from scout_pin.study.plan.cycles.search import Search
-from scout_pin.study.plan.request import PlanRequest
+from scout_pin.study.plan.request import GAP, STEP_TIME, PlanRequest
 
 SPEED = Change("speed", lambda share: share * 0.3)
 ASKED = PlanRequest(speed=0.3)
@@ -99,10 +101,25 @@ def test_one_thing_changes_and_all_else_stays_as_it_was_said(scout, asked, names
     request = PlanRequest(**asked)
     found = list(changes(Search(scout, request, lambda: None), request))
     assert [one.name for one in found] == names
-    was = request.document()
+    was, usual = request.document(), least_spacing(scout) + GAP
     for one in found:
-        now = one.request(request, 0.7).document()
+        less = one.request(request, 0.7)
+        now = less.document()
         assert {key for key in was if now[key] != was[key]} == {one.name}
+        amount, value = getattr(request, one.name), getattr(less, one.name)
+        expected = {
+            "step_time": STEP_TIME / 0.7,
+            "step_length": 0.7 * request.first_length,
+            "foot_spacing": usual + 0.7 * ((amount or 0.0) - usual),
+        }.get(one.name, 0.7 * (amount or 0.0))
+        assert value == pytest.approx(expected, rel=5e-3)
+        if one.name == "turn":
+            assert math.degrees(value) == pytest.approx(8.02, rel=1e-12)  # of 8.0214°
+
+
+def test_never_more_is_offered_than_was_asked_for(monkeypatch):
+    of_speeds(monkeypatch, 1.0, 1.0)
+    assert 0.25 < nearest(None, ASKED, Found(ASKED, False), SPEED).speed <= 0.3
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from thesis_pin.command.drawn_as import add_figures
-from thesis_pin.command.numbers import add_number, slope, wrench
-from thesis_pin.command.options import (
+from thesis_pin.command.flags.drawn_as import add_figures
+from thesis_pin.command.flags.numbers import add_number, slope, wrench
+from thesis_pin.command.flags.options import (
     LISTS,
     add_euler,
     add_frame,

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
-from thesis_pin.command.numbers import add_count
+from thesis_pin.command.flags.numbers import add_count
+from thesis_pin.command.flags.sizes import Size, add_size
 from thesis_pin.command.registry import Words
-from thesis_pin.command.sizes import Size, add_size
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import shown
-from thesis_pin.report.plotting.wanted import FORMATS, Wanted
+
+if TYPE_CHECKING:  # help has to be quick
+    from thesis_pin.report.plotting.wanted import Wanted
+
+FORMATS = ("png", "svg", "pdf")
 
 
 def add_figures(words: Words) -> None:
@@ -39,6 +44,8 @@ def figure_style(arguments: argparse.Namespace) -> Wanted:
     Raises:
         BadInput: There is no ``--out``, or the size is none of figures.
     """
+    from thesis_pin.report.plotting.wanted import Wanted
+
     given: dict[str, object] = {
         name: getattr(arguments, name, None) for name in ("formats", "dpi", "size")
     }

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from thesis_pin.command.drawn_as import add_figures
-from thesis_pin.command.numbers import add_count, add_number
+from thesis_pin.command.flags.drawn_as import add_figures
+from thesis_pin.command.flags.numbers import add_count, add_number
 from thesis_pin.command.registry import Words
 from thesis_pin.errors import BadInput
 

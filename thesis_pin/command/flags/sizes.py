@@ -14,7 +14,7 @@ from thesis_pin.numeric.checks import shown
 MILLIMETRES = 25.4
 """Of an inch."""
 
-_FORM = re.compile(r"(\d+(?:\.\d+)?)\s*[x×]\s*(\d+(?:\.\d+)?)\s*(mm|in|px|)", re.IGNORECASE)
+_FORM = r"(\d+(?:\.\d+)?)\s*[x×]\s*(\d+(?:\.\d+)?)\s*(mm|in|px|)"  # compiled if it is asked for
 _ALLOWED = "such as 1280x720 in pixels, 160x90mm, 6.3x3.5in"
 
 
@@ -71,7 +71,7 @@ def add_size(words: Words) -> None:
 
 def size(text: str) -> Size:
     """An argparse type: ``WxH`` with a unit, or none for pixels."""
-    found = _FORM.fullmatch(text.strip())
+    found = re.fullmatch(_FORM, text.strip(), re.IGNORECASE)
     values = [float(found[1]), float(found[2])] if found else [math.nan]
     if found is None or not all(math.isfinite(value) and value > 0 for value in values):
         raise argparse.ArgumentTypeError(f"--size is {shown(text)}; allowed: {_ALLOWED}")

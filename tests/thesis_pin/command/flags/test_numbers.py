@@ -4,7 +4,7 @@ import argparse
 
 import pytest
 
-from thesis_pin.command.numbers import add_count, add_number, count, number
+from thesis_pin.command.flags.numbers import add_count, add_number, count, number
 from thesis_pin.command.registry import Parser
 
 
