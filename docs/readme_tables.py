@@ -129,6 +129,10 @@ def formats() -> Iterator[str]:
         yield f"| {' | '.join(cells)} |"
 
 
+LARGE = ("pages", "command")
+"""Rooms whose own rooms are listed too."""
+
+
 def rooms() -> Iterator[str]:
     """Packages and modules from the ground up, in the order that the layers' contracts give."""
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -141,6 +145,9 @@ def rooms() -> Iterator[str]:
                 for package in contract["containers"]:
                     if said := _first_line(ROOT / package / room):
                         yield f"| `{package}/{room}` | {said} |"
+                    for inner in sorted((ROOT / package / room).iterdir() if room in LARGE else ()):
+                        if said := _first_line(inner) if inner.is_dir() else "":
+                            yield f"| `{package}/{room}/{inner.name}` | {said} |"
 
 
 def _first_line(place: Path) -> str:

@@ -10,7 +10,7 @@ import pytest
 from thesis_pin.pages.beside import MOST_CURVES, aligned, overlaid, side_by_side, with_second
 from thesis_pin.pages.page import Tile
 from thesis_pin.pages.scene import Ball, Group, Readout, Scene
-from thesis_pin.report.curves import Curve, Limit, Plot
+from thesis_pin.report.curves import Area, Curve, Limit, Plot
 
 NAMES = ("one", "two")
 EARLY, LATE = np.linspace(0.0, 2.0, 5), np.linspace(10.0, 13.0, 4)
@@ -108,6 +108,29 @@ def test_the_second_stands_still_when_it_has_ended(slider):
     both = with_second(picture(EARLY), model, geometry, time, (time - 7.0)[:, None], "two")
     np.testing.assert_array_equal(both.time, EARLY)
     np.testing.assert_allclose(both.items[1].placement[:, 0], np.minimum(EARLY, 1.0), atol=1e-12)
+
+
+def test_a_scene_that_begins_late_is_joined_where_it_begins(slider):
+    model, geometry = slider
+    time = np.array([7.0, 7.75, 8.0])
+    both = with_second(picture(EARLY + 30.0), model, geometry, time, (time - 7.0)[:, None], "two")
+    np.testing.assert_allclose(both.time, EARLY + 30.0)
+    np.testing.assert_allclose(both.items[1].placement[:, 0], np.minimum(EARLY, 1.0), atol=1e-12)
+
+
+def test_areas_go_with_their_curves_and_their_motions_start():
+    def ranges(time):
+        areas = [
+            Area(f"a{k}", np.array([[time[0], k], [time[-1], k], [time[-1], k + 1.0]]), "#000000")
+            for k in range(8)
+        ]
+        return replace(plot(time, 8, 1.0), areas=areas)
+
+    first, last = overlaid(ranges(EARLY), ranges(LATE), NAMES)
+    assert [one.name for one in last.areas] == ["a6", "a7", "a6, two", "a7, two"]
+    np.testing.assert_array_equal(last.areas[0].corners[:, 0], [0.0, 2.0, 2.0])
+    np.testing.assert_array_equal(last.areas[2].corners[:, 0], [0.0, 3.0, 3.0])
+    assert len(first.areas) == 12
 
 
 def test_plots_of_a_plane_are_not_moved_in_time():

@@ -182,12 +182,14 @@ def which_stance(words: Words) -> None:
 
 
 def strictly(words: Words) -> None:
+    """Whether motors that don't hold the robot make the exit code 1."""
     words.add_argument(
         "--strict", action="store_true", help="exit with 1 if the motors don't hold the robot"
     )
 
 
 def written(words: Words) -> None:
+    """Where the robot is written as a URDF and a closure file."""
     words.add_argument(
         "--write",
         dest="out",

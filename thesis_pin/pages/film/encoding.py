@@ -141,7 +141,13 @@ class Encoder:
     def _failure(self) -> BadInput:
         self._said.seek(0)
         lines = self._said.read().decode(errors="replace").strip().splitlines()
-        return BadInput(f"ffmpeg ended with: {lines[-1] if lines else 'no reason given'}")
+        if lines:
+            return BadInput(f"ffmpeg ended with: {lines[-1]}")
+        return BadInput(  # what it had to say goes to a temporary file, as the film does
+            f"ffmpeg ended with code {self._process.returncode} and said nothing",
+            remedy=f"See whether {tempfile.gettempdir()}, where the film is made, has room, "
+            "or name another folder in TMPDIR",
+        )
 
     def __exit__(
         self,

@@ -4,7 +4,7 @@ import argparse
 
 import pytest
 
-from thesis_pin.command.flags.numbers import add_count, add_number, count, number
+from thesis_pin.command.flags.numbers import add_count, add_number, count, number, slope, wrench
 from thesis_pin.command.registry import Parser
 
 
@@ -58,3 +58,37 @@ def test_a_flag_with_a_name_for_each_number_takes_that_many(capsys):
         with pytest.raises(SystemExit):
             words.parse_args(["--tilt", *given])
     assert "--tilt is '46'; allowed: -45 to 45" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("text", "read"),
+    [
+        ("hand=1,2,3", ("hand", (1.0, 2.0, 3.0, 0.0, 0.0, 0.0))),
+        ("a=b=0,0,-9.81,1e-3,0,2", ("a=b", (0.0, 0.0, -9.81, 1e-3, 0.0, 2.0))),
+    ],
+)
+def test_a_wrench_is_a_force_and_where_it_is_said_a_moment(text, read):
+    assert wrench(text) == read
+
+
+@pytest.mark.parametrize(("text", "read"), [("5", (5.0, 0.0)), ("88.9,-90", (88.9, -90.0))])
+def test_a_slope_rises_ahead_or_where_it_is_said(text, read):
+    assert slope(text) == read
+
+
+@pytest.mark.parametrize(
+    ("read", "text"),
+    [
+        (wrench, "1,2,3"),
+        (wrench, "hand=1,2"),
+        (wrench, "hand=1,2,nan"),
+        (wrench, "hand=1,2,3,4"),
+        (slope, "89"),
+        (slope, "-1"),
+        (slope, "5,6,7"),
+        (slope, "5,inf"),
+    ],
+)
+def test_wrenches_and_slopes_that_mean_nothing_are_refused(read, text):
+    with pytest.raises(argparse.ArgumentTypeError, match="allowed"):
+        read(text)

@@ -97,3 +97,24 @@ def test_ends_are_the_ranges_or_half_a_turn_or_the_robots_size():
     assert low_high[0] == (-0.3, 1.2)
     assert low_high[1] == (-np.pi, np.pi)
     assert low_high[2] == (-100.0, 100.0)
+
+
+def test_an_end_that_is_missing_is_as_far_from_the_other_as_is_usual():
+    model, first = pin.Model(), 0
+    for k, (low, high) in enumerate(((4.0, np.inf), (-np.inf, -4.0), (-np.inf, 1.0))):
+        limits = (np.array([value]) for value in (9.0, 9.0, low, high))
+        place = pin.SE3.Identity()
+        first = model.addJoint(first, pin.JointModelPX(), place, f"slide {k}", *limits)
+    model.addJoint(first, pin.JointModelSpherical(), place, "ball")
+    found = list(ways(coordinates(model), 0.5))
+    assert found[:3] == [(4.0, 4.5), (-4.5, -4.0), (-0.5, 1.0)]
+    assert found[3:] == [(-np.pi, np.pi), (-np.pi / 2, np.pi / 2), (-np.pi, np.pi)]
+
+
+def test_a_coordinate_below_its_range_is_as_far_outside_as_one_above():
+    limits = (np.array([value]) for value in (9.0, 9.0, -0.3, 1.2))
+    model = pin.Model()
+    model.addJoint(0, pin.JointModelRX(), pin.SE3.Identity(), "knee", *limits)
+    (knee,) = coordinates(model)
+    found = [knee.excess(np.array([value])) for value in (-0.5, 0.4, 1.4)]
+    assert found == pytest.approx([0.2, 0.0, 0.2])

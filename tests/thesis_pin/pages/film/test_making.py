@@ -2,6 +2,7 @@
 
 import io
 import subprocess
+import tempfile
 
 import chromium
 import numpy as np
@@ -177,6 +178,17 @@ def test_an_encoder_that_fails_says_why_and_leaves_nothing_running():
         with pytest.raises(BadInput, match="ffmpeg ended with"):
             encoder.content()
     assert encoder._process.poll() is not None
+
+
+def test_an_encoder_that_dies_without_a_word_is_told_with_the_folder_that_may_be_full(
+    monkeypatch,
+):
+    monkeypatch.setattr("thesis_pin.pages.film.encoding.ffmpeg", lambda: "false")
+    with Encoder("mp4", 10.0) as encoder:
+        with pytest.raises(BadInput, match="code 1 and said nothing") as refused:
+            encoder.content()
+        assert tempfile.gettempdir() in str(refused.value)
+        assert "TMPDIR" in str(refused.value)
 
 
 def test_a_palette_holds_the_colour_of_a_few_pixels():

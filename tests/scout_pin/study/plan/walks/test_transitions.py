@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import scout_pin
 from scout_pin.study.plan.cycle import plan_cycle
@@ -13,6 +14,7 @@ from scout_pin.study.plan.walks.course import start_course, stop_course
 from scout_pin.study.plan.walks.transitions import (
     Grid,
     TransitionProblem,
+    _widened,
     plan_transition,
     spaced,
 )
@@ -140,3 +142,17 @@ def test_starts_are_calmed(cycle, monkeypatch):
     monkeypatch.setattr(transitions, "EFFORTS", ())
     assert calm.kept
     assert rates(calm) < 0.9 * rates(plan_transition(cycle, courses(cycle)["start"], lambda: None))
+
+
+@pytest.mark.parametrize("heading", [0.2, -0.3])
+def test_bounds_hold_a_torso_whose_angles_count_from_another_heading(rng, heading):
+    most = np.array([0.1, 0.1, 0.1, 0.02, 0.2, 0.1])
+    found = _widened(np.array([-most, most]), heading)
+    ends = np.array([[p, r, 0.0] for p in (-0.02, 0.02) for r in (-0.2, 0.2)])
+    turned = Rotation.from_euler("z", heading) * Rotation.from_euler("XYZ", ends)
+    angles = turned.as_euler("XYZ")
+    assert (angles >= found[0, 3:] - 2e-3).all()
+    assert (angles <= found[1, 3:] + 2e-3).all()
+    np.testing.assert_allclose(found[0], -found[1])
+    np.testing.assert_array_equal(found[1, :3], most[:3])
+    assert found[1, 4] < 0.22  # no wider than it takes
