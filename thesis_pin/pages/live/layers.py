@@ -15,7 +15,7 @@ from thesis_pin.model.loading import LoadedRobot
 from thesis_pin.pages.drawing import CLOSED, OPEN, robot_items
 from thesis_pin.pages.live.hung import WHOLE, Hung, Places
 from thesis_pin.pages.live.inertia import ellipsoids
-from thesis_pin.pages.live.meshes import seen
+from thesis_pin.pages.meshes import seen
 from thesis_pin.pages.scene import AXES, Arrow, Ball, Group, Item, Shape, Triad
 from thesis_pin.report.curves import GREEN, ORANGE, PURPLE, SKY, VERMILLION
 
