@@ -13,7 +13,7 @@ from thesis_pin.command.running import ExitCode
 from thesis_pin.command.showing.beside import ANY, TWO, Beside, reports, scene_of, second_of
 from thesis_pin.command.showing.sliders import any_robot, show_sliders
 from thesis_pin.command.sizing.delivering import deliver as deliver_smallest
-from thesis_pin.command.sizing.finding import check_words, deliver_sizes, kind
+from thesis_pin.command.sizing.finding import bounded, check_words, deliver_sizes
 from thesis_pin.command.verbs import show_scene
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput, ModelWarning
@@ -71,7 +71,7 @@ def size(arguments: argparse.Namespace) -> ExitCode:
 
     def least(_: object) -> Smallest:
         report = _report(arguments)
-        family = motor_family(report, **kind(arguments))
+        family = motor_family(report, **bounded(arguments))
         alike = arguments.per == "robot"
         return smallest_motors(
             report, family, per="robot" if alike else "joint", factor=arguments.factor

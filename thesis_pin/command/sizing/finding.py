@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, cast
 
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
@@ -67,20 +67,42 @@ def check_words(arguments: argparse.Namespace) -> None:
                 raise BadInput("--bound box means nothing beside --power", allowed="line")
 
 
-def kind(arguments: argparse.Namespace) -> dict[str, Any]:
+class Kind(TypedDict, total=False):
+    """What motors of any size are like, as every ``motor_family`` takes it."""
+
+    speed: float | None
+    armature: float | None
+    exponent: float
+    power: float | None
+    rating: float
+
+
+class Bounded(Kind, total=False):
+    """The same where torque and speed may bound each other or not."""
+
+    bound: Literal["line", "box"]
+
+
+def kind(arguments: argparse.Namespace) -> Kind:
     """What the flags say of motors of any size; what they don't is the robot's own."""
     armature, exponent = arguments.armature or (None, 0.0)
-    said: dict[str, Any] = {
-        "speed": arguments.no_load_speed,
-        "armature": armature,
-        "exponent": exponent,
-        "power": arguments.power,
-    }
+    said = Kind(
+        speed=arguments.no_load_speed,
+        armature=armature,
+        exponent=exponent,
+        power=arguments.power,
+    )
     if arguments.rating is not None:
         said["rating"] = arguments.rating
-    if getattr(arguments, "bound", None) is not None:
+    return said
+
+
+def bounded(arguments: argparse.Namespace) -> Bounded:
+    """The same with how torque and speed bound each other, where the flags say it."""
+    said = cast("Bounded", dict(kind(arguments)))
+    if arguments.bound is not None:
         said["bound"] = arguments.bound
-    elif arguments.power is not None and hasattr(arguments, "bound"):
+    elif arguments.power is not None:
         said["bound"] = "line"
     return said
 
@@ -101,7 +123,8 @@ def _smallest(robot: Robot, arguments: argparse.Namespace, law: str, bar: Bar) -
             report, catalogue_of(arguments), **asked
         )
         return answer
-    family = _hook(robot, f"{module}:motor_family")(report.robot, **kind(arguments))
+    said = bounded(arguments) if hasattr(arguments, "bound") else kind(arguments)
+    family = _hook(robot, f"{module}:motor_family")(report.robot, **said)
     if arguments.per is not None:
         asked["per"] = arguments.per
     answer = _hook(robot, robot.smallest)(report, family, law=law, curve=arguments.curve, **asked)
