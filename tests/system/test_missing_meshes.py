@@ -70,6 +70,7 @@ def test_the_command_and_its_page_say_it(verb, files, tmp_path, capfd, browser, 
         browser.until("window.player && player.framesDrawn > 0")
         note = browser.run("document.querySelector('.player .note').innerText")
         assert "thing.stl" in note
+        assert str(tmp_path) not in note
         assert browser.run("document.documentElement.scrollWidth") <= width
         browser.still(artefacts / f"missing_{verb}_{width}.png")
     assert browser.complaints() == []

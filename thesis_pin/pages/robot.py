@@ -33,6 +33,9 @@ GROUPS = (
 """Groups of the items."""
 
 
+_LOOKED = "; looked for in "  # of a message on a mesh: folders follow
+
+
 def size_of(moves: Array) -> float:
     """How large a robot looks [m], by the placements of its joints ``(n, joints, 7)``."""
     extent = float(np.ptp(moves[..., :3].reshape(-1, 3), axis=0).max())
@@ -56,8 +59,10 @@ def items_of(robot: ClosedRobot, q: Array) -> tuple[tuple[Item, ...], tuple[str,
     if notes:
         warnings.warn("; ".join(notes), ModelWarning, stacklevel=2)
     size = size_of(joint_placements(robot.model, q))
-    where = robot.description.where  # a page that is mailed doesn't say where it lies here
-    told = tuple(note.replace(where, os.path.basename(where)) for note in notes)
+    # A page that is mailed doesn't say where files lie on this machine.
+    where, here = robot.description.where, _LOOKED
+    short = (note.partition(here)[0].replace(where, os.path.basename(where)) for note in notes)
+    told = tuple(f"{note[:1].upper()}{note[1:]}." for note in short)
     return (*bodies, *around(robot, q, size, bars=not bodies)), told
 
 
