@@ -55,7 +55,7 @@ def test_what_is_there_is_drawn_and_what_is_not_is_said(shapes, bars, bodies, fi
     names = [item.name for item in drawn.items]
     assert any(name.startswith("bar ") for name in names) is bars
     assert sum(name.startswith("body") for name in names) == bodies
-    assert any("bars are drawn" in note for note in drawn.notes) is bars
+    assert any("Bars are drawn" in note for note in drawn.notes) is bars
 
 
 @pytest.mark.parametrize("verb", ["view", "torque"])
