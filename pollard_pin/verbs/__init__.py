@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,7 +27,6 @@ from thesis_pin.report.tables import Table
 
 if TYPE_CHECKING:  # reports need none of it
     from pollard_pin.report.document import TrajectoryReport
-    from pollard_pin.study.accuracy.result import Accuracy
     from pollard_pin.study.simulate.conditions import Conditions
     from thesis_pin.pages.live.page import LivePage
     from thesis_pin.report.exchange.movement import Movement
@@ -215,78 +215,15 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
 
 def accuracy(arguments: argparse.Namespace) -> ExitCode:
     """How errors of the robot's numbers reach the spray tip, on a path or over a grid."""
-    from thesis_pin.command.results import deliver
+    from pollard_pin.verbs.accuracy import accuracy as studied
 
-    grid = ("x", "y", "z", "orientation", "points")
-    on_path = ("path", "duration", "timing", "euler", "feed", "placement", "samples")
-    if arguments.workspace:
-        refuse_beside(arguments, "workspace", on_path)
-        refuse_set(arguments, "workspace", smooth="auto")
-    for flag in grid:
-        if getattr(arguments, flag) is not None and not arguments.workspace:
-            raise BadInput(f"--{flag} belongs to a workspace", remedy="Add --workspace")
-    if arguments.strict and arguments.within is None:
-        raise BadInput("--strict has nothing to hold the robot against", remedy="Add --within 1mm")
-    if arguments.stiffness is not None and len(arguments.stiffness) not in (1, 6):
-        raise BadInput(
-            f"--stiffness has {len(arguments.stiffness)} numbers",
-            allowed="one, or six in the motors' order",
-        )
-    return deliver(
-        arguments,
-        "working the accuracy out",
-        lambda bar: _studied(arguments, bar),
-        figures="pollard_pin.study.accuracy.told.curves:figures",
-        page="pollard_pin.study.accuracy.told.page:accuracy_page",
-        table="pollard_pin.study.accuracy.told.tables:summary",
-    )
+    def axes(usual: dict[str, list[float]], points: int) -> dict[str, np.ndarray]:
+        return {
+            name: _axis(name, getattr(arguments, name) or ends, points)
+            for name, ends in usual.items()
+        }
 
-
-def _studied(arguments: argparse.Namespace, bar: Bar) -> Accuracy:
-    """The study that the arguments ask for."""
-    from pollard_pin.study.accuracy.study import path_accuracy, workspace_accuracy
-    from pollard_pin.study.accuracy.tolerances import default_tolerances
-    from thesis_pin.command.warned import warned
-
-    if arguments.tolerances is None:
-        allowed = default_tolerances(arguments.distribution or "uniform")
-    else:
-        from pollard_pin.study.accuracy.files import read_tolerances
-
-        allowed = read_tolerances(arguments.tolerances, arguments.distribution)
-    with warned():
-        robot = load(arguments.specification, inertia=arguments.inertia)
-        branch, stiffness = _branch(arguments), arguments.stiffness
-        if arguments.workspace:
-            ends = {"x": [0.1, 0.8], "y": [0.0], "z": [-0.5, 0.5]}
-            axes = {
-                name: _axis(name, getattr(arguments, name) or usual, arguments.points or 41)
-                for name, usual in ends.items()
-            }
-            return workspace_accuracy(
-                robot,
-                **axes,
-                orientation=np.radians(arguments.orientation or [0.0, 0.0, 0.0]).tolist(),
-                allowed=allowed,
-                branch=branch,
-                draws=arguments.draws or 0,
-                seed=arguments.seed,
-                within=arguments.within,
-                stiffness=stiffness,
-                progress=bar,
-            )
-        return path_accuracy(
-            robot,
-            _path(arguments, robot.specification),
-            allowed,
-            samples=arguments.samples or 401,
-            branch=branch,
-            draws=arguments.draws or 200,
-            seed=arguments.seed,
-            within=arguments.within,
-            stiffness=stiffness,
-            progress=bar,
-        )
+    return studied(arguments, _branch(arguments), partial(_path, arguments), axes)
 
 
 def _axis(name: str, ends: list[float], points: int) -> np.ndarray:

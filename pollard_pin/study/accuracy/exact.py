@@ -86,7 +86,7 @@ class Reached(NamedTuple):
     @property
     def assembled(self) -> np.ndarray:
         """Whether the robot can be assembled in the planned mode, shape ``(...)``."""
-        return ~np.isnan(self.tip[..., 0])
+        return np.asarray(~np.isnan(self.tip[..., 0]))
 
 
 def reached(specification: Specification, angles: np.ndarray, errors: np.ndarray) -> Reached:

@@ -199,9 +199,12 @@ def fitting(rule: Rule) -> list[Parameter]:
         UnknownName: There is none.
         BadInput: They are of the other unit, or its size can't be.
     """
-    most = TOLERANCES.widest_length if rule.unit == "mm" else TOLERANCES.widest_angle
-    real("a tolerance", rule.size, low=0.0, high=most / UNITS[rule.unit], unit=rule.unit)
     choice("unit", rule.unit, tuple(UNITS))
+    most = TOLERANCES.widest_length if rule.unit == "mm" else TOLERANCES.widest_angle
+    try:
+        real("a tolerance", rule.size, low=0.0, high=most / UNITS[rule.unit], unit=rule.unit)
+    except BadInput as error:
+        raise BadInput(error.what, where=rule.where, allowed=error.allowed) from None
     if rule.distribution is not None:
         choice("distribution", rule.distribution, DISTRIBUTIONS)
     named = [one for one in PARAMETERS if _fits(rule.pattern, one)]

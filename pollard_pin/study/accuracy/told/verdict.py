@@ -47,7 +47,7 @@ def sentences(study: Accuracy) -> list[str]:
         at = int(np.argmax(give))
         found.append(
             f"A force gives the tip {give.min():.3g} to {give[at]:.3g} mm for each newton (largest "
-            f"at {study.place(at)}), the motors' stiffness alone: links, joints and loops are rigid."
+            f"at {study.place(at)}), of the motors alone: links and joints are taken as rigid."
         )
     return found
 
