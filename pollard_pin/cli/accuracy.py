@@ -23,18 +23,18 @@ def which_tolerances(words: argparse.ArgumentParser) -> None:
         help="of what doesn't say its own: a tolerance is a bound or, normal, three standard "
         "deviations (default: uniform)",
     )
-    samples = "evenly spaced samples of a path (default: 401)"
+    samples = "evenly spaced samples; more stand beside abrupt changes (default: 401 of a path)"
     add_count(words, "--samples", samples, least=2)
     words.add_argument(
         "--workspace", action="store_true", help="over a grid of positions instead of a path"
     )
     for axis, default in (("x", "0.1 0.8"), ("y", "0"), ("z", "-0.5 0.5")):
-        text = f"of --workspace: one value, or from and to (default: {default})"
+        text = f"one value, or from and to (default: {default} with --workspace)"
         add_number(words, f"--{axis}", "METRES", text, nargs="+")
-    orientation = "of --workspace: ψ, θ, φ of the tool [°] (default: 0 0 0)"
+    orientation = "ψ, θ, φ of the tool [°] (default: 0 0 0 with --workspace)"
     add_number(words, "--orientation", ("PSI", "THETA", "PHI"), orientation)
-    add_count(words, "--points", "of --workspace: points an axis (default: 41)", least=2)
-    draws = "robots with drawn errors, on exact kinematics (default: 200 on a path, else none)"
+    add_count(words, "--points", "points an axis (default: 41 with --workspace)", least=2)
+    draws = "robots with such errors, each other ones (default: 200 on a path, else none)"
     add_count(words, "--draws", draws, least=1)
     seed = "of the errors; the same seed draws the same robots"
     add_count(words, "--seed", seed, least=0, default=0)
@@ -44,7 +44,7 @@ def which_tolerances(words: argparse.ArgumentParser) -> None:
         type=length,
         help="how far off the tip may be, with its unit: 1mm; says which tolerances keep it there",
     )
-    stiffness = "of each motor's joint, one number or six: adds how far the tip gives way"
+    stiffness = "of a servo at each motor's joint: one number, or six in the motors' order"
     add_number(words, "--stiffness", "N·m/rad", stiffness, positive=True, nargs="+")
     words.add_argument(
         "--out",

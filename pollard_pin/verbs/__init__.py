@@ -215,7 +215,7 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
 
 def accuracy(arguments: argparse.Namespace) -> ExitCode:
     """How errors of the robot's numbers reach the spray tip, on a path or over a grid."""
-    from pollard_pin.verbs.accuracy import accuracy as studied
+    from pollard_pin.verbs.studied import accuracy as studied
 
     def axes(usual: dict[str, list[float]], points: int) -> dict[str, np.ndarray]:
         return {

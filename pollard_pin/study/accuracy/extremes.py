@@ -13,6 +13,8 @@ import numpy as np
 
 _TURNS = 12
 
+_FARTHER = 1.0 + 1e-12
+
 
 def _directions() -> np.ndarray:
     """From the centre of a cube to its faces, edges and corners, one of each pair, ``(13, 3)``."""
@@ -46,7 +48,7 @@ def farthest(vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         size = np.sqrt((corners * corners).sum(axis=-1))
         pick = size.argmax(axis=1)
         rows = np.arange(count)
-        farther = size[rows, pick] > best * (1.0 + 1e-12)
+        farther = size[rows, pick] > best * _FARTHER
         if not farther.any():
             break
         best = np.where(farther, size[rows, pick], best)

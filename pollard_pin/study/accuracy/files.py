@@ -101,7 +101,9 @@ def read_tolerances(file: str | Path, distribution: Distribution | None = None) 
         SpecificationError: A TOML file is wrong; carries every problem.
     """
     name = str(file)
-    usual: Distribution = distribution or "uniform"
+    if distribution is not None:
+        choice("distribution", distribution, DISTRIBUTIONS)
+    usual: Distribution = "uniform" if distribution is None else distribution
     if not name.lower().endswith(TABLES):
         listed = read_toml(KIND, ToleranceFile, file)
         rules = [rule for entry in listed.tolerances for rule in entry.rules()]

@@ -17,10 +17,7 @@ from pollard_pin.study.accuracy.tolerances import Tolerance, Tolerances
 from pollard_pin.study.accuracy.within import Within
 from pollard_pin.study.workspace import Workspace
 from thesis_pin.display.brief import Brief
-from thesis_pin.display.cell import Cell
 from thesis_pin.numeric.arrays import median
-from thesis_pin.report.cells import report_cell
-from thesis_pin.report.tables import Table
 from thesis_pin.tolerances import TOLERANCES
 
 
@@ -53,7 +50,7 @@ class Contribution(Brief):
 
 
 @dataclass(frozen=True)
-class Accuracy(Brief):
+class AccuracyNumbers(Brief):
     """Errors of the spray tip along a path, or over a workspace.
 
     Attributes:
@@ -123,37 +120,6 @@ class Accuracy(Brief):
         numbers = np.stack([slope, mean, slope * allowed.sizes, turn, share], axis=1).tolist()
         every = [Contribution(one, *row) for one, row in zip(allowed.each, numbers, strict=True)]
         return tuple(sorted(every, key=_rank))
-
-    def verdict(self) -> list[str]:
-        """The answer in plain sentences, the most important first."""
-        from pollard_pin.study.accuracy.told.verdict import sentences
-
-        return sentences(self)
-
-    def doubts(self) -> list[str]:
-        """What is to be known before the numbers are believed."""
-        from pollard_pin.study.accuracy.told.verdict import doubts
-
-        return doubts(self)
-
-    def document(self) -> dict[str, object]:
-        """The study as JSON-ready data; see docs/accuracy.md."""
-        from pollard_pin.study.accuracy.told.document import document
-
-        return document(self)
-
-    def columns(self) -> dict[str, np.ndarray]:
-        """The poses as columns of a table: name with unit → values."""
-        from pollard_pin.study.accuracy.told.document import columns
-
-        return columns(self)
-
-    def _cell(self) -> Cell:
-        from pollard_pin.study.accuracy.told.tables import contributions_table
-
-        where = "over a workspace" if self.path is None else f"on {self.path.name}"
-        first: Table = contributions_table(self, 5)
-        return report_cell(self, f"{self.robot.specification.name}, accuracy {where}", first, "")
 
 
 def _rank(one: Contribution) -> tuple[float, float, str]:

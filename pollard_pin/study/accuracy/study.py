@@ -13,8 +13,8 @@ from pollard_pin.model import Pollard
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.motion.trajectory import joint_trajectory
 from pollard_pin.specification import six
+from pollard_pin.study.accuracy.document import Accuracy
 from pollard_pin.study.accuracy.draws import drawn
-from pollard_pin.study.accuracy.result import Accuracy
 from pollard_pin.study.accuracy.stacking import stacked
 from pollard_pin.study.accuracy.tolerances import Tolerances, default_tolerances
 from pollard_pin.study.accuracy.within import within as tolerances_within

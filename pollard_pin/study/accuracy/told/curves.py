@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pollard_pin.study.accuracy.result import Accuracy
+from pollard_pin.study.accuracy.result import AccuracyNumbers
 from pollard_pin.study.accuracy.told.document import sensitivities_csv
 from pollard_pin.study.accuracy.told.verdict import LEVEL
 from thesis_pin.report.curves import BLUE, GREEN, PURPLE, SKY, VERMILLION, Curve, Limit, Plot
@@ -19,12 +19,12 @@ BARS = 16
 """Tolerances that are drawn as bars."""
 
 
-def plots(study: Accuracy) -> list[Plot]:
+def plots(study: AccuracyNumbers) -> list[Plot]:
     """Errors along a path; none of a workspace."""
     return [] if study.time is None else [distances(study), axes(study), directions(study)]
 
 
-def distances(study: Accuracy) -> Plot:
+def distances(study: AccuracyNumbers) -> Plot:
     """How far off the tip may be along a path."""
     stack, draws = study.stack, study.draws
     curves = [
@@ -45,7 +45,7 @@ def distances(study: Accuracy) -> Plot:
     )
 
 
-def axes(study: Accuracy) -> Plot:
+def axes(study: AccuracyNumbers) -> Plot:
     """How far off the tip may be along each axis."""
     values = study.stack.components * 1e3
     return Plot(
@@ -61,7 +61,7 @@ def axes(study: Accuracy) -> Plot:
     )
 
 
-def directions(study: Accuracy) -> Plot:
+def directions(study: AccuracyNumbers) -> Plot:
     """How far off the spray direction may be."""
     return Plot(
         "Spray direction",
@@ -76,7 +76,7 @@ def directions(study: Accuracy) -> Plot:
 
 
 @default_style()
-def bars_figure(study: Accuracy) -> Figure:
+def bars_figure(study: AccuracyNumbers) -> Figure:
     """What moves the tip farthest, tolerance by tolerance."""
     some = [one for one in study.contributions if one.reach > 0][:BARS]
     figure, grid = new_figure(8.0, 1.2 + 0.3 * max(len(some), 1))
@@ -105,7 +105,7 @@ def bars_figure(study: Accuracy) -> Figure:
 
 
 @default_style()
-def map_figure(study: Accuracy) -> Figure:
+def map_figure(study: AccuracyNumbers) -> Figure:
     """Worst distance over a slice, or over the three middle slices of a volume."""
     from matplotlib.colors import LogNorm
     from matplotlib.ticker import NullFormatter
@@ -158,7 +158,7 @@ def map_figure(study: Accuracy) -> Figure:
     return figure
 
 
-def figures(study: Accuracy) -> dict[str, bytes]:
+def figures(study: AccuracyNumbers) -> dict[str, bytes]:
     """The study's figures, and its table of tolerances: file name → content."""
     files = {"sensitivities.csv": sensitivities_csv(study)}
     files |= figure_files("contributions", bars_figure(study))

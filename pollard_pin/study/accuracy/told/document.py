@@ -6,8 +6,8 @@ import numpy as np
 
 from pollard_pin.coordinates import POSE_NAMES
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
-from pollard_pin.study.accuracy.result import Accuracy, Contribution
-from pollard_pin.study.accuracy.told.verdict import LEVEL
+from pollard_pin.study.accuracy.result import AccuracyNumbers, Contribution
+from pollard_pin.study.accuracy.told.verdict import LEVEL, doubts, sentences
 from thesis_pin.numeric.arrays import median
 from thesis_pin.report.writers import csv_bytes
 from thesis_pin.tolerances import TOLERANCES
@@ -17,7 +17,7 @@ SCHEMA = "pollard-pin/accuracy"
 VERSION = 1
 
 
-def document(study: Accuracy) -> dict[str, object]:
+def document(study: AccuracyNumbers) -> dict[str, object]:
     """The study as JSON-ready data; see docs/accuracy.md."""
     stack, draws = study.stack, study.draws
     found: dict[str, object] = {
@@ -48,7 +48,7 @@ def document(study: Accuracy) -> dict[str, object]:
     return found
 
 
-def columns(study: Accuracy) -> dict[str, np.ndarray]:
+def columns(study: AccuracyNumbers) -> dict[str, np.ndarray]:
     """The poses as columns of a table: name with unit → values; what isn't there is empty."""
     stack = study.stack
     found: dict[str, np.ndarray] = {} if study.time is None else {"time_s": study.time}
@@ -74,7 +74,7 @@ def columns(study: Accuracy) -> dict[str, np.ndarray]:
     return found
 
 
-def sensitivities_csv(study: Accuracy) -> bytes:
+def sensitivities_csv(study: AccuracyNumbers) -> bytes:
     """Every tolerance in a row: what it is, what it does."""
     every = study.contributions
     radian = [1.0 if one.parameter.unit == "mm" else np.radians(1.0) * 1e3 for one in every]
@@ -115,7 +115,7 @@ def _tolerance(one: Contribution) -> dict[str, object]:
     }
 
 
-def _asked(study: Accuracy) -> dict[str, object]:
+def _asked(study: AccuracyNumbers) -> dict[str, object]:
     path = {} if study.path is None else study.path.parameters
     grid: dict[str, dict[str, float]] | None = None
     if study.space is not None:
@@ -142,12 +142,12 @@ def _asked(study: Accuracy) -> dict[str, object]:
     }
 
 
-def _summary(study: Accuracy) -> dict[str, object]:
+def _summary(study: AccuracyNumbers) -> dict[str, object]:
     stack, k = study.stack, study.worst
     found: dict[str, object] = {
         "within_limits": None if study.limit is None else study.within_limits,
-        "verdict": study.verdict(),
-        "doubts": study.doubts(),
+        "verdict": sentences(study),
+        "doubts": doubts(study),
         "notes": list(study.allowed.notes),
         "worst": {
             "largest": _number(stack.farthest[k]),

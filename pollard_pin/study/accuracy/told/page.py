@@ -7,7 +7,7 @@ import base64
 import numpy as np
 
 from pollard_pin.report.drawn.view import CHAINS, colour_of_part
-from pollard_pin.study.accuracy.result import Accuracy
+from pollard_pin.study.accuracy.result import AccuracyNumbers
 from pollard_pin.study.accuracy.sensitivity import sensitivity
 from pollard_pin.study.accuracy.told.curves import bars_figure, map_figure, plots
 from pollard_pin.study.accuracy.told.document import document
@@ -17,7 +17,7 @@ from pollard_pin.study.accuracy.told.tables import (
     notes,
     within_table,
 )
-from pollard_pin.study.accuracy.told.verdict import deg, mm
+from pollard_pin.study.accuracy.told.verdict import deg, mm, sentences
 from thesis_pin.numeric.arrays import median
 from thesis_pin.pages.drawing import CLOSED, OPEN, closure_items, robot_items
 from thesis_pin.pages.page import Drawing, Page, Tile, html, parameters_table, software
@@ -33,7 +33,7 @@ ELLIPSOIDS = 25
 _SHOWN = 0.03  # m, the largest half axis as drawn
 
 
-def accuracy_page(study: Accuracy) -> bytes:
+def accuracy_page(study: AccuracyNumbers) -> bytes:
     """An accuracy study as one self-contained HTML file."""
     name, stack = study.robot.specification.name.capitalize(), study.stack
     where = "over a workspace" if study.path is None else f"on {study.path.name}"
@@ -51,7 +51,7 @@ def accuracy_page(study: Accuracy) -> bytes:
             subtitle=f"{len(study.pose)} poses, {len(study.allowed.each)} tolerances "
             f"({study.allowed.source}), branch {study.branch}",
             good=None if study.limit is None else study.within_limits,
-            verdict=[*study.verdict(), *(f"Note: {one}." for one in notes(study))],
+            verdict=[*sentences(study), *(f"Note: {one}." for one in notes(study))],
             tiles=[
                 Tile(
                     f"off at worst, {middle}",
@@ -81,7 +81,7 @@ def accuracy_page(study: Accuracy) -> bytes:
     )
 
 
-def scene(study: Accuracy) -> Scene | None:
+def scene(study: AccuracyNumbers) -> Scene | None:
     """The robot on its path, with ellipsoids of the tip's error; None in a workspace."""
     if study.time is None or study.path is None:
         return None
@@ -93,7 +93,7 @@ def scene(study: Accuracy) -> Scene | None:
     name = robot.specification.name.capitalize()
     return Scene(
         title=f"{name}, accuracy on {study.path.name}",
-        description=f"Animation of {name} on its path. {' '.join(study.verdict()[:2])} Ellipsoids "
+        description=f"Animation of {name} on its path. {' '.join(sentences(study)[:2])} Ellipsoids "
         "along the path show in which directions the spray tip may be off.",
         time=study.time[keep],
         groups=(
@@ -122,7 +122,7 @@ def scene(study: Accuracy) -> Scene | None:
     )
 
 
-def _ellipsoids(study: Accuracy, keep: np.ndarray, scale: float) -> list[Item]:
+def _ellipsoids(study: AccuracyNumbers, keep: np.ndarray, scale: float) -> list[Item]:
     assert study.time is not None
     places = thinned(study.time, ELLIPSOIDS)
     every = sensitivity(study.robot, study.angles[places])[:, :3][:, :, study.allowed.columns]
@@ -154,7 +154,7 @@ def _words(name: str) -> str:
     return name.replace("_", " ").replace(".", " ")
 
 
-def _svg(name: str, study: Accuracy) -> str:
+def _svg(name: str, study: AccuracyNumbers) -> str:
     """A figure as an image inside an SVG."""
     figure = bars_figure(study) if name == "contributions" else map_figure(study)
     png = figure_files(name, figure)[f"{name}.png"]
@@ -167,7 +167,7 @@ def _svg(name: str, study: Accuracy) -> str:
     )
 
 
-def _bars_said(study: Accuracy) -> str:
+def _bars_said(study: AccuracyNumbers) -> str:
     some = study.contributions[:5]
     return "Way of the spray tip: " + ", ".join(
         f"{one.parameter.name} {mm(one.reach)}" for one in some

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from pollard_pin.study.accuracy.parameters import COLUMNS
-from pollard_pin.study.accuracy.result import Accuracy
-from pollard_pin.study.accuracy.told.verdict import down
+from pollard_pin.study.accuracy.result import AccuracyNumbers
+from pollard_pin.study.accuracy.told.verdict import down, sentences
 from thesis_pin.report.tables import Part, Table
 
 SHOWN = 12
@@ -27,7 +27,7 @@ _WORDS = {
 }
 
 
-def contributions_table(study: Accuracy, most: int | None = None) -> Table:
+def contributions_table(study: AccuracyNumbers, most: int | None = None) -> Table:
     """What each tolerance does, the most important first.
 
     Args:
@@ -59,7 +59,7 @@ def contributions_table(study: Accuracy, most: int | None = None) -> Table:
     return whole if most is None else whole.only(whole.title, (0, 1, 2, 4, 5, 6))
 
 
-def kinds_table(study: Accuracy) -> Table:
+def kinds_table(study: AccuracyNumbers) -> Table:
     """What each kind of tolerance does, and all of them together."""
     stack, rows = study.stack, []
     counts = {kind: len(of) for kind, of in study.allowed.kinds.items()}
@@ -75,7 +75,7 @@ def kinds_table(study: Accuracy) -> Table:
     return Table(_title(study), heads, rows, note)
 
 
-def within_table(study: Accuracy) -> list[Table]:
+def within_table(study: AccuracyNumbers) -> list[Table]:
     """Which equal tolerances keep the tip within the limit."""
     found = study.within
     if found is None:
@@ -92,7 +92,7 @@ def within_table(study: Accuracy) -> list[Table]:
     return [Table(title, ("of these alone", "", "worst case", "root sum square"), rows, note)]
 
 
-def summary(study: Accuracy) -> Iterator[Part]:
+def summary(study: AccuracyNumbers) -> Iterator[Part]:
     """The study in tables and paragraphs."""
     yield kinds_table(study)
     yield contributions_table(study, SHOWN)
@@ -100,11 +100,11 @@ def summary(study: Accuracy) -> Iterator[Part]:
     if more > 0:
         yield f"{more} more do less; --out writes all of them (sensitivities.csv)."
     yield from within_table(study)
-    yield from ("", *study.verdict())
+    yield from ("", *sentences(study))
     yield from (f"Note: {one}." for one in notes(study))
 
 
-def notes(study: Accuracy) -> list[str]:
+def notes(study: AccuracyNumbers) -> list[str]:
     """What was chosen, and what the numbers rest on."""
     ways = sorted({one.distribution for one in study.allowed.each})
     said = {
@@ -113,22 +113,22 @@ def notes(study: Accuracy) -> list[str]:
         "ends": "play is at one end or the other",
     }
     named = len({one.parameter.column for one in study.allowed.each})
-    found = [*study.allowed.notes, f"drawn robots: {'; '.join(said[way] for way in ways)}"]
+    found = [*study.allowed.notes, *(study.path.notes if study.path is not None else ())]
+    if study.draws is not None:
+        found.append(f"drawn robots: {'; '.join(said[way] for way in ways)}")
     if study.allowed.source != "default":
         found.append(
             f"{named} of {len(COLUMNS)} numbers of the robot have a tolerance "
             f"({study.allowed.source}); the others are taken as exact"
         )
-    if study.draws is None:
-        found = [one for one in found if not one.startswith("drawn robots")]
     return found
 
 
-def _level(study: Accuracy) -> str:
+def _level(study: AccuracyNumbers) -> str:
     return "largest" if study.space is None else "median"
 
 
-def _title(study: Accuracy) -> str:
+def _title(study: AccuracyNumbers) -> str:
     name = study.robot.specification.name
     if study.path is not None:
         return f"{name} on {study.path.name}, {len(study.pose)} samples"

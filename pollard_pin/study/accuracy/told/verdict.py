@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pollard_pin.study.accuracy.draws import Draws
-from pollard_pin.study.accuracy.result import Accuracy, Contribution
+from pollard_pin.study.accuracy.result import AccuracyNumbers, Contribution
 from thesis_pin.numeric.arrays import median
 from thesis_pin.tolerances import TOLERANCES
 
@@ -34,7 +34,7 @@ def slope(one: Contribution) -> str:
     return f"{one.slope * factor:.3g} mm for each {'mm' if unit == 'mm' else '°'}"
 
 
-def sentences(study: Accuracy) -> list[str]:
+def sentences(study: AccuracyNumbers) -> list[str]:
     """The answer, the most important first."""
     found = [*_answer(study), *_main(study)]
     if study.draws is not None:
@@ -52,7 +52,7 @@ def sentences(study: Accuracy) -> list[str]:
     return found
 
 
-def doubts(study: Accuracy) -> list[str]:
+def doubts(study: AccuracyNumbers) -> list[str]:
     """Where exact kinematics differ from linear ones."""
     bent = study.bent
     if not bent.any():
@@ -68,7 +68,7 @@ def doubts(study: Accuracy) -> list[str]:
     ]
 
 
-def _answer(study: Accuracy) -> Iterator[str]:
+def _answer(study: AccuracyNumbers) -> Iterator[str]:
     stack, k = study.stack, study.worst
     farthest, limit = stack.farthest, study.limit
     if limit is not None:
@@ -101,7 +101,7 @@ def _answer(study: Accuracy) -> Iterator[str]:
         )
 
 
-def _main(study: Accuracy) -> Iterator[str]:
+def _main(study: AccuracyNumbers) -> Iterator[str]:
     some = study.contributions[:_FEW]
     if not some[0].reach:
         yield "No tolerance moves the tip."
@@ -113,7 +113,7 @@ def _main(study: Accuracy) -> Iterator[str]:
         yield f"Without any effect on the tool: {', '.join(still)}."
 
 
-def _drawn(study: Accuracy, draws: Draws) -> Iterator[str]:
+def _drawn(study: AccuracyNumbers, draws: Draws) -> Iterator[str]:
     whole = int(draws.assembled.sum())
     where = "everywhere on the path" if study.space is None else "at every position"
     if whole < draws.count:
@@ -135,7 +135,7 @@ def _drawn(study: Accuracy, draws: Draws) -> Iterator[str]:
         yield f"{inside:.1%} of them stay within {mm(study.limit)}."
 
 
-def _linear(study: Accuracy) -> Iterator[str]:
+def _linear(study: AccuracyNumbers) -> Iterator[str]:
     if study.bent.any():
         yield from (f"Warning: {one}." for one in doubts(study))
         return
@@ -146,7 +146,7 @@ def _linear(study: Accuracy) -> Iterator[str]:
     )
 
 
-def _within(study: Accuracy) -> Iterator[str]:
+def _within(study: AccuracyNumbers) -> Iterator[str]:
     found = study.within
     assert found is not None
     if not np.isfinite(found.factor):

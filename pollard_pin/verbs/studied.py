@@ -22,7 +22,7 @@ from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:
-    from pollard_pin.study.accuracy.result import Accuracy
+    from pollard_pin.study.accuracy.document import Accuracy
     from thesis_pin.command.progress import Bar
 
 SAMPLES, POINTS, DRAWS = 401, 41, 200
