@@ -10,7 +10,7 @@ from thesis_pin.command import simulating, verbs
 from thesis_pin.command.flags import options
 from thesis_pin.command.flags.figured import add_figure
 from thesis_pin.command.registry import Robot, Verb, Words
-from thesis_pin.command.showing.beside import add_beside, add_beside_robot
+from thesis_pin.command.showing.beside import add_align, add_beside, add_beside_robot
 from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.showing.words import add_sliders
@@ -58,6 +58,7 @@ def report_verb(
         add_figure,
         add_beside,
         add_beside_robot,
+        add_align,
     )
     run = partial(verbs.report, what=f"working out the {name}")
     return _verb(robot, name, (help, description, example), robot.report, run, *add)
@@ -73,6 +74,7 @@ def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
         add_film,
         add_beside,
         add_beside_robot,
+        add_align,
     )
     return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
 

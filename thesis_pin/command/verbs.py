@@ -97,13 +97,14 @@ def _paired(
     """The reports on both motions that the arguments ask for."""
     first = planned(robot, arguments, samples, bar)
     second = planned(robot, second_of(arguments, robot.motion_flag), samples, bar)
-    return reports(hooks_of(robot), first, second)
+    files = getattr(arguments, robot.motion_flag), arguments.beside
+    return reports(hooks_of(robot), first, second, arguments.align, files)
 
 
 def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Show a motion in the browser, or sliders that move the robot, or write it as a page."""
     if arguments.sliders:
-        refuse_beside(arguments, "sliders", ("beside", "beside-robot"))
+        refuse_beside(arguments, "sliders", ("beside", "beside-robot", "align"))
         from thesis_pin.command.showing.sliders import show_sliders
 
         def page() -> LivePage:
