@@ -130,6 +130,9 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             path's duration [-].
         path_join: Jump of pose or rate where two paths meet, still taken as none
             [m], [rad], [m/s], [rad/s].
+        path_corner: Angle between the directions of two pieces of a path, below which the motion
+            needn't stop where they meet [rad]: a tool at 1 m/s jumps by 1 µm/s there.
+        law_share: What a law of motion may use beyond a limit between the places of its grid [-].
         straight: Area that three points span, relative to the square of their largest
             distance from the first, below which they lie on a line [-].
         on_circle: How far rounding may throw a double root off the unit circle [-].
@@ -255,6 +258,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     instant: float = 1e-9
     path_end: float = 1e-9
     path_join: float = 1e-9
+    path_corner: float = 1e-6
+    law_share: float = 0.01
     straight: float = 1e-9
     on_circle: float = 1e-2
     half_turn: float = 1e-6
