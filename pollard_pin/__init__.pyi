@@ -35,6 +35,9 @@ from .report.document import trajectory_report as trajectory_report
 
 # Study
 from .study.size import size as size
+from .study.smallest.asking import smallest_motors as smallest_motors
+from .study.smallest.asking import time_with_motors as time_with_motors
+from .study.smallest.motors import motor_family as motor_family
 from .study.simulate.draws import simulate_path as simulate_path
 
 # Viewer

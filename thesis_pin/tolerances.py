@@ -160,6 +160,10 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             larger: 0.06 s in 60° and 0.064 are both 0.06 [-].
         slow_servo: No-load speed below which nothing of a robot's joint is: a turn takes 20 s; the
             seconds in 60° of usual servos, read as rad/s, are less [rad/s].
+        motor_torque: Relative width of the interval in which the stall torque of the smallest motor
+            counts as found [-]: nobody makes or measures motors better.
+        walking_torque: The same where a walk is planned anew with each servo [-]: plans are local
+            answers, and not found more exactly.
         power_density, torque_density: Greatest power and stall torque of an actuator for its
             size that are taken for right [W/m³], [N·m/m³]; hobby servos have 0.02 to 0.6 W/cm³
             and up to 0.15 N·m/cm³.
@@ -274,6 +278,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     explicit_rank: float = 1e-11
     sheet_rounding: float = 0.1
     slow_servo: float = 0.3
+    motor_torque: float = 5e-4
+    walking_torque: float = 0.01
     power_density: float = 1e6
     torque_density: float = 3e5
     specific_power: float = 600.0

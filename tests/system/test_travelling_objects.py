@@ -122,6 +122,7 @@ MAKERS = {
     "ForwardDynamics": lambda: thesis_pin.ForwardDynamics(looped()),
     "JointMotion": joint_motion,
     "TorqueReport": lambda: thesis_pin.torque_report(looped(), joint_motion()),
+    "Smallest motors": lambda: scout_pin.smallest_motors(gait_report(), curve=True),
     "Foot": lambda: feet_of_scout()[1][0],
     "Floor": lambda: thesis_pin.Floor(),
     "Placed": lambda: thesis_pin.stand(*feet_of_scout(), feet_of_scout()[0].q0),
