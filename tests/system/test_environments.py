@@ -34,6 +34,7 @@ VERBS = {
         ["convert", "--as", "joints"],
         ["ik", "0.45", "0", "0.1", "0", "0", "0"],
         ["fk", "0", "0", "0", "0", "0", "0"],
+        ["time"],
         ["workspace"],
         ["accuracy"],
         ["info"],

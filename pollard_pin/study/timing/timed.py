@@ -16,7 +16,7 @@ from pollard_pin.study.timing.course import Course
 from pollard_pin.study.timing.limits import motor_limits
 from thesis_pin.display.brief import Brief
 from thesis_pin.display.cell import Cell
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, Infeasible
 from thesis_pin.numeric.checks import choice, function, instance, real
 from thesis_pin.numeric.workers import silent
 from thesis_pin.timing.fastest import fastest
@@ -148,6 +148,28 @@ def time_path(
         limits = motor_limits(course.robot.specification)
     instance("limits", limits, Limits, "pollard_pin.motor_limits()")
     _belong(law, duration=duration, window=window, share=share)
+    given = (duration, window, share)
+    try:
+        return _timed(course, limits, law, given, progress)
+    except Infeasible as error:
+        x, y, z = course.track.chain(np.array([error.place]))[0].position[0]
+        raise Infeasible(
+            error.limit,
+            error.share,
+            error.place,
+            where=f"with the spray tip at ({x:z.4g}, {y:z.4g}, {z:z.4g}) m",
+        ) from None
+
+
+def _timed(
+    course: Course,
+    limits: Limits,
+    law: Aim,
+    given: tuple[float | None, float | None, float | None],
+    progress: Callable[[int, int], None],
+) -> TimedPath:
+    """The law of checked arguments; ``given`` is a duration, a window and a share of the way."""
+    duration, window, share = given
     tight = limits.tightened(SPARE)
     if law == "constant-speed":
         solved = solve(even(course.grid), limits, partial(_steady, tight), progress=progress)
