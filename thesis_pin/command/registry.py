@@ -197,6 +197,8 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
         simulation: A simulation of a report of the motion; the rest of its room,
             ``study.simulate``, has the same names in every robot's package.
         size: Servos or motors held against a report of the motion.
+        study: The study of designs that the arguments ask for, a function of them.
+        sweep: The public function that makes one.
         thesis, audit: The thesis ready to be audited, and the function that does it.
     """
 
@@ -226,6 +228,8 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     urdf: str = "urdf:urdf"
     files: str = "urdf:files"
     size: str = "study.size:size"
+    study: str = "verbs:sweep_study"
+    sweep: str = ""
     audit: str = "thesis.audit:audit"
     thesis: str = "thesis.audit:THESIS"
 
