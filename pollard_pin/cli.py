@@ -21,8 +21,7 @@ from thesis_pin.command.flags.options import (
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 
-def _which_path(words: argparse.ArgumentParser) -> None:
-    _branch(words, default="this one")
+def _which_curve(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--path", metavar="FILE", help=".csv or .toml path (default: the curve of appendix B)"
     )
@@ -38,8 +37,23 @@ def _which_path(words: argparse.ArgumentParser) -> None:
     add_euler(words)
     feed = "speed of the spray tip along a path without times [m/s]"
     add_number(words, "--feed", "SPEED", feed, positive=True)
-    placement = "what is added to appendix B's curve [m] (default: the specification's)"
+
+
+def _which_path(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="this one")
+    _which_curve(words)
+    placement = (
+        "what is added to the path's x, y, z [m] (default: nothing; to appendix B's curve, as it "
+        "is printed, the specification's)"
+    )
     add_number(words, "--placement", ("X", "Y", "Z"), placement)
+    turn = "turn the path with its tool about the vertical through its middle, from x towards y [°]"
+    add_number(words, "--turn", "DEGREES", turn)
+    words.add_argument(
+        "--mirror",
+        action="store_true",
+        help="the path's mirror image, y about its middle, as a left door's is to a right one's",
+    )
     words.add_argument(
         "--actuators",
         choices=("six", "three"),

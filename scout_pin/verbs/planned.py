@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 import shlex
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from thesis_pin.command.results import put, put_folder
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, CannotWrite
 from thesis_pin.numeric.checks import real
 
 if TYPE_CHECKING:  # help has to be quick
@@ -80,9 +81,12 @@ def plan(arguments: argparse.Namespace) -> ExitCode:
 
         with warned():
             robot = load(arguments.specification, inertia=arguments.inertia)
-            found = plan_gait(
-                robot, request, steps=arguments.steps, samples=arguments.samples, progress=bar
-            )
+            try:
+                found = plan_gait(
+                    robot, request, steps=arguments.steps, samples=arguments.samples, progress=bar
+                )
+            except BadInput as error:
+                raise _by_flags(error) from None
         if arguments.json:
             content = json_bytes(document(found))
         if found.met:
@@ -95,15 +99,34 @@ def plan(arguments: argparse.Namespace) -> ExitCode:
             except Exception:  # a figure or the page: the data are written all the same
                 _written(arguments, made, content)
                 raise
-    _written(arguments, made, content)
-    if page:
-        put(arguments.html, page)
-    if free(arguments):
-        print_parts(found.verdict())
+    try:
+        _written(arguments, made, content)
+        if page:
+            put(arguments.html, page)
+    except CannotWrite:
+        _tell(arguments, found)  # what may have taken a minute isn't lost on a full disk
+        raise
+    _tell(arguments, found)
     if found.interrupted:
         say("scout-pin: interrupted; this is the best so far")
         return ExitCode.INTERRUPTED
     return ExitCode.DONE if found.met else ExitCode.NO
+
+
+def _tell(arguments: argparse.Namespace, found: Plan) -> None:
+    if free(arguments):
+        print_parts(found.verdict())
+
+
+def _by_flags(error: BadInput) -> BadInput:
+    """The same error with the fields of a request that it names as flags."""
+    fields = [name for name in error.where.split(", ") if name in (*_UNITS, "height")]
+    if not fields or type(error) is not BadInput:
+        return error
+    flags = {name: f"--{name.replace('_', '-')}" for name in fields}
+    remedy = re.sub(r"\w+", lambda word: flags.get(word[0], word[0]), error.remedy)
+    where = ", ".join(flags.values())
+    return BadInput(error.what, where=where, allowed=error.allowed, remedy=remedy)
 
 
 def _request(arguments: argparse.Namespace) -> PlanRequest:

@@ -206,7 +206,6 @@ CONTRADICTIONS = {
         ["--json", "-", "--html", "-"],
         ["--duration", "3"],
         ["--timing", "constant-rate"],
-        ["--placement", "0", "0", "0"],
         ["--branch=+-"],
         ["--figure", "5.2"],
     ],

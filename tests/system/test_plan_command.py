@@ -12,6 +12,8 @@ import scout_pin
 from scout_pin.motion.files import load_gait
 from scout_pin.study.plan import planning
 from scout_pin.study.plan.results.result import Plan
+from scout_pin.verbs import planned
+from thesis_pin.errors import CannotWrite
 
 PLAN = "scout-pin plan"
 WORDS = ["plan", "--steps", "1", "--margin", "8"]
@@ -153,3 +155,24 @@ def test_where_figures_cannot_be_drawn_the_data_are_written_all_the_same(
     assert code == 70
     assert "broken" in err
     assert (tmp_path / "walk" / "walk.toml").exists()
+
+
+def test_the_verdict_is_told_where_nothing_can_be_written(plan, monkeypatch, tmp_path, capfd):
+    instead(monkeypatch, plan)
+
+    def full(folder, made):
+        raise CannotWrite(f"{folder}: no space left on device")
+
+    monkeypatch.setattr(planned, "put_folder", full)
+    code, said, err = run(PLAN, [*WORDS, "--out", str(tmp_path / "walk")], capfd)
+    assert code == 3
+    assert "no space left" in err
+    assert "Scout walks 30 mm a step" in said
+
+
+def test_feet_out_of_reach_are_told_by_flags(capfd):
+    code, _, err = run(PLAN, ["plan", "--foot-spacing", "900"], capfd)
+    assert code == 2
+    assert "--foot-spacing, --height: the feet can't stand 900 mm apart" in " ".join(err.split())
+    assert "another --foot-spacing or --height" in " ".join(err.split())
+    assert "foot_spacing" not in err
