@@ -35,6 +35,7 @@ from .report.document import trajectory_report as trajectory_report
 
 # Study
 from .study.size import size as size
+from .study.sweeping.making import path_study as path_study
 from .study.simulate.draws import simulate_path as simulate_path
 
 # Viewer

@@ -147,6 +147,8 @@ def sweep_study(arguments: argparse.Namespace) -> Study:
         placement=arguments.placement,
         duration=arguments.duration,
         timing=arguments.timing,
+        turn_deg=arguments.turn or 0.0,
+        mirrored=arguments.mirror,
         euler=arguments.euler,
         feed=arguments.feed,
         smooth=arguments.smooth,

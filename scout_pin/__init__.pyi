@@ -32,6 +32,7 @@ from .report.document import gait_report as gait_report
 
 # Study
 from .study.size import size as size
+from .study.sweeping.making import gait_study as gait_study
 from .study.simulate.draws import simulate_gait as simulate_gait
 
 # Viewer
@@ -39,6 +40,7 @@ from .report.drawn.viewer import viewer as viewer
 
 # Only Scout
 from .study.plan.planning import plan_gait as plan_gait
+from .study.sweeping.making import plan_study as plan_study
 from .study.plan.request import PlanRequest as PlanRequest
 from .study.plan.results.result import Plan as Plan
 from .kinematics.rates import leg_rates as leg_rates

@@ -1,4 +1,4 @@
-"""A robot that is a bowl: a study that costs nothing, sleeps, warns, fails or dies as it is told."""
+"""A robot that is a bowl: its study costs nothing; it sleeps, warns, fails or dies as told."""
 
 import os
 import signal
@@ -9,7 +9,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from thesis_pin.errors import BadInput, ModelWarning
+from thesis_pin.sweep.designs.making import combined, vary
 from thesis_pin.sweep.designs.text import toml
+from thesis_pin.sweep.result import Effort, Sweep
+from thesis_pin.sweep.running.runner import chunks
+from thesis_pin.sweep.running.work import work
 from thesis_pin.sweep.study import Column
 
 BASE = {
@@ -74,3 +78,11 @@ class Bowl:
 
     def written(self, data, notes):
         return {"best.toml": toml(data, notes).encode()}
+
+
+def swept(*texts, study=None):
+    """A sweep of the bowl in this process."""
+    study = study or Bowl()
+    designs = combined([vary(BASE, text) for text in texts])
+    rows = [row for task in chunks(designs) for row in work(study, designs, task).rows]
+    return Sweep(study, designs, tuple(rows), Effort(1, None, len(rows), 1.0, 1.0))

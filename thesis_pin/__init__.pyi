@@ -44,6 +44,12 @@ from .report.torque.document import (
 from .sizing.catalogue import read_catalogue as read_catalogue
 from .sizing.motors import size_motors as size_motors
 
+# Many designs
+from .sweep.result import Sweep as Sweep
+from .sweep.running.runner import sweep_designs as sweep_designs
+from .sweep.shown.choice import Choice as Choice
+from .sweep.study import make_designs as make_designs
+
 # Viewer
 from .pages.player import write_html as write_html
 from .pages.scene import Scene as Scene

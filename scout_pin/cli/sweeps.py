@@ -15,4 +15,5 @@ def which_judge(words: Words) -> None:
         help="plan a walk for each design instead: fields of scout_pin.PlanRequest in SI, as "
         "speed=0.1 or objective=fastest, which vary as plan.speed",
     )
-    add_count(words, "--steps", "steps of a planned walk (default: 10)", least=1, most=100)
+    steps = "steps of the walk from rest to rest, the foot behind drawn up last"
+    add_count(words, "--steps", steps, least=1, most=100, default=10)

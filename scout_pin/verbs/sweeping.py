@@ -14,6 +14,9 @@ from thesis_pin.sweep.designs.values import read_value
 from thesis_pin.sweep.measures import named
 from thesis_pin.sweep.study import Study
 
+_STEPS = 10
+"""Steps of a planned walk where nobody says."""
+
 _PLAN_SAMPLES = 801
 """At which plans are judged."""
 
@@ -33,11 +36,11 @@ def study(arguments: argparse.Namespace) -> Study:
         return plan_study(
             arguments.specification,
             asked,
-            steps=arguments.steps or 10,
+            steps=arguments.steps,
             samples=_PLAN_SAMPLES,
             inertia=arguments.inertia,
         )
-    if arguments.steps is not None:
+    if arguments.steps != _STEPS:
         raise BadInput("--steps means nothing without --plan", remedy="Leave it out")
     wanted = " ".join(filter(None, (arguments.pareto, arguments.wish)))
     return gait_study(

@@ -18,19 +18,10 @@ from thesis_pin.errors import BadInput
 from thesis_pin.report.tables import Table
 from thesis_pin.sweep.chosen.wishes import misses
 from thesis_pin.sweep.designs.keys import dotted, leaves, matching, value_at
-from thesis_pin.sweep.designs.making import (
-    Designs,
-    Drawing,
-    combined,
-    drawn,
-    joined,
-    listed,
-    paired,
-    vary,
-)
-from thesis_pin.sweep.running.runner import Interrupted, chunks, sweep, usual_jobs
+from thesis_pin.sweep.designs.making import Designs, joined, listed
+from thesis_pin.sweep.running.runner import Interrupted, chunks, sweep_designs, usual_jobs
 from thesis_pin.sweep.shown.choice import Choice, shown
-from thesis_pin.sweep.study import Study, judged
+from thesis_pin.sweep.study import Study, judged, make_designs
 
 _NAMED = 12
 """Designs that a dry run lists."""
@@ -48,14 +39,14 @@ def run(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     designs = designs_of(study, arguments)
     Choice.check(study, designs, arguments.pareto, arguments.wish)
     jobs = arguments.jobs or usual_jobs()
-    who = arguments.scheduler or f"{jobs} process{'es' * (jobs != 1)}"
-    say(f"{len(designs):,} design{'s' * (len(designs) != 1)}, {who}")
     if arguments.dry_run:
         print_parts(_dry(study, designs, jobs))
         return ExitCode.DONE
     with Bar("judging designs", left=True) as bar:
+        who = arguments.scheduler or f"{jobs} process{'es' * (jobs != 1)}"
+        say(f"judging {len(designs):,} design{'s' * (len(designs) != 1)} by {who}")
         try:
-            done = sweep(
+            done = sweep_designs(
                 study,
                 designs,
                 jobs=jobs,
@@ -98,11 +89,10 @@ def run(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         say(f"warning: a design failed by a mistake of ours or with its process: {mistake}")
     if free(arguments):
         print_parts(summary(choice))
-    if arguments.strict and (
-        not done.feasible.any() or choice.best is None or misses(done, choice.terms, choice.best)
-    ):
+    if choice.best is None:
         return ExitCode.NO
-    return ExitCode.DONE
+    short = not done.feasible.any() or misses(done, choice.terms, choice.best)
+    return ExitCode.NO if arguments.strict and short else ExitCode.DONE
 
 
 def _refuse(arguments: argparse.Namespace) -> None:
@@ -136,14 +126,16 @@ def designs_of(study: Study, arguments: argparse.Namespace) -> Designs:
         UnknownName: There is no such key.
         BadInput: Nothing varies, or values can't be read.
     """
-    varied = [vary(study.base, text) for text in arguments.vary or ()]
     made = None
-    if varied:
-        if arguments.draw is not None:
-            how: Drawing = "random" if arguments.random else "latin"
-            made = drawn(varied, arguments.draw, arguments.seed, how)
-        else:
-            made = paired(varied) if arguments.pair else combined(varied)
+    if arguments.vary:
+        made = make_designs(
+            study,
+            arguments.vary,
+            pair=arguments.pair,
+            draw=arguments.draw,
+            seed=arguments.seed,
+            how="random" if arguments.random else "latin",
+        )
     if arguments.designs is not None:
         table = _table(study, arguments.designs)
         made = table if made is None else joined(table, made)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.sweep.designs.making import Designs
 from thesis_pin.sweep.study import DONE, FAILED, LOST, Cell, Column, Row, Study
 
+_NUMBER = re.compile(r"[-+−]?\d[\d.,]*(e[-+]?\d+)?")
 _SHARE = "×"
 """Unit of values that multiply what a key is in the file."""
 
@@ -113,9 +115,18 @@ class Sweep(Brief):
         return self.feasible if self.feasible.any() else self.done
 
     def reasons(self) -> list[tuple[str, str, int]]:
-        """Status and reason of designs that weren't judged, and how many; the commonest first."""
-        counted = Counter((row.status, row.reason) for row in self.rows if row.status != DONE)
-        return [(status, reason, count) for (status, reason), count in counted.most_common()]
+        """Status and reason of designs that weren't judged, and how many; the commonest first.
+
+        Reasons that differ in numbers only count as one, of which the first is given.
+        """
+        first: dict[tuple[str, str], str] = {}
+        counted: Counter[tuple[str, str]] = Counter()
+        for row in self.rows:
+            if row.status != DONE:
+                kind = row.status, _NUMBER.sub("#", row.reason)
+                first.setdefault(kind, row.reason)
+                counted[kind] += 1
+        return [(kind[0], first[kind], count) for kind, count in counted.most_common()]
 
     def mistakes(self) -> list[str]:
         """Reasons of designs that failed by a mistake of ours or whose process died."""

@@ -12,7 +12,9 @@ import numpy as np
 
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, ModelWarning, SpecificationError
+from thesis_pin.numeric.checks import whole
 from thesis_pin.sweep.designs.keys import Value
+from thesis_pin.sweep.designs.making import Designs, Drawing, combined, drawn, paired, vary
 
 Better: TypeAlias = Literal["less", "more", ""]
 """Which way a number is better, or neither."""
@@ -94,6 +96,36 @@ class Study(Protocol):
             data: The base with the design's values.
             notes: What stands at their top.
         """
+
+
+def make_designs(
+    study: Study,
+    varied: Sequence[str],
+    *,
+    pair: bool = False,
+    draw: int | None = None,
+    seed: int = 0,
+    how: Drawing = "latin",
+) -> Designs:
+    """Designs of what varies.
+
+    Args:
+        study: Whose keys.
+        varied: What does, each as ``KEY=VALUES``: see :func:`thesis_pin.sweep.designs.making.vary`.
+        pair: Whether the first values of all go together, then the second ones, and so on, instead
+            of every combination.
+        draw: Number of designs that are drawn instead; None for none.
+        seed: Of the draws.
+        how: How they are drawn: ``"latin"`` for a Latin hypercube, or ``"random"``.
+
+    Raises:
+        UnknownName: There is no such key.
+        BadInput: Something isn't of that form.
+    """
+    pairs = [vary(study.base, text) for text in varied]
+    if draw is not None:
+        return drawn(pairs, whole("draw", draw, 1), whole("seed", seed, 0), how)
+    return paired(pairs) if pair else combined(pairs)
 
 
 @dataclass(frozen=True)

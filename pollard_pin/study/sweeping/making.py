@@ -12,7 +12,7 @@ from pollard_pin.motion.files import load_path
 from pollard_pin.motion.path import Timing, ToolPath
 from pollard_pin.motion.toml import PathFile
 from pollard_pin.specification import Specification
-from pollard_pin.study.sweeping.paths import MEASURES, PATH, PathStudy
+from pollard_pin.study.sweeping.paths import MEASURES, PATH, PLACE, PathStudy
 from thesis_pin.errors import BadInput
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.mechanism.inertia import Reading
@@ -32,6 +32,8 @@ def path_study(
     placement: Sequence[float] | None = None,
     duration: float | None = None,
     timing: Timing | None = None,
+    turn_deg: float = 0.0,
+    mirrored: bool = False,
     euler: str | None = None,
     feed: float | None = None,
     smooth: str = "auto",
@@ -43,13 +45,16 @@ def path_study(
         specification: Of the robot that designs change; None for the thesis's.
         path: A file; of one in TOML designs may change keys too, as ``path.speed``. None for the
             curve of appendix B, which ``assumptions.motion`` and ``assumptions.placement`` time
-            and place.
+            and place. Where any path is put from there, ``place`` says, which designs may change
+            as well: ``place.position.0``, ``place.turn_deg``, ``place.mirrored``.
         samples: See :func:`pollard_pin.trajectory_report`.
         inertia: See :func:`pollard_pin.load`.
         branch: See :func:`pollard_pin.trajectory_report`.
-        placement: What is added to appendix B's curve [m]; None for the specification's.
+        placement: What is added to the path [m]; None for the specification's, of a file none.
         duration: Of appendix B's curve [s]; None for the specification's.
         timing: Of appendix B's curve, or of a table whose times a speed gives.
+        turn_deg: Turn about the vertical through the path's middle [°].
+        mirrored: Whether it is the path's mirror image.
         euler: See :func:`pollard_pin.load_path`.
         feed: The same.
         smooth: The same.
@@ -68,6 +73,8 @@ def path_study(
         placement=placement,
         duration=duration,
         timing=timing,
+        turn_deg=turn_deg,
+        mirrored=mirrored,
         euler=euler,
         feed=feed,
         smooth=smooth,
@@ -82,6 +89,8 @@ def base_and_path(
     placement: Sequence[float] | None = None,
     duration: float | None = None,
     timing: Timing | None = None,
+    turn_deg: float = 0.0,
+    mirrored: bool = False,
     euler: str | None = None,
     feed: float | None = None,
     smooth: str = "auto",
@@ -94,22 +103,28 @@ def base_and_path(
     if not isinstance(specification, Specification):
         specification = Specification.read(specification)
     base = specification.model_dump(mode="json")
+    place: dict[str, object] = {"position": [0.0] * 3, "turn_deg": turn_deg, "mirrored": mirrored}
     if path is None:
         for name, value in (("euler", euler), ("feed", feed)):
             if value is not None:
                 raise BadInput(f"{name} belongs to a path from a table", remedy="Name its file")
-        return _placed(base, placement, duration, timing), None, ""
-    for name, given in (("duration", duration), ("placement", placement)):
-        if given is not None:
-            raise BadInput(f"{name} belongs to appendix B's curve", remedy="Leave it or path out")
+        return {**_timed(base, placement, duration, timing), PLACE: place}, None, ""
+    if duration is not None:
+        raise BadInput(
+            "a duration belongs to appendix B's curve", remedy="Write it into the path's file"
+        )
+    if placement is not None:
+        place["position"] = [float(x) for x in placement]
+    base[PLACE] = place
     made = load_path(path, euler=euler, feed=feed, timing=timing, smooth=smooth)
     if Path(path).suffix.lower() == ".toml":
-        return {**base, PATH: read_toml("path", PathFile, path).model_dump(mode="json")}, None, ""
+        base[PATH] = read_toml("path", PathFile, path).model_dump(mode="json")
+        return base, None, ""
     content = hashlib.sha256(read_bytes("path", path, LIMITS.csv_bytes)).hexdigest()
     return base, made, f"{content} {euler} {feed} {timing} {smooth}"
 
 
-def _placed(
+def _timed(
     base: dict[str, object],
     placement: Sequence[float] | None,
     duration: float | None,

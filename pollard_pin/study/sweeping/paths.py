@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -12,18 +13,23 @@ from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.model import Pollard, load
 from pollard_pin.motion.curves import appendix_b
 from pollard_pin.motion.path import ToolPath
+from pollard_pin.motion.placing import Placement, place_path
 from pollard_pin.motion.toml import PathFile, path_of
 from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import ACTUATOR_NAMES, Specification
 from thesis_pin.display.brief import Brief
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
+from thesis_pin.numeric.checks import real
 from thesis_pin.sweep.designs.text import toml
 from thesis_pin.sweep.measures import Measure, chosen, row
 from thesis_pin.sweep.study import Cell, Column
 
-PATH = "path"
-"""Name under which the data have what isn't of the specification."""
+PATH, PLACE = "path", "place"
+"""Names under which the data have what isn't of the specification."""
+
+DESIGN = "the design"
+"""Where what is wrong with a design's data is, for messages."""
 
 BASE = slice(0, 3)
 """The motors at the base among the six."""
@@ -168,7 +174,7 @@ class PathStudy(Brief):
         """
         parts = cast(Mapping[str, object], data)
         robot = robot_of(parts, self.inertia)
-        path = path_in(parts, robot) if self.path is None else self.path
+        path = path_in(parts, robot, self.path)
         return trajectory_report(robot, path, samples=self.samples, branch=self.branch)
 
     def written(self, data: object, notes: Sequence[str]) -> Mapping[str, bytes]:
@@ -182,19 +188,43 @@ def robot_of(parts: Mapping[str, object], inertia: Reading) -> Pollard:
     Raises:
         SpecificationError: There is none.
     """
-    own = {key: value for key, value in parts.items() if key != PATH}
-    return load(validate("specification", Specification, own, where="the design"), inertia=inertia)
+    return load(
+        validate("specification", Specification, _own(parts), where=DESIGN), inertia=inertia
+    )
 
 
-def path_in(parts: Mapping[str, object], robot: Pollard) -> ToolPath:
-    """The path of a design: one in its data, or appendix B's curve as it places and times it.
+def _own(parts: Mapping[str, object]) -> dict[str, object]:
+    """What is of the specification."""
+    return {key: value for key, value in parts.items() if key not in (PATH, PLACE)}
+
+
+def path_in(parts: Mapping[str, object], robot: Pollard, path: ToolPath | None) -> ToolPath:
+    """The path of a design, where it is put.
+
+    Args:
+        parts: The base with the design's values.
+        robot: The design's robot, which places and times appendix B's curve.
+        path: One that no design changes; None for one in the data, or appendix B's curve.
 
     Raises:
         SpecificationError: There is none.
     """
-    if PATH not in parts:
-        return appendix_b(robot.specification)
-    return path_of(validate("path", PathFile, parts[PATH], where="the design"))
+    if path is None and PATH in parts:
+        path = path_of(validate("path", PathFile, parts[PATH], where=DESIGN))
+    elif path is None:
+        path = appendix_b(robot.specification)
+    return place_path(path, placement_of(parts))
+
+
+def placement_of(parts: Mapping[str, object]) -> Placement:
+    """Where a design has the path.
+
+    Raises:
+        BadInput: Its values make no placement.
+    """
+    place = cast(Mapping[str, Any], parts[PLACE])
+    turn = real("place.turn_deg", place["turn_deg"])
+    return Placement.of(place["position"], math.radians(turn), place["mirrored"])
 
 
 def written(
@@ -207,8 +237,13 @@ def written(
         parts: The same with the design's values.
         notes: What stands at their top.
     """
-    own = {key: value for key, value in parts.items() if key != PATH}
-    files = {"best.toml": toml(own, notes)}
+    place = placement_of(parts)
+    said = list(notes)
+    if place != Placement():
+        x, y, z = place.position
+        flags = f"--placement {x!r} {y!r} {z!r} --turn {math.degrees(place.turn)!r}"
+        said.append(f"Its path is put elsewhere: {flags}{' --mirror' * place.mirrored}")
+    files = {"best.toml": toml(_own(parts), said)}
     if parts.get(PATH) is not base.get(PATH):
-        files["best_path.toml"] = toml(cast(Mapping[str, object], parts[PATH]), notes)
+        files["best_path.toml"] = toml(cast(Mapping[str, object], parts[PATH]), said)
     return {name: text.encode() for name, text in files.items()}

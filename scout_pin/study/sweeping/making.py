@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from scout_pin.kinematics.branches import branch_words
 from scout_pin.motion.files import GAITS, PRESETS, GaitFile, gait_of, load_gait
 from scout_pin.motion.gait import Gait
 from scout_pin.specification import Specification
@@ -61,6 +62,7 @@ def gait_study(
         UnknownName: There is no such measure.
     """
     chosen(MEASURES, extra)
+    branch_words(branch)
     whole("samples", samples, 2)
     whole("repeat", repeat, 1)
     base = _data(specification)

@@ -33,7 +33,8 @@ def add_designs(words: Words) -> None:
     draw = "draw N designs, one in each N-th part of every range (a Latin hypercube)"
     add_count(words, "--draw", draw, least=1)
     words.add_argument("--random", action="store_true", help="draw them anywhere instead")
-    add_count(words, "--seed", "of the draws", least=0, default=0)
+    seed = "of the draws; the same seed draws the same robots"
+    add_count(words, "--seed", seed, least=0, default=0)
     words.add_argument(
         "--keys",
         metavar="PATTERN",
@@ -64,7 +65,7 @@ def add_wishes(words: Words) -> None:
 
 def add_running(words: Words) -> None:
     """Who does the work, and where the results go."""
-    jobs = "processes that share the work (default: one a processor)"
+    jobs = "threads or processes that share the work (default: one a processor)"
     add_count(words, "--jobs", jobs, least=1, most=4096)
     words.add_argument(
         "--scheduler",

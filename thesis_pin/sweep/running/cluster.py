@@ -27,8 +27,8 @@ def on_cluster(
 ) -> Generator[tuple[Task, Done]]:
     """Tasks with what came of them, in the order in which they are done.
 
-    Dask itself gives the tasks of a worker that died to others. Of a task that workers died of again
-    and again each design is tried alone; one that they die of even so is a row that says so.
+    Dask itself gives the tasks of a worker that died to others. Of a task that workers died of
+    again and again each design is tried alone; one that they die of even so is a row that says so.
 
     Args:
         study: What is asked.

@@ -1,4 +1,4 @@
-"""``sweep()``: every design judged, on this machine or a cluster, and all rows in their order."""
+"""``sweep_designs()``: every design judged, here or on a cluster, and all rows in their order."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Interrupted(KeyboardInterrupt):
         super().__init__(f"{done} of {total} designs")
 
 
-def sweep(
+def sweep_designs(
     study: Study,
     designs: Designs,
     *,
@@ -58,7 +58,7 @@ def sweep(
     or a cluster's workers on it. A script has to call this below ``if __name__ == "__main__"``.
 
     Args:
-        study: What is asked, from ``scout_pin.sweep_study()`` or ``pollard_pin.sweep_study()``.
+        study: What is asked, as ``scout_pin.gait_study()`` makes one.
         designs: Of what.
         jobs: Processes of this machine that share the work.
         scheduler: Address of a Dask scheduler whose workers share it instead.
@@ -72,7 +72,7 @@ def sweep(
             needed isn't installed.
         Interrupted: By Ctrl-C; what is done stands in the folder.
     """
-    instance("designs", designs, Designs, "thesis_pin.sweep.designs.making")
+    instance("designs", designs, Designs, "make_designs()")
     function("progress", progress, "progress(done, total)")
     jobs = whole("jobs", jobs, 1)
     if not len(designs):

@@ -17,6 +17,9 @@ from thesis_pin.sweep.designs.making import Designs
 from thesis_pin.sweep.result import Effort, Sweep
 from thesis_pin.sweep.study import Study
 
+ROOM = 160
+"""Letters of a reason that is told; rows keep more of it."""
+
 SHOWN = 12
 """Designs that a table shows."""
 
@@ -107,7 +110,7 @@ class Choice(Brief):
             others = len(sweep.reasons()) - 1
             more = f", and {others} other reasons" if others > 1 else ", and another reason"
             said.append(
-                f"{count - done:,} couldn't be judged: {often:,} {status}, {why.rstrip('.')}"
+                f"{count - done:,} couldn't be judged: {often:,} {status}, {short(why).rstrip('.')}"
                 f"{more if others else ''}."
             )
         if self.best is not None:
@@ -140,4 +143,11 @@ class Choice(Brief):
 
 def shown(value: object) -> str:
     """A value for people."""
+    if isinstance(value, bool):
+        return str(value).lower()
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def short(reason: str) -> str:
+    """A reason without what mends it, in a sentence's room."""
+    return reason if len(reason) <= ROOM else f"{reason[: ROOM - 1]}…"

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 from thesis_pin.report.tables import Part, Table
-from thesis_pin.sweep.shown.choice import SHOWN, Choice, shown
+from thesis_pin.sweep.shown.choice import SHOWN, Choice, short, shown
 from thesis_pin.sweep.study import Column
 
 _WIDE = 11
@@ -89,7 +89,7 @@ def _shown(choice: Choice, column: Column, design: int) -> str:
 def reasons_table(choice: Choice) -> Table:
     """Why designs weren't judged."""
     found = choice.sweep.reasons()
-    rows = [(f"{count:,} {status}", reason) for status, reason, count in found[:_REASONS]]
+    rows = [(f"{count:,} {status}", short(reason)) for status, reason, count in found[:_REASONS]]
     more = len(found) - len(rows)
     if more > 0:
         rows.append((f"{more} more reasons", "in designs.csv of --out, and in the JSON"))

@@ -50,7 +50,7 @@ def test_what_can_be_meant_in_no_way_is_refused_with_its_key(text):
 
 def test_values_of_a_file_stand_a_line_each(tmp_path):
     file = tmp_path / "values.csv"
-    file.write_bytes("# torques\r\n0.3\r\n\r\n0,5 # a comma is no decimal mark here\n".encode())
+    file.write_bytes(b"# torques\r\n0.3\r\n\r\n0,5 # a comma is no decimal mark here\n")
     assert read_values(f"@{file}", "key").each == (0.3, "0,5")
     file.write_text("# none\n")
     with pytest.raises(BadInput, match="the list of values is empty"):

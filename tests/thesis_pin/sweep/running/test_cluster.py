@@ -12,7 +12,7 @@ from studied import BASE, Bowl
 from thesis_pin.errors import BadInput
 from thesis_pin.sweep.designs.making import combined, vary
 from thesis_pin.sweep.running import cluster
-from thesis_pin.sweep.running.runner import chunks, sweep
+from thesis_pin.sweep.running.runner import chunks, sweep_designs
 from thesis_pin.sweep.running.work import work
 
 ROOT = Path(__file__).parents[4]
@@ -63,23 +63,23 @@ def address(tmp_path_factory):
 
 def test_rows_of_a_cluster_are_the_same_bits_as_of_processes_and_of_none(address, tmp_path):
     study = Bowl({0.5: "warn", 1.0: "refuse", 1.25: "break"}, str(tmp_path))
-    found = sweep(study, designs(), scheduler=address)
+    found = sweep_designs(study, designs(), scheduler=address)
     assert list(found.rows) == here(study)
     pids = {path.name for path in tmp_path.iterdir()} - {f"pid-{os.getpid()}"}
     assert len(pids) >= 1
-    assert list(sweep(study, designs(), jobs=2).rows) == list(found.rows)
+    assert list(sweep_designs(study, designs(), jobs=2).rows) == list(found.rows)
     assert found.effort.memory > 2**20
 
 
 def test_a_worker_of_a_cluster_that_dies_once_changes_no_row(address, tmp_path):
     study = Bowl({0.75: "die once"}, str(tmp_path))
-    assert list(sweep(study, designs(), scheduler=address).rows) == here(Bowl())
+    assert list(sweep_designs(study, designs(), scheduler=address).rows) == here(Bowl())
     assert (tmp_path / "dead-0.75").exists()
 
 
 def test_a_design_that_every_worker_dies_of_is_a_row_that_says_so(address, tmp_path):
     made = combined([vary(BASE, "x=0:2:9")])
-    rows = sweep(Bowl({0.75: "die"}, str(tmp_path)), made, scheduler=address).rows
+    rows = sweep_designs(Bowl({0.75: "die"}, str(tmp_path)), made, scheduler=address).rows
     lost = [row.design for row in rows if row.status == "lost"]
     assert lost == [3]
     assert "workers died of it" in rows[3].reason
@@ -91,12 +91,12 @@ def test_a_design_that_every_worker_dies_of_is_a_row_that_says_so(address, tmp_p
 def test_a_scheduler_that_isnt_there_is_one_message(monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE", 1.0)
     with pytest.raises(BadInput, match=r"no Dask scheduler answers at 'tcp://127.0.0.1:1'"):
-        sweep(Bowl(), designs(), scheduler="tcp://127.0.0.1:1")
+        sweep_designs(Bowl(), designs(), scheduler="tcp://127.0.0.1:1")
     with pytest.raises(BadInput, match="no Dask scheduler answers at 'nonsense'"):
-        sweep(Bowl(), designs(), scheduler="nonsense")
+        sweep_designs(Bowl(), designs(), scheduler="nonsense")
 
 
 def test_without_dask_the_error_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(BadInput, match=r"pip install \"thesis-pin\[distributed\]\""):
-        sweep(Bowl(), designs(), scheduler="tcp://127.0.0.1:1")
+        sweep_designs(Bowl(), designs(), scheduler="tcp://127.0.0.1:1")

@@ -14,7 +14,7 @@ from studied import BASE, Bowl
 
 from thesis_pin.errors import ModelWarning
 from thesis_pin.sweep.designs.making import combined, vary
-from thesis_pin.sweep.running.runner import chunks, sweep
+from thesis_pin.sweep.running.runner import chunks, sweep_designs
 from thesis_pin.sweep.running.work import Task, work
 
 TESTS = Path(__file__).parents[3]
@@ -26,18 +26,14 @@ def designs(*texts):
 
 def here(study, made):
     """The rows worked out in this process, one after the other."""
-    return [
-        row
-        for task in chunks(made)
-        for row in work(study, made, task).rows
-    ]
+    return [row for task in chunks(made) for row in work(study, made, task).rows]
 
 
 def test_rows_are_the_same_bits_for_any_number_of_processes():
     study = Bowl({0.5: "warn", 1.0: "refuse", 1.25: "break"})
     expected = here(study, designs())
     for jobs in (1, 2, 3):
-        assert list(sweep(study, designs(), jobs=jobs).rows) == expected
+        assert list(sweep_designs(study, designs(), jobs=jobs).rows) == expected
 
 
 def test_what_is_wrong_with_a_design_is_its_row():
@@ -55,7 +51,7 @@ def test_what_is_wrong_with_a_design_is_its_row():
 
 def test_a_process_that_is_killed_once_costs_nothing_but_time(tmp_path):
     study = Bowl({0.75: "die once", 1.5: "die once"}, str(tmp_path))
-    found = sweep(study, designs(), jobs=2)
+    found = sweep_designs(study, designs(), jobs=2)
     assert list(found.rows) == here(Bowl(), designs())
     assert (tmp_path / "dead-0.75").exists()
 
@@ -63,7 +59,7 @@ def test_a_process_that_is_killed_once_costs_nothing_but_time(tmp_path):
 def test_a_design_that_kills_its_process_twice_is_a_row_that_says_so(tmp_path):
     study = Bowl({0.75: "die"}, str(tmp_path))
     made = designs("x=0:2:9")
-    rows = sweep(study, made, jobs=2).rows
+    rows = sweep_designs(study, made, jobs=2).rows
     expected = here(Bowl(), made)
     assert [row for row in rows if row.design != 3] == [row for row in expected if row.design != 3]
     assert rows[3].status == "lost"
@@ -97,10 +93,10 @@ import sys
 sys.path[:0] = {path!r}
 from studied import Bowl
 from test_pool import designs
-from thesis_pin.sweep.running.runner import sweep
+from thesis_pin.sweep.running.runner import sweep_designs
 if __name__ == "__main__":
     study = Bowl({{x / 8: "sleep" for x in range(17)}}, {folder!r})
-    sweep(study, designs(), jobs=2, out={out!r})
+    sweep_designs(study, designs(), jobs=2, out={out!r})
 """
 
 
@@ -157,7 +153,7 @@ def test_a_sweep_that_is_ended_leaves_no_process_and_goes_on_to_the_same_rows(ho
     written = {part: part.read_bytes() for part in parts}
 
     study = Bowl({x / 8: "sleep" for x in range(17)}, str(tmp_path / "pids"))
-    found = sweep(study, designs(), jobs=2, out=tmp_path / "out", resume=True)
+    found = sweep_designs(study, designs(), jobs=2, out=tmp_path / "out", resume=True)
     assert list(found.rows) == here(Bowl(), designs())
     assert found.effort.judged == 18 - len(parts)
     assert {part: part.read_bytes() for part in parts} == written
@@ -168,7 +164,7 @@ def test_a_worker_that_somebody_kills_doesnt_change_a_row(tmp_path):
     os.kill(workers(tmp_path)[0], signal.SIGKILL)
     assert process.wait(120) == 0, process.communicate()[1]
     process.stderr.close()
-    found = sweep(
+    found = sweep_designs(
         Bowl({x / 8: "sleep" for x in range(17)}, str(tmp_path / "pids")),
         designs(),
         out=tmp_path / "out",
