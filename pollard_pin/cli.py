@@ -160,10 +160,13 @@ COMMAND = Command(
         ),
         common.size_verb(
             ROBOT,
-            "which motors of a list carry this path?",
-            "Motors of a list held against what a path asks of each joint: safety factor, RMS.",
+            "which motors carry this path: of a list, or the smallest of any size?",
+            "Motors of a list held against what a path asks of each joint: safety factor, RMS; "
+            "without a list the smallest that would do, its time as it is and left free.",
             "size examples/servos.csv --path examples/spray_arch.toml",
             samples=2001,
+            per=("group", "joint", "robot"),
+            bounds="box",
         ),
         common.sweep_verb(
             ROBOT,

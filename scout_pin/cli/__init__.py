@@ -7,7 +7,7 @@ from functools import partial
 
 from scout_pin.cli.gaits import which_gait, which_pose
 from scout_pin.cli.making import which_new, which_urdf
-from scout_pin.cli.servos import which_servos
+from scout_pin.cli.servos import which_servos, which_size
 from scout_pin.cli.sweeps import which_judge
 from scout_pin.cli.walks import which_walk
 from thesis_pin.command import common
@@ -28,6 +28,7 @@ ROBOT = Robot(
     motion_flag="gait",
     study="verbs.sweeping:study",
     sweep="study.sweeping.making:gait_study",
+    walks="verbs.sized:walk",
 )
 
 COMMAND = Command(
@@ -45,10 +46,14 @@ COMMAND = Command(
         ),
         common.size_verb(
             ROBOT,
-            "which servos of a list carry this gait?",
-            "Servos of a list held against what a gait asks of each joint: safety factor, RMS.",
+            "which servos carry this gait: of a list, or the smallest of any size?",
+            "Servos of a list held against what a gait asks of each joint: safety factor, RMS; "
+            "without a list the smallest that would do, its time as it is and left free; or for a "
+            "walking speed.",
             "size examples/servos.csv --gait examples/walk.toml --time-unit 0.05",
             samples=401,
+            per=("robot", "group", "joint"),
+            more=which_size,
         ),
         common.sweep_verb(
             ROBOT,
