@@ -141,6 +141,7 @@ JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
 READ = (
     *("--specification", "--gait", "--path", "--pose", "--servos", "--list", "--designs"),
+    "--tolerances",
     *("file", "closures", "motion", "servos"),
 )
 """Flags and words that name a file to read."""
@@ -293,6 +294,19 @@ CONTRADICTIONS = {
     "pollard-pin convert": [["--json", "-", "--to", "-"], ["--units", "mm"], ["--duration", "3"]],
     "pollard-pin ik": [["--branch=+-"]],
     "pollard-pin fk": [],
+    "pollard-pin accuracy": [
+        ["--workspace"],
+        ["--workspace", "--turn", "10"],
+        ["--points", "5"],
+        ["--x", "0.4"],
+        ["--orientation", "0", "0", "0"],
+        ["--stiffness", "1", "2"],
+        ["--draws", "1000000"],
+        ["--samples", "1000000"],
+        ["--duration", "3"],
+        ["--branch=+-"],
+        ["--json", "-", "--html", "-"],
+    ],
     "pollard-pin workspace": [["--x", "0.8", "0.1"], ["--z", "0", "1", "2"], ["--branch=+-"]],
     "pollard-pin info": [["--json", "-", "--html", "-"]],
     "pollard-pin urdf": [],

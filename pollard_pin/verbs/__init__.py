@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -242,6 +243,19 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         note = "Where the determinant changes sign the motors lose the tool; a path must stay on "
         print_parts([Table("", ("workspace", ""), rows), f"{note}one side."])
     return ExitCode.DONE
+
+
+def accuracy(arguments: argparse.Namespace) -> ExitCode:
+    """How errors of the robot's numbers reach the spray tip, on a path or over a grid."""
+    from pollard_pin.verbs.studied import accuracy as studied
+
+    def axes(usual: dict[str, list[float]], points: int) -> dict[str, np.ndarray]:
+        return {
+            name: _axis(name, getattr(arguments, name) or ends, points)
+            for name, ends in usual.items()
+        }
+
+    return studied(arguments, _branch(arguments), partial(_path, arguments), axes)
 
 
 def _axis(name: str, ends: list[float], points: int) -> np.ndarray:
