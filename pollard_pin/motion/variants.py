@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,10 +25,13 @@ class Variants(Sampled):
             values ``(2 + draws,)``: the path's own, the rival's (see
             :mod:`thesis_pin.smoothing.curve`), draws.
         parts: For each column of the samples, which curves it makes.
+        moved: What is done to every curve's motion where the path is put elsewhere; None for
+            nothing.
     """
 
     curves: tuple[Piecewise, ...]
     parts: tuple[tuple[int, ...], ...]
+    moved: Callable[[BodyMotion], BodyMotion] | None = None
 
     @property
     def count(self) -> int:
@@ -43,7 +47,7 @@ class Variants(Sampled):
         Returns:
             The motion at ``(count − 1) n`` samples.
         """
-        return _moved(self._at(time)[..., 1:])
+        return self._moved(self._at(time)[..., 1:])
 
     def one_at_a_time(self, time: float, draws: int) -> BodyMotion:
         """The path's own motion at one time, with one column after the other drawn.
@@ -61,16 +65,16 @@ class Variants(Sampled):
             one = np.repeat(every[..., :1], draws, axis=-1)
             one[:, list(part)] = every[:, list(part)][..., 2 : 2 + draws]
             made.append(one)
-        return _moved(np.concatenate(made, axis=-1))
+        return self._moved(np.concatenate(made, axis=-1))
 
     def _at(self, time: np.ndarray) -> np.ndarray:
         """Values and two derivatives, shape ``(3, 7, n, count)``."""
         return np.stack([[curve(time, k) for curve in self.curves] for k in (0, 1, 2)])
 
-
-def _moved(found: np.ndarray) -> BodyMotion:
-    """A motion from ``(3, 7, n, variants)``, variant by variant."""
-    flat = np.moveaxis(found, (1, -1), (-1, 1)).reshape(3, -1, found.shape[1])
-    position, velocity, acceleration = flat[..., :PLACE]
-    rotation, omega, alpha = quaternions.motion(*flat[..., PLACE:])
-    return BodyMotion(rotation, position, velocity, acceleration, omega, alpha)
+    def _moved(self, found: np.ndarray) -> BodyMotion:
+        """A motion from ``(3, 7, n, variants)``, variant by variant."""
+        flat = np.moveaxis(found, (1, -1), (-1, 1)).reshape(3, -1, found.shape[1])
+        position, velocity, acceleration = flat[..., :PLACE]
+        rotation, omega, alpha = quaternions.motion(*flat[..., PLACE:])
+        motion = BodyMotion(rotation, position, velocity, acceleration, omega, alpha)
+        return motion if self.moved is None else self.moved(motion)

@@ -23,6 +23,7 @@ SEEN = {
     "view": {"--html"},
     "workspace": {"--out"},
     "thesis-pin workspace": {"--out", "--html"},
+    "accuracy": {"--out", "--html"},
     "urdf": {"--out"},
     "audit": {"--html"},
     "convert": set(),

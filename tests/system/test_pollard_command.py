@@ -93,7 +93,7 @@ def test_figures_are_chosen_by_the_thesis_numbers_or_by_name(pollard_pin, tmp_pa
     assert not (tmp_path / "no").exists()
 
 
-VERBS = ("trajectory", "view", "ik", "fk", "workspace", "info", "urdf", "audit")
+VERBS = ("trajectory", "view", "ik", "fk", "workspace", "accuracy", "info", "urdf", "audit")
 
 
 @pytest.mark.parametrize("verb", VERBS)
@@ -148,6 +148,8 @@ def test_inverse_and_forward_kinematics_return_to_the_pose(pollard_pin):
         (("fk", "-35", "-40", "40", "0", "20", "0"), "2 assembly modes"),
         (("info",), "6 by counting, 6 by rank"),
         (("workspace", "--points", "15"), "reachable share"),
+        (("accuracy", "--samples", "31", "--within", "1mm"), "What moves it most: motor.chain1"),
+        (("accuracy", "--workspace", "--points", "9"), "in the median"),
     ],
 )
 def test_tables_fit_a_terminal_and_say_what_matters(pollard_pin, arguments, says):
@@ -196,6 +198,32 @@ def test_the_example_path_is_a_closed_one_and_balances_its_energy(pollard_pin):
     energy = document["summary"]["energy"]
     assert abs(energy["net_work"]) < 1e-5 * energy["exchanged"]
     assert document["parameters"]["segments"][0]["path"] == "arc"
+
+
+def test_flags_put_a_path_where_its_file_could_have_put_it(pollard_pin, tmp_path):
+    """Half a turn about the vertical, a mirror image and a move, written by hand."""
+    from scipy.spatial.transform import Rotation
+
+    text = "format = 1\n[start]\nposition = [{}, {}, 0.05]\norientation_deg = [{}, {}, {}]\n"
+    text += '[[segments]]\nkind = "line"\nposition = [{}, {}, 0.15]\nduration = 2.0\n'
+    here, there = tmp_path / "here.toml", tmp_path / "there.toml"
+    here.write_text(text.format(0.42, -0.1, 5, 10, 15, 0.48, 0.1))
+    turn = Rotation.from_euler("z", 30, degrees=True).as_matrix()
+    image = np.diag([1.0, -1.0, 1.0])
+    before = Rotation.from_euler("XYZ", [10, 5, 15], degrees=True).as_matrix()  # θ, ψ, φ
+    theta, psi, phi = Rotation.from_matrix(turn @ image @ before @ image).as_euler("XYZ", True)
+    middle = np.array([0.45, 0.0, 0.1])
+    ends = [middle + turn @ image @ (end - middle) for end in ([0.42, -0.1, 0.05], [0.48, 0.1, 0])]
+    (x, y, _), (end_x, end_y, _) = np.add(ends, [0.02, 0.01, 0.0])
+    there.write_text(text.format(x, y, psi, theta, phi, end_x, end_y))
+    asked = ("--turn", "30", "--mirror", "--placement", "0.02", "0.01", "0")
+    found, wanted = (
+        json.loads(pollard_pin("trajectory", "--path", *words, "--json", "-").stdout)
+        for words in ((here, *asked), (there,))
+    )
+    for name in ("pose", "theta", "torque"):
+        np.testing.assert_allclose(found[name], wanted[name], atol=1e-9)
+    assert found["parameters"]["placed"][0]["mirrored"] is True
 
 
 def test_view_and_report_are_written_as_pages(pollard_pin, tmp_path):

@@ -8,7 +8,7 @@ import re
 import socket
 import sys
 import webbrowser
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 TEXT_BROWSERS = ("www-browser", "w3m", "lynx", "links", "links2", "elinks", "browsh")
@@ -41,15 +41,21 @@ def graphical(environment: Mapping[str, str] = os.environ) -> webbrowser.BaseBro
     return webbrowser.BackgroundBrowser([browser.name, *browser.args])
 
 
-def directions(host: str, port: int, environment: Mapping[str, str] = os.environ) -> str:
+def directions(
+    host: str,
+    port: int,
+    environment: Mapping[str, str] = os.environ,
+    also: Sequence[int] = (),
+) -> str:
     """How to see the page where no browser opens: here, or from another machine through SSH.
 
     Args:
         host: Address the server listens on.
         port: Its port.
         environment: The process's environment variables.
+        also: Ports of other servers there that the page needs.
     """
-    forward = f"ssh -L {port}:{host}:{port}"
+    forward = " ".join(["ssh", *(f"-L {one}:{host}:{one}" for one in (port, *also))])
     connection = environment.get("SSH_CONNECTION", "").split()
     if len(connection) == 4 and all(re.fullmatch(r"[0-9a-fA-F.:]+", part) for part in connection):
         forward += "" if connection[3] == "22" else f" -p {connection[3]}"

@@ -75,6 +75,24 @@ class Shape(Item):
     opacity: float = 1.0
     ghost: bool = False
 
+    def corners(self) -> np.ndarray:
+        """Corners of a box about it in the moving frame [m], shape ``(8, 3)``."""
+        shape = self.geometry
+        if "vertices" in shape:
+            vertices = np.asarray(shape["vertices"], dtype=float)
+            low, high = vertices.min(axis=0), vertices.max(axis=0)
+        else:
+            half = np.asarray(
+                shape.get("radii", np.asarray(shape.get("size", 0.0)) / 2), dtype=float
+            )
+            if "radius" in shape:
+                radius, length = np.asarray([shape["radius"], shape["length"]], dtype=float)
+                half = np.array([radius, radius, length / 2 + radius])
+            low, high = -half, half
+        corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+        local = np.asarray(self.local)
+        return np.asarray((low + corners * (high - low)) @ local[:3, :3].T + local[:3, 3])
+
 
 @dataclass(frozen=True)
 class Ball(Item):

@@ -6,7 +6,7 @@ import errno
 import json
 import logging
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 from thesis_pin.errors import BadInput
@@ -79,6 +79,7 @@ def show_page(
     say: Callable[[str], None] = _LOG.warning,
     ready: Callable[[str], None] | None = None,
     answers: Mapping[str, Answer] | None = None,
+    also: Sequence[int] = (),
 ) -> None:
     """Serve a page as :func:`show` does a scene's.
 
@@ -91,6 +92,7 @@ def show_page(
         say: The same.
         ready: The same.
         answers: What the page may ask: path → what a posted body is answered.
+        also: Ports of other servers whose pages it shows.
 
     Raises:
         BadInput: The port is taken or not allowed.
@@ -102,7 +104,7 @@ def show_page(
         if browser:
             window = graphical()
             if window is None or not window.open(server.address):
-                say(directions(HOST, server.port))
+                say(directions(HOST, server.port, also=also))
         server.wait(hold)
 
 

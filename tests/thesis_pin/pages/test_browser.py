@@ -52,6 +52,11 @@ def test_a_program_that_the_user_named_is_not_waited_for(finds):
     assert (browser.name, browser.args) == ("/opt/helper.sh", ["%s"])
 
 
+def test_every_port_that_a_page_needs_is_forwarded():
+    told = directions("127.0.0.1", 7000, {"SSH_CONNECTION": "10.0.0.2 5 10.0.0.1 22"}, also=[7001])
+    assert "ssh -L 7000:127.0.0.1:7000 -L 7001:127.0.0.1:7001 " in told
+
+
 def test_a_machine_without_any_browser_is_no_error(monkeypatch):
     def none():
         raise webbrowser.Error("could not locate runnable browser")

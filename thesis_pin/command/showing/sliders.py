@@ -36,14 +36,13 @@ def show_sliders(
         BadInput: Flags contradict each other, or belong to a motion.
     """
     for written in ("html", "picture"):
-        refuse_beside(arguments, written, ("port", "hold", "no-browser"))
+        refuse_beside(arguments, written, ("port", "hold", "no-browser", "meshcat"))
     check_film(arguments)
     chosen = arguments.look != "3d" or arguments.show or arguments.hide
     if chosen and not arguments.picture:
         raise BadInput("--look, --show and --hide belong to a motion or to --picture")
     for flag, given in (
         ("speed", arguments.speed != 1.0),
-        ("meshcat", arguments.meshcat),
         ("film", arguments.film is not None),
     ):
         if given:
@@ -77,7 +76,17 @@ def show_sliders(
 
     from thesis_pin.pages.live import making
 
-    making.show_sliders(page, **served(arguments, shown))
+    if arguments.meshcat is None:
+        making.show_sliders(page, **served(arguments, shown))
+        return ExitCode.DONE
+    from thesis_pin.pages.meshcat.display import show
+
+    named = None if arguments.meshcat is True else str(arguments.meshcat)
+    # --port is our own page's: meshcat's takes another.
+    port = 0 if named is None and arguments.port is not None else None
+    with show(page.scene(), named, port=port) as viewer:
+        shown["meshcat"] = viewer.visualizer.window.zmq_url
+        making.show_sliders(page, **served(arguments, shown), meshcat=viewer)
     return ExitCode.DONE
 
 

@@ -15,7 +15,7 @@ from thesis_pin.model.loading import LoadedRobot
 from thesis_pin.pages.drawing import CLOSED, OPEN, robot_items
 from thesis_pin.pages.live.hung import WHOLE, Hung, Places
 from thesis_pin.pages.live.inertia import ellipsoids
-from thesis_pin.pages.live.meshes import seen
+from thesis_pin.pages.meshes import seen
 from thesis_pin.pages.scene import AXES, Arrow, Ball, Group, Item, Shape, Triad
 from thesis_pin.report.curves import GREEN, ORANGE, PURPLE, SKY, VERMILLION
 
@@ -140,29 +140,12 @@ def _extent(model: pin.Model, places: Places, hung: Sequence[Hung]) -> tuple[flo
         places.point(frame.parentJoint, frame.placement.translation)[None] for frame in model.frames
     ]
     for one in hung:
-        corners = _corners(one.item)
+        assert isinstance(one.item, Shape)
+        corners = one.item.corners()
         points.append(corners @ places.rotations[one.joint].T + places.positions[one.joint])
     every = np.concatenate(points)
     extent = float(np.ptp(every, axis=0).max())
     return extent if extent > 0 else 1.0, float(every[:, 2].min())
-
-
-def _corners(item: Item) -> Array:
-    """Corners of a box about a shape, in its joint's frame, shape ``(8, 3)``."""
-    assert isinstance(item, Shape)
-    shape = item.geometry
-    if "vertices" in shape:
-        vertices = np.asarray(shape["vertices"], dtype=float)
-        low, high = vertices.min(axis=0), vertices.max(axis=0)
-    else:
-        half = np.asarray(shape.get("radii", np.asarray(shape.get("size", 0.0)) / 2), dtype=float)
-        if "radius" in shape:
-            radius, length = np.asarray([shape["radius"], shape["length"]], dtype=float)
-            half = np.array([radius, radius, length / 2 + radius])
-        low, high = -half, half
-    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
-    local = np.asarray(item.local)
-    return np.asarray((low + corners * (high - low)) @ local[:3, :3].T + local[:3, 3])
 
 
 def _bars(robot: LoadedRobot, size: float) -> Iterator[Hung]:

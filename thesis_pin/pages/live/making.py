@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from thesis_pin.errors import ThesisPinError
 from thesis_pin.loops.checking.assembly import assembly
@@ -14,6 +16,9 @@ from thesis_pin.pages.live.joints import JointRig, why_open
 from thesis_pin.pages.live.layers import layers
 from thesis_pin.pages.live.page import PATH, LivePage
 from thesis_pin.pages.serving import show_page
+
+if TYPE_CHECKING:  # whoever moves sliders in our own page needs no meshcat
+    from thesis_pin.pages.meshcat.display import SceneViewer
 
 _LOG = logging.getLogger(__name__)
 
@@ -65,6 +70,7 @@ def show_sliders(
     hold: float | None = None,
     say: Callable[[str], None] = _LOG.warning,
     ready: Callable[[str], None] | None = None,
+    meshcat: SceneViewer | None = None,
 ) -> None:
     """Serve a page of sliders on 127.0.0.1 until interrupted (Ctrl-C) or ``hold`` has passed.
 
@@ -75,18 +81,29 @@ def show_sliders(
         hold: The same.
         say: The same.
         ready: The same.
+        meshcat: Where the robot is shown instead of our own picture, as
+            ``thesis_pin.pages.meshcat.display.show(page.scene())``: the page has meshcat's own
+            beside its sliders, and every other page of that server follows them too.
 
     Raises:
         BadInput: The port is taken or not allowed.
     """
     instance("page", page, LivePage, "slider_page()")
+    url = "" if meshcat is None else meshcat.url
+    if url:
+        say(f"its robot is in meshcat at {url}")
+
+    def answer(body: bytes) -> bytes | None:
+        return page.answer(body, None if meshcat is None else meshcat.move)
+
     show_page(
-        page.html(served=True),
+        page.html(served=True, meshcat=url),
         page.title,
         port=port,
         browser=browser,
         hold=hold,
         say=say,
         ready=ready,
-        answers={PATH: page.answer},
+        answers={PATH: answer},
+        also=[urlsplit(url).port or 80] if url else (),
     )

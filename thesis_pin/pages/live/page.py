@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import cast
+from urllib.parse import urlsplit
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +17,11 @@ from thesis_pin.loops.checking.poses import pose_text
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance
 from thesis_pin.pages import player
+from thesis_pin.pages.live.alone import hooks
 from thesis_pin.pages.live.hung import Places, items, samples
 from thesis_pin.pages.live.layers import Layers
 from thesis_pin.pages.live.rig import Rig, Stand
-from thesis_pin.pages.scene import Scene
+from thesis_pin.pages.scene import Item, Scene
 
 Array = NDArray[np.float64]
 
@@ -58,20 +61,30 @@ class LivePage:
         """The robot where it stands at first, at rest for a second."""
         stand = self.rig.start()
         model = self.rig.robot.model
-        places = Places.of(model, model.createData(), stand.q)
         count = len(self.rig.sliders)
         return Scene(
             title=self.title,
             description=f"The robot {model.name} in one pose. {count} sliders beside it move it.",
             time=np.array([0.0, 1.0]),
             groups=self.layers.groups,
-            items=items(self.layers.hung, places, stand.levels),
+            items=self.items(stand),
             floor=self.layers.low - 0.02 * self.layers.size,
             forward=self._forward,
         )
 
-    def html(self, *, served: bool = False) -> bytes:
-        """The page; not served, it shows the robot where it stands, and how to move it."""
+    def items(self, stand: Stand) -> tuple[Item, ...]:
+        """The scene's items where the robot stands."""
+        model = self.rig.robot.model
+        places = Places.of(model, model.createData(), stand.q)
+        return items(self.layers.hung, places, stand.levels)
+
+    def html(self, *, served: bool = False, meshcat: str = "") -> bytes:
+        """The page; not served, it moves a robot without loops by itself, and shows another.
+
+        Args:
+            served: Whether a server answers it.
+            meshcat: Address of meshcat's page, which then shows the robot in place of our own.
+        """
         stand = self.rig.start()
         document = {
             "sliders": [
@@ -91,13 +104,22 @@ class LivePage:
             "command": self._command,
             "stand": self.document(stand),
         }
+        if not served:
+            alone = self.rig.alone()
+            known = isinstance(alone, str)
+            document |= (
+                {"why": alone} if known else {"tree": alone, "hooks": hooks(self.layers.hung)}
+            )
         text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
         return player.render(
             "live.html",
             title=self.title,
-            player_parts=player.player_parts(self.scene()),
+            player_parts=None if meshcat else player.player_parts(self.scene()),
+            meshcat=meshcat,
+            frames=_origin(meshcat),
+            unpack=player.web_file("unpack.js"),
             live=player.packed(text),
-            script=player.web_file("live.js"),
+            script=player.web_file("tree.js") + player.web_file("live.js"),
             style=player.web_file("live.css"),
             served=served,
         )
@@ -121,22 +143,27 @@ class LivePage:
             "q": f"q = np.array([{numbers}])",
         }
 
-    def answer(self, body: bytes) -> bytes | None:
+    def answer(
+        self, body: bytes, show: Callable[[Iterable[Item]], object] | None = None
+    ) -> bytes | None:
         """What a posted request is answered: JSON; None if it makes no sense.
 
         Args:
             body: JSON with ``state`` and either ``slider`` and ``value`` or ``choice``; or with
                 nothing, for where the robot stands at first.
+            show: Is given the items where the robot stands then, one call after another.
         """
         try:
             asked = json.loads(body)
             with self._lock:
                 stand = self._asked(asked)
                 document = self.document(stand)
+                if show is not None:
+                    show(self.items(stand))
+        except ThesisPinError as error:  # some are ValueErrors too
+            document = {"error": str(error)}
         except (ValueError, TypeError, KeyError, IndexError, RecursionError, OverflowError):
             return None
-        except ThesisPinError as error:
-            document = {"error": str(error)}
         return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
 
     def _asked(self, asked: object) -> Stand:
@@ -155,6 +182,13 @@ class LivePage:
         if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
             raise ValueError
         return self.rig.moved(state, number, float(np.clip(value, slider.low, slider.high)))
+
+
+def _origin(address: str) -> str:
+    """Scheme, host and port of a page, for a policy; empty if they hold anything else."""
+    place = urlsplit(address)
+    origin = f"{place.scheme}://{place.netloc}"
+    return origin if re.fullmatch(r"https?://[\w.:\[\]-]+", origin, re.ASCII) else ""
 
 
 def _index(value: object, count: int) -> int:

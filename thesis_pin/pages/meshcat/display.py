@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import replace
+
 import numpy as np
 from meshcat import Visualizer
 from meshcat.animation import Animation
@@ -13,7 +16,7 @@ from thesis_pin.pages.meshcat.shown import Shown
 from thesis_pin.pages.meshcat.stage import box_of, dress, floor_grid
 from thesis_pin.pages.meshcat.tracks import SetMotion, animation, samples
 from thesis_pin.pages.meshcat.window import visualizer
-from thesis_pin.pages.scene import Scene
+from thesis_pin.pages.scene import Item, Scene
 
 Array = NDArray[np.float64]
 
@@ -63,7 +66,8 @@ class SceneViewer(Shown):
     def __init__(self, scene: Scene, drawn: Visualizer, speed: float = 1.0) -> None:
         self.visualizer = drawn
         self._time, self._speed = np.asarray(scene.time, dtype=float), speed
-        box = box_of(scene.items)
+        hidden = {group.name for group in scene.groups if not group.visible}
+        box = box_of([item for item in scene.items if item.group not in hidden] or scene.items)
         if drawn.window.own:
             dress(drawn, box, scene.forward, scene.camera)
         self._root = drawn[word(scene.title)]
@@ -97,6 +101,16 @@ class SceneViewer(Shown):
         self._send(Animation(), play=False)
         for place, node in self._nodes:
             self._drawing.put(place, node, *((k + 1, 0.0) if f == 1.0 else (k, f)))
+
+    def move(self, items: Iterable[Item]) -> None:
+        """Bring the scene's items to other places; what each of them looks like stays.
+
+        Args:
+            items: The same items in the same order, as they stand at their first sample.
+        """
+        moved = self._drawing.laid(items)
+        for (place, first), (_, now) in zip(self._nodes, moved, strict=True):
+            self._drawing.put(place, replace(now, shape=first.shape), 0)
 
     def _meshcat(self) -> Visualizer:
         return self.visualizer

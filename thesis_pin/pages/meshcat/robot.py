@@ -19,13 +19,13 @@ from thesis_pin.model.loading import LoadedRobot
 from thesis_pin.numeric.arrays import vector
 from thesis_pin.numeric.checks import instance
 from thesis_pin.pages.drawing import joint_placements
-from thesis_pin.pages.live.meshes import seen
 from thesis_pin.pages.meshcat.collada import is_mixed
 from thesis_pin.pages.meshcat.drawing import Drawing, word
 from thesis_pin.pages.meshcat.shapes import shares
 from thesis_pin.pages.meshcat.shown import Shown
 from thesis_pin.pages.meshcat.stage import box_of, dress, floor_grid
 from thesis_pin.pages.meshcat.window import visualizer
+from thesis_pin.pages.meshes import seen
 from thesis_pin.pages.robot import around, size_of
 from thesis_pin.pages.scene import Item
 

@@ -8,9 +8,10 @@ import numpy as np
 from meshcat import Visualizer
 from meshcat.geometry import LineSegments
 from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
 
 from thesis_pin.pages.meshcat.shapes import grid
-from thesis_pin.pages.scene import Item, Shape
+from thesis_pin.pages.scene import Item, Polygon, Shape
 
 Array = NDArray[np.float64]
 
@@ -29,26 +30,23 @@ def box_of(items: Iterable[Item]) -> Array:
 
 
 def _corners(item: Item) -> Iterator[Array]:
-    reach = _reach(item) if isinstance(item, Shape) else 0.0
+    """Points that an item never leaves the box about, each ``(k, 3)``."""
+    if isinstance(item, Shape):
+        where = np.asarray(item.placement, dtype=float)
+        where = where[np.isfinite(where).all(axis=1) & where[:, 3:].any(axis=1)]
+        if len(where):
+            turns = Rotation.from_quat(where[:, 3:]).as_matrix()
+            turned = np.einsum("nij,kj->nki", turns, item.corners())
+            yield (where[:, None, :3] + turned).reshape(-1, 3)
+        return
+    if isinstance(item, Polygon):
+        yield from (np.asarray(outline, dtype=float) for outline in item.outlines)
     for name, values in item.arrays().items():
         if name in ("placement", "position", "origin", "points"):
             points = np.asarray(values, dtype=float)[:, :3]
             points = points[np.isfinite(points).all(axis=1)]
             if len(points):
-                yield np.array([points.min(axis=0) - reach, points.max(axis=0) + reach])
-
-
-def _reach(shape: Shape) -> float:
-    """Distance of a shape's farthest point from the frame that moves it, or a little more [m]."""
-    geometry, local = shape.geometry, np.asarray(shape.local, dtype=float)
-    if "vertices" in geometry:
-        points = np.asarray(geometry["vertices"], dtype=float) @ local[:3, :3].T + local[:3, 3]
-        return float(np.linalg.norm(points, axis=1).max())
-    half = 0.0
-    for name, share in (("size", 0.5), ("radii", 1.0), ("radius", 1.0), ("length", 0.5)):
-        size = np.asarray(geometry.get(name, 0.0), dtype=float)
-        half = max(half, share * float(np.linalg.norm(size)))
-    return float(np.linalg.norm(local[:3, 3])) + half * 2**0.5
+                yield np.array([points.min(axis=0), points.max(axis=0)])
 
 
 def size_of_box(box: Array) -> float:

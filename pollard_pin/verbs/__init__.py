@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,36 +37,48 @@ def _branch(arguments: argparse.Namespace) -> Branch:
 
 
 def _path(arguments: argparse.Namespace, specification: Specification) -> ToolPath:
-    from pollard_pin.motion.curves import appendix_b
+    """The path that the arguments name, where they put it."""
+    path, position = _curve(arguments, specification, arguments.placement)
+    if position is None and arguments.turn is None and not arguments.mirror:
+        return path
+    from pollard_pin.motion.placing import Placement, place_path
 
+    turn = math.radians(arguments.turn or 0.0)
+    return place_path(path, Placement.of(position or (0.0, 0.0, 0.0), turn, arguments.mirror))
+
+
+def _curve(
+    arguments: argparse.Namespace, specification: Specification, place: Sequence[float] | None
+) -> tuple[ToolPath, Sequence[float] | None]:
+    """A path, and where it is still to be put: appendix B's curve is put there already."""
     if arguments.path is None:
+        from pollard_pin.motion.curves import appendix_b
+
         for flag, value in (("euler", arguments.euler), ("feed", arguments.feed)):
             if value is not None:
                 raise BadInput(
                     f"--{flag} belongs to a path from a table",
                     remedy="Name the table with --path",
                 )
-        return appendix_b(
-            specification,
-            placement=arguments.placement,
-            duration=arguments.duration,
-            timing=arguments.timing,
+        path = appendix_b(
+            specification, placement=place, duration=arguments.duration, timing=arguments.timing
         )
-    for flag in ("duration", "placement"):
-        if getattr(arguments, flag) is not None:
-            raise BadInput(
-                f"--{flag} belongs to appendix B's curve and --path gives another",
-                remedy="Write it into the path's file",
-            )
+        return path, None
+    if arguments.duration is not None:
+        raise BadInput(
+            "--duration belongs to appendix B's curve and --path gives another",
+            remedy="Write it into the path's file",
+        )
     from pollard_pin.motion.files import load_path
 
-    return load_path(
+    path = load_path(
         arguments.path,
         euler=arguments.euler,
         feed=arguments.feed,
         timing=arguments.timing,
         smooth=arguments.smooth,
     )
+    return path, place
 
 
 def report(
@@ -105,7 +119,7 @@ def sliders(arguments: argparse.Namespace, robot: Pollard) -> LivePage:
     """
     from pollard_pin.report.drawn.sliders import slider_page
 
-    motion = ("path", "duration", "timing", "euler", "feed", "placement")
+    motion = ("path", "duration", "timing", "euler", "feed", "placement", "turn", "mirror")
     refuse_beside(arguments, "sliders", motion)
     refuse_set(arguments, "sliders", smooth="auto", actuators="six")
     return slider_page(robot, _branch(arguments), shown_by(arguments, "pollard-pin"))
@@ -197,6 +211,19 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         note = "Where the determinant changes sign the motors lose the tool; a path must stay on "
         print_parts([Table("", ("workspace", ""), rows), f"{note}one side."])
     return ExitCode.DONE
+
+
+def accuracy(arguments: argparse.Namespace) -> ExitCode:
+    """How errors of the robot's numbers reach the spray tip, on a path or over a grid."""
+    from pollard_pin.verbs.studied import accuracy as studied
+
+    def axes(usual: dict[str, list[float]], points: int) -> dict[str, np.ndarray]:
+        return {
+            name: _axis(name, getattr(arguments, name) or ends, points)
+            for name, ends in usual.items()
+        }
+
+    return studied(arguments, _branch(arguments), partial(_path, arguments), axes)
 
 
 def _axis(name: str, ends: list[float], points: int) -> np.ndarray:

@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Sequence
 from functools import partial
 
+from pollard_pin.cli.accuracy import which_tolerances
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_number, number
@@ -21,8 +22,7 @@ from thesis_pin.command.flags.options import (
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 
-def _which_path(words: argparse.ArgumentParser) -> None:
-    _branch(words, default="this one")
+def _which_curve(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--path", metavar="FILE", help=".csv or .toml path (default: the curve of appendix B)"
     )
@@ -38,8 +38,27 @@ def _which_path(words: argparse.ArgumentParser) -> None:
     add_euler(words)
     feed = "speed of the spray tip along a path without times [m/s]"
     add_number(words, "--feed", "SPEED", feed, positive=True)
-    placement = "what is added to appendix B's curve [m] (default: the specification's)"
+
+
+def _which_path(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="this one")
+    _which_curve(words)
+    placement = (
+        "what is added to the path's x, y, z [m] (default: nothing; to appendix B's curve, as it "
+        "is printed, the specification's)"
+    )
     add_number(words, "--placement", ("X", "Y", "Z"), placement)
+    turn = "turn the path with its tool about the vertical through its middle, from x towards y [°]"
+    add_number(words, "--turn", "DEGREES", turn)
+    words.add_argument(
+        "--mirror",
+        action="store_true",
+        help="the path's mirror image, y about its middle, as a left door's is to a right one's",
+    )
+
+
+def _which_path_and_motors(words: argparse.ArgumentParser) -> None:
+    _which_path(words)
     words.add_argument(
         "--actuators",
         choices=("six", "three"),
@@ -115,7 +134,7 @@ _robot = partial(add_robot, another="another three-chain robot")
 ROBOT = Robot(
     package="pollard_pin",
     another="another three-chain robot",
-    motion=_which_path,
+    motion=_which_path_and_motors,
     report="report.document:trajectory_report",
     page="report.drawn.page:trajectory_page",
     scene="report.drawn.view:path_scene",
@@ -141,10 +160,13 @@ COMMAND = Command(
         ),
         common.size_verb(
             ROBOT,
-            "which motors of a list carry this path?",
-            "Motors of a list held against what a path asks of each joint: safety factor, RMS.",
+            "which motors carry this path: of a list, or the smallest of any size?",
+            "Motors of a list held against what a path asks of each joint: safety factor, RMS; "
+            "without a list the smallest that would do, its time as it is and left free.",
             "size examples/servos.csv --path examples/spray_arch.toml",
             samples=2001,
+            per=("group", "joint", "robot"),
+            bounds="box",
         ),
         common.simulate_verb(
             ROBOT,
@@ -191,6 +213,17 @@ COMMAND = Command(
             "pollard_pin.study.workspace:evaluate_workspace",
             "pollard_pin.verbs:workspace",
             (_robot, _which_grid, partial(add_json, what="the reachable positions")),
+        ),
+        Verb(
+            "accuracy",
+            "how far off is the spray tip if lengths, angles and motors are?",
+            "Errors of lengths, angles, play and motors at the spray tip, along a path or over the "
+            "workspace: at worst, by root sum square, of drawn robots; and which matter most.",
+            "accuracy --path examples/spray_arch.toml --tolerances examples/tolerances.toml "
+            "--within 1mm",
+            "pollard_pin.study.accuracy.study:path_accuracy",
+            "pollard_pin.verbs:accuracy",
+            (_robot, _which_path, which_tolerances),
         ),
         common.info_verb(ROBOT, "info --inertia printed"),
         common.urdf_verb(
