@@ -35,6 +35,9 @@ from .report.document import trajectory_report as trajectory_report
 
 # Study
 from .study.size import size as size
+from .study.smallest.asking import smallest_motors as smallest_motors
+from .study.smallest.asking import time_with_motors as time_with_motors
+from .study.smallest.motors import motor_family as motor_family
 from .study.simulate.draws import simulate_path as simulate_path
 
 # Viewer
@@ -49,5 +52,12 @@ from .dynamics.three_motors import three_torques as three_torques
 from .motion.placing import Placement as Placement, place_path as place_path
 from .study.workspace import evaluate_workspace as evaluate_workspace
 from .study.placement.search import evaluate_placements as evaluate_placements
+from .study.accuracy.study import (
+    path_accuracy as path_accuracy,
+    workspace_accuracy as workspace_accuracy,
+)
+from .study.accuracy.files import read_tolerances as read_tolerances
+from .study.timing.limits import motor_limits as motor_limits
+from .study.timing.timed import time_path as time_path
 
 __version__: str

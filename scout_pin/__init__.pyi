@@ -32,6 +32,10 @@ from .report.document import gait_report as gait_report
 
 # Study
 from .study.size import size as size
+from .study.smallest.asking import smallest_motors as smallest_motors
+from .study.smallest.asking import time_with_motors as time_with_motors
+from .study.smallest.servos import motor_family as motor_family
+from .study.smallest.walking import servos_for_walk as servos_for_walk
 from .study.simulate.draws import simulate_gait as simulate_gait
 
 # Viewer

@@ -42,7 +42,9 @@ from .report.torque.document import (
 
 # Servos and motors
 from .sizing.catalogue import read_catalogue as read_catalogue
+from .sizing.motors import motor_family as motor_family
 from .sizing.motors import size_motors as size_motors
+from .sizing.motors import smallest_motors as smallest_motors
 
 # Viewer
 from .pages.player import write_html as write_html

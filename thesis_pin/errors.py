@@ -296,3 +296,21 @@ class NoSolution(BadInput):
     def __init__(self, what: str, residual: float, unit: str, *, remedy: str = "") -> None:
         self.residual, self.unit = residual, unit
         super().__init__(f"{what}: {residual:.6g} {unit} stay unbalanced", remedy=remedy)
+
+
+class Infeasible(BadInput):
+    """No law of motion keeps the limits: already at rest one of them is exceeded.
+
+    Args:
+        what: Which limit.
+        share: How much of it is used.
+        place: Where on the path, by its parameter.
+    """
+
+    def __init__(self, what: str, share: float, place: float) -> None:
+        self.limit, self.share, self.place = what, share, place
+        super().__init__(
+            f"holding the robot still takes {share:.1%} of the {what}",
+            where=f"s = {place:.6g} of the path",
+            remedy="Allow more, or move the path",
+        )

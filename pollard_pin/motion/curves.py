@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from pollard_pin.coordinates import pose_rotation
 from pollard_pin.motion.orientation import named_alike, turn_between, turning
-from pollard_pin.motion.path import Sampled, ToolPath, driven, timing_law
+from pollard_pin.motion.path import Curve, Sampled, ToolPath, driven, timing_law
 from pollard_pin.specification import Specification
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.numeric.arrays import vector
@@ -79,6 +79,7 @@ def appendix_b(
             "duration": seconds,
             "timing": law,
         },
+        curves=(Curve(1.0, curve),),
     )
 
 
@@ -189,6 +190,7 @@ def _single(
         partial(driven, curve, partial(timing_law, timing, duration)),
         {"path": name, "duration": duration, "timing": timing, "turn": size},
         (note,) if written > math.pi + TOLERANCES.half_turn else (),
+        curves=(Curve(1.0, curve),),
     )
 
 
@@ -241,7 +243,15 @@ def joined(paths: Sequence[ToolPath], *, name: str = "segments") -> ToolPath:
         function,
         {**parameters, "duration": float(ends[-1])},
         tuple(note for path in paths for note in path.notes),
+        curves=_all_curves(paths),
     )
+
+
+def _all_curves(paths: Sequence[ToolPath]) -> tuple[Curve, ...]:
+    """The geometry of all of them; none if one has none."""
+    if not all(path.curves for path in paths):
+        return ()
+    return tuple(curve for path in paths for curve in path.curves)
 
 
 def _joined(paths: Sequence[ToolPath], ends: np.ndarray, at: np.ndarray) -> Sampled:

@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pollard_pin.motion.path import PEAK, Sampled, Timing, ToolPath, Triple, driven, timing_law
+from pollard_pin.motion.path import (
+    PEAK,
+    Curve,
+    Sampled,
+    Timing,
+    ToolPath,
+    Triple,
+    driven,
+    timing_law,
+)
 from pollard_pin.motion.samples import through_orientations
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.numeric.arrays import finite_array
@@ -99,6 +108,7 @@ def at_speed(
         partial(driven, steady, partial(timing_law, timing, duration)),
         shape.parameters | made,
         (*shape.notes, _told(speeds, timing, _bulge(shape.function, along, position))),
+        curves=(Curve(float(along[-1]), shape.function),),
     )
 
 

@@ -119,6 +119,20 @@ class LongMotion(ToolMotion):
 
 
 @dataclass(frozen=True)
+class Curve(Brief):
+    """A piece of a path's geometry without its timing.
+
+    Attributes:
+        length: Its largest parameter; the least is 0.
+        function: Parameters ``(n,)`` → what :data:`Sampled` says, with derivatives by the
+            parameter, the first of which vanishes nowhere.
+    """
+
+    length: float
+    function: Callable[[np.ndarray], Sampled]
+
+
+@dataclass(frozen=True)
 class ToolPath(Brief):
     """The tool's motion over time.
 
@@ -130,6 +144,8 @@ class ToolPath(Brief):
         notes: What was chosen for the user, in plain words.
         variants: What samples of finite resolution leave open; None if the path is exact,
             as far as anybody knows.
+        curves: Its geometry in smooth pieces, one after the other; none where it is known only
+            over time.
     """
 
     name: str
@@ -138,6 +154,7 @@ class ToolPath(Brief):
     parameters: dict[str, object]
     notes: tuple[str, ...] = ()
     variants: Variants | None = None
+    curves: tuple[Curve, ...] = ()
 
     def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""

@@ -24,6 +24,15 @@ def size(report: TrajectoryReport, catalogue: Catalogue, factor: float = 1.0) ->
     Raises:
         BadInput: The report is of the thesis's three motors, which leave part of the load.
     """
+    return size_loads(loads_of(report), catalogue, factor)
+
+
+def loads_of(report: TrajectoryReport) -> Loads:
+    """What a path asks of each motor's joint, without any rotor.
+
+    Raises:
+        BadInput: The report is of the thesis's three motors.
+    """
     instance("report", report, TrajectoryReport, "pollard_pin.trajectory_report()")
     if report.three is not None:
         raise BadInput(
@@ -32,7 +41,7 @@ def size(report: TrajectoryReport, catalogue: Catalogue, factor: float = 1.0) ->
         )
     joints, count = report.joints, len(report.joints.time)
     held = report.headlines
-    loads = Loads.of(
+    return Loads.of(
         report.robot.specification.name,
         report.path.name,
         ACTUATOR_NAMES,
@@ -43,4 +52,3 @@ def size(report: TrajectoryReport, catalogue: Catalogue, factor: float = 1.0) ->
         report.robot.specification.motors.armature(),
         [] if held is None else resolution_notes(ACTUATOR_NAMES, held.peak_torque),
     )
-    return size_loads(loads, catalogue, factor)

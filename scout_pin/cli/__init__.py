@@ -7,7 +7,7 @@ from functools import partial
 
 from scout_pin.cli.gaits import which_gait, which_pose
 from scout_pin.cli.making import which_new, which_urdf
-from scout_pin.cli.servos import which_servos
+from scout_pin.cli.servos import which_servos, which_size
 from scout_pin.cli.walks import which_walk
 from thesis_pin.command import common
 from thesis_pin.command.flags.options import add_json, add_robot
@@ -25,6 +25,7 @@ ROBOT = Robot(
     inverse_kinematics="model:Scout.leg_inverse_kinematics",
     still="verbs:still",
     motion_flag="gait",
+    walks="verbs.sized:walk",
 )
 
 COMMAND = Command(
@@ -42,10 +43,14 @@ COMMAND = Command(
         ),
         common.size_verb(
             ROBOT,
-            "which servos of a list carry this gait?",
-            "Servos of a list held against what a gait asks of each joint: safety factor, RMS.",
+            "which servos carry this gait: of a list, or the smallest of any size?",
+            "Servos of a list held against what a gait asks of each joint: safety factor, RMS; "
+            "without a list the smallest that would do, its time as it is and left free; or for a "
+            "walking speed.",
             "size examples/servos.csv --gait examples/walk.toml --time-unit 0.05",
             samples=401,
+            per=("robot", "group", "joint"),
+            more=which_size,
         ),
         common.simulate_verb(
             ROBOT,

@@ -14,6 +14,12 @@ def add_gains(words: Words) -> None:
     add_number(words, "--servo-damping", "N·m·s/rad", "how it is damped (default: 0.05)")
 
 
+def which_size(words: Words) -> None:
+    """For which walk servos are sized, instead of for a gait."""
+    walk = "find servos for a walk of this speed, planned anew with each, instead of for a gait"
+    add_number(words, "--walk", "MM/S", walk, positive=True)
+
+
 def which_servos(words: Words) -> None:
     """What a simulated gait is walked with, and on."""
     add_gains(words)

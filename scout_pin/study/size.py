@@ -25,9 +25,14 @@ def size(report: GaitReport, catalogue: Catalogue, factor: float = 1.0) -> Sizin
         factor: Least safety factor.
     """
     instance("report", report, GaitReport, "scout_pin.gait_report()")
+    return size_loads(loads_of(report), catalogue, factor)
+
+
+def loads_of(report: GaitReport) -> Loads:
+    """What a gait asks of each joint, without any rotor."""
     joints, count = report.joints, len(report.joints.time)
     held = report.headlines
-    loads = Loads.of(
+    return Loads.of(
         report.robot.specification.name,
         f"gait {report.gait.name!r}",
         JOINT_NAMES,
@@ -38,4 +43,3 @@ def size(report: GaitReport, catalogue: Catalogue, factor: float = 1.0) -> Sizin
         report.robot.specification.armature(),
         [SHARING, *([] if held is None else resolution_notes(JOINT_NAMES, held.peak_torque))],
     )
-    return size_loads(loads, catalogue, factor)

@@ -89,7 +89,13 @@ NUMBERS = {
     "--servo-damping": {"0", "2.5"},
     "--floor-tilt": {"0", "-1", "2.5"},
     "--voltage": {"2.5"},
+    "--no-load-speed": {"2.5"},
+    "--power": {"2.5"},
+    "--rating": set(),
+    "--within": {"2.5"},
+    "--walk": {"2.5"},
     "--factor": {"2.5"},
+    "--within": set(),
     "--precision": {"0"},
     "--points": set(),
     "--length": {"2.5"},
@@ -137,7 +143,7 @@ NUMBERS = {
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
 READ = (
-    *("--specification", "--gait", "--path", "--pose", "--servos", "--list"),
+    *("--specification", "--gait", "--path", "--pose", "--servos", "--list", "--tolerances"),
     *("file", "closures", "motion", "servos"),
 )
 """Flags and words that name a file to read."""
@@ -165,7 +171,16 @@ CONTRADICTIONS = {
         ["--branch=+-"],
         ["--sliders"],
     ],
-    "scout-pin size": [["--branch=+-"]],
+    "scout-pin size": [
+        ["--branch=+-"],
+        ["--per", "joint"],
+        ["--law", "both"],
+        ["--within", "3"],
+        ["--curve"],
+        ["--rating", "0.4"],
+        ["--walk", "100"],
+        ["--dpi", "100"],
+    ],
     "scout-pin simulate": [
         ["--json", "-", "--html", "-"],
         ["--branch=+-"],
@@ -233,10 +248,32 @@ CONTRADICTIONS = {
         ["--duration", "3"],
         ["--sliders"],
     ],
-    "pollard-pin size": [["--duration", "3"], ["--branch=+-"], ["--actuators", "three"]],
+    "pollard-pin size": [
+        ["--duration", "3"],
+        ["--branch=+-"],
+        ["--actuators", "three"],
+        ["--per", "joint"],
+        ["--bound", "line"],
+        ["--law", "both"],
+        ["--within", "3"],
+        ["--power", "3"],
+    ],
     "pollard-pin convert": [["--json", "-", "--to", "-"], ["--units", "mm"], ["--duration", "3"]],
     "pollard-pin ik": [["--branch=+-"]],
     "pollard-pin fk": [],
+    "pollard-pin accuracy": [
+        ["--workspace"],
+        ["--workspace", "--turn", "10"],
+        ["--points", "5"],
+        ["--x", "0.4"],
+        ["--orientation", "0", "0", "0"],
+        ["--stiffness", "1", "2"],
+        ["--draws", "1000000"],
+        ["--samples", "1000000"],
+        ["--duration", "3"],
+        ["--branch=+-"],
+        ["--json", "-", "--html", "-"],
+    ],
     "pollard-pin workspace": [["--x", "0.8", "0.1"], ["--z", "0", "1", "2"], ["--branch=+-"]],
     "pollard-pin place": [
         ["--json", "-", "--html", "-"],
@@ -270,7 +307,12 @@ CONTRADICTIONS = {
         ["--frame", "tool_tip"],
         ["--euler", "ZYX"],
     ],
-    "thesis-pin size": [["--frame", "tool_tip"], ["--external", "nowhere=0,0,1"]],
+    "thesis-pin size": [
+        ["--frame", "tool_tip"],
+        ["--external", "nowhere=0,0,1"],
+        ["--per", "joint"],
+        ["--no-load-speed", "3"],
+    ],
     "thesis-pin view": [
         ["--port", "0"],
         ["--hold", "1"],

@@ -80,6 +80,10 @@ def test_a_path_beside_appendix_b_and_a_motion_beside_a_motion(tmp_path):
     ("words", "said"),
     [
         (("view", "--sliders", "--beside", "examples/walk.toml"), "--beside means nothing"),
+        (("view", "--sliders", "--align", "phase"), "--align means nothing"),
+        (("view", "--align", "phase"), "--align belongs to --beside"),
+        (("gait", "--align", "time"), "--align belongs to --beside"),
+        (("gait", "--beside", "examples/squat.toml", "--align", "phase"), "no phases in common"),
         (("gait", "--beside", "none.toml"), "none.toml"),
         (("gait", "--beside-robot", "none.toml"), "none.toml"),
     ],
@@ -88,6 +92,52 @@ def test_what_cannot_stand_beside_is_refused(words, said):
     done = run("scout-pin", *words)
     assert (done.returncode, done.stdout) == (2, "")
     assert said in done.stderr
+
+
+def test_json_says_which_times_belong_together():
+    words = ("gait", "--samples", "41", "--beside", "examples/cruise.toml", "--align", "phase")
+    beside = document(
+        run("scout-pin", *words, "--gait", "examples/quasi_static.toml", "--json", "-")
+    )
+    told = beside["beside"]
+    assert told["aligned"] == "by phase"
+    step = told["phases"][1]
+    assert step["name"] == "left foot stands"
+    np.testing.assert_allclose(step["first"], [2.0, 3.438], atol=1e-3)
+    np.testing.assert_allclose(step["second"], [0.4, 0.76], atol=1e-3)
+    done = run("scout-pin", *words)
+    assert done.returncode == 0, done.stderr
+    assert "Both are in the same phase" in done.stdout
+    words = ("trajectory", "--samples", "21", "--beside", "examples/spray_arch.toml")
+    told = document(run("pollard-pin", *words, "--align", "phase", "--json", "-"))["beside"]
+    assert told["phases"][-1]["name"] == "to 100 % of the way"
+    assert told["phases"][-1]["second"][1] == pytest.approx(5.0)
+
+
+@pytest.mark.browser
+def test_by_phase_the_second_robot_steps_with_the_first(browser, folder, artefacts):
+    file = folder / "aligned.html"
+    words = ("gait", "--samples", "301", "--gait", "examples/quasi_static.toml", "--html", file)
+    done = run("scout-pin", *words, "--beside", "examples/cruise.toml", "--align", "phase")
+    assert done.returncode == 0, done.stderr
+    cruise = scout_pin.gait_report(
+        scout_pin.load(), scout_pin.load_gait(ROOT / "examples" / "cruise.toml"), samples=2001
+    )
+    for width in (1280, 390):
+        browser.open(file.as_uri(), width, 844)
+        browser.until("window.ready && player.framesDrawn > 0")
+        # The middle of the first single support: of 2 to 3.438 s, and of 0.4 to 0.76 s.
+        browser.run("player.pause(); player.time = 2.719")
+        browser.still(artefacts / f"aligned_{width}.png")
+        assert browser.complaints() == []
+        assert browser.run("document.documentElement.scrollWidth") <= width
+    assert browser.run("player.duration") == pytest.approx(13.438, abs=1e-3)
+    place = cruise.motion.right_foot.position[np.argmin(np.abs(cruise.joints.time - 0.58))]
+    sole = browser.run("player.items.find((i) => i.name.startsWith('ghost of right_sole')).name")
+    corners = browser.vertices(sole)
+    assert abs(corners[:, 2].min() - place[2]) < 2e-3
+    assert (corners.min(axis=0)[:2] < place[:2]).all()
+    assert (corners.max(axis=0)[:2] > place[:2]).all()
 
 
 @pytest.mark.browser

@@ -24,6 +24,7 @@ SEEN = {
     "workspace": {"--out"},
     "place": {"--out", "--html"},
     "thesis-pin workspace": {"--out", "--html"},
+    "accuracy": {"--out", "--html"},
     "urdf": {"--out"},
     "audit": {"--html"},
     "convert": set(),

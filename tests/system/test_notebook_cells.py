@@ -1,12 +1,13 @@
 """Scenes in a notebook's cell: they play in a frame of their own, and leave the notebook alone."""
 
+import re
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from thesis_pin.pages.notebook import MOST
+from thesis_pin.pages.notebook import MOST, UNTRUSTED
 from thesis_pin.pages.scene import Ball, Group, Readout, Scene
 
 EVIL = "</script><script>parent.stolen = 1</script>'\"><b>"
@@ -38,6 +39,12 @@ def test_nothing_of_a_scene_ends_its_frame():
     assert "<b>" not in cell
 
 
+def test_a_notebook_that_takes_frames_out_says_how_to_see_the_scene():
+    """Notebooks from elsewhere aren't trusted: the tag goes, the text in it stays."""
+    cell = swing("short")._repr_html_()
+    assert re.sub("<[^>]*>", "", cell) == UNTRUSTED
+
+
 @pytest.fixture(scope="module")
 def notebook(running_browser, tmp_path_factory):
     """A dark page with two scenes among text that hears keys, as a notebook does."""
@@ -60,11 +67,15 @@ def in_frame(notebook, number, script):
     return notebook.page.frames[1 + number].evaluate(script)
 
 
-def drawn(notebook, number):
+def becomes(notebook, number, script):
     deadline = time.monotonic() + 60
-    while not in_frame(notebook, number, "Boolean(window.player && player.framesDrawn > 0)"):
+    while not in_frame(notebook, number, f"Boolean({script})"):
         assert time.monotonic() < deadline, notebook.complaints()
         time.sleep(0.1)
+
+
+def drawn(notebook, number):
+    becomes(notebook, number, "window.player && player.framesDrawn > 0")
 
 
 @pytest.mark.browser
@@ -95,3 +106,36 @@ def test_a_key_in_a_frame_stays_there(notebook):
     assert in_frame(notebook, 1, "player.playing")
     assert notebook.run("heard") == []
     in_frame(notebook, 1, "player.pause()")
+
+
+SEEN = """(() => {
+  const { stage } = player, { min, max } = stage.box;
+  return Math.max(...[min, max].flatMap((corner) => {
+    const seen = corner.clone().project(stage.camera);
+    return [Math.abs(seen.x), Math.abs(seen.y)];
+  }));
+})()"""
+"""How far from the middle of the picture a scene's corners are seen; 1 is the picture's edge."""
+
+AWAY = "player.stage.camera.position.distanceTo(player.stage.controls.target)"
+
+
+@pytest.mark.browser
+def test_a_frame_that_grows_shows_the_whole_scene_until_a_hand_turns_it(notebook):
+    notebook.run(
+        "{ const sliver = document.querySelector('iframe').cloneNode(); sliver.id = 'sliver';"
+        "sliver.style.width = '2px'; document.body.prepend(sliver); }"
+    )
+    sliver = len(notebook.page.frames) - 2
+    drawn(notebook, sliver)
+    notebook.run("sliver.style.width = '254px'")
+    becomes(notebook, sliver, "player.stage.camera.aspect > 0.5")
+    assert 0.3 < in_frame(notebook, sliver, SEEN) < 1.0
+
+    in_frame(notebook, sliver, "player.stage.controls.dispatchEvent({ type: 'start' })")
+    in_frame(notebook, sliver, "player.stage.camera.position.multiplyScalar(9)")
+    away = in_frame(notebook, sliver, AWAY)
+    notebook.run("sliver.style.width = '100%'")
+    becomes(notebook, sliver, "player.stage.camera.aspect > 1")
+    assert in_frame(notebook, sliver, AWAY) == pytest.approx(away)
+    notebook.run("sliver.remove()")

@@ -67,3 +67,63 @@ def test_a_list_isn_t_replaced_by_an_answer(size, tmp_path):
     assert code == 2
     assert "would replace" in err
     assert (tmp_path / "servos.csv").read_text(encoding="utf-8") == LIST
+
+
+WITHOUT = {
+    "scout-pin": MOTIONS["scout-pin"],
+    "pollard-pin": [*MOTIONS["pollard-pin"], "--law", "given"],
+}
+
+
+@pytest.fixture(params=WITHOUT)
+def least(request, capfd):
+    def call(*words):
+        name = request.param
+        return run(f"{name} size", ["size", *WITHOUT[name], *words], capfd)
+
+    call.command = request.param
+    return call
+
+
+def test_without_a_list_the_smallest_motors_are_said(least, tmp_path):
+    code, out, err = least("--json", "-", "--out", str(tmp_path / "out"))
+    document = json.loads(out)
+    assert code == 0
+    assert document["schema"] == f"{least.command}/smallest-motors"
+    once = document["cases"][0]["once"]
+    assert len(once) == len(document["joints"])
+    assert f"wrote {tmp_path / 'out'}: report.json, sizes.csv" in err
+    rows = list(csv.DictReader((tmp_path / "out" / "sizes.csv").read_text("utf-8").splitlines()))
+    assert [float(row["once_Nm"]) for row in rows[: len(once)]] == once
+
+
+def test_less_than_the_smallest_is_told_by_the_list_s_own_judgement(least, tmp_path, capfd):
+    words = ["--bound", "line"] if least.command == "pollard-pin" else []
+    document = json.loads(least("--json", "-", "--per", "robot", *words)[1])
+    once, speed = document["cases"][0]["once"][0], document["motors"]["speed"][0]
+    for share, carried in ((1.0001, True), (0.95, False)):
+        servos = tmp_path / "one.csv"
+        servos.write_text(f"name,torque_Nm,speed_rad_s\none,{once * share},{speed}\n")
+        name = least.command
+        words = ["size", str(servos), *MOTIONS[name], "--json", "-"]
+        answer = json.loads(run(f"{name} size", words, capfd)[1])
+        assert all(answer["fits"]["carries"][0]) == carried
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--voltage", "5"], "--voltage means nothing without a list"),
+        (["--power", "5", "--no-load-speed", "3"], "--no-load-speed means nothing beside --power"),
+        (["--armature", "x"], "--armature is 'x'"),
+        (["--armature", "1,-2"], "neither below zero"),
+        (["--rating", "50"], "--rating is '50'"),
+        (["--law", "given", "--within", "3"], "where the time is given"),
+    ],
+)
+def test_flags_that_mean_nothing_are_refused(least, words, said):
+    if "--law" in words and least.command == "pollard-pin":
+        words = words[2:]
+    code, out, err = least(*words)
+    assert (code, out) == (2, "")
+    assert said in err

@@ -50,6 +50,14 @@ def trajectory_report():
     return pollard_pin.trajectory_report(pollard_pin.load(), pollard_pin.appendix_b(), samples=21)
 
 
+def timed_path():
+    """The fastest law along a line."""
+    from pollard_pin.motion.curves import line
+
+    path = line([0.45, -0.05, 0, 0, 0, 0], [0.45, 0.05, 0, 0, 0, 0], 1.0)
+    return pollard_pin.time_path(pollard_pin.load(), path)
+
+
 def torque_block(package):
     robot, name = package.load(), "scout" if package is scout_pin else "pollard"
     if name == "scout":
@@ -105,6 +113,7 @@ MAKERS = {
     "Assemblies": lambda: pollard_pin.load().forward_kinematics(np.full(6, 0.1)),
     "Branch": lambda: pollard_pin.DEFAULT_BRANCH,
     "TrajectoryReport": trajectory_report,
+    "TimedPath": timed_path,
     "TorqueBlock of Scout": lambda: torque_block(scout_pin),
     "TorqueBlock of Pollard": lambda: torque_block(pollard_pin),
     "ClosureFile": lambda: thesis_pin.ClosureFile.read(FIVE_BAR),
@@ -113,6 +122,7 @@ MAKERS = {
     "ForwardDynamics": lambda: thesis_pin.ForwardDynamics(looped()),
     "JointMotion": joint_motion,
     "TorqueReport": lambda: thesis_pin.torque_report(looped(), joint_motion()),
+    "Smallest motors": lambda: scout_pin.smallest_motors(gait_report(), curve=True),
     "Foot": lambda: feet_of_scout()[1][0],
     "Floor": lambda: thesis_pin.Floor(),
     "Placed": lambda: thesis_pin.stand(*feet_of_scout(), feet_of_scout()[0].q0),
@@ -125,6 +135,10 @@ MAKERS = {
         pollard_pin.load(), pollard_pin.appendix_b(), z=[0.0, 0.05], samples=21
     ),
     "Placement": lambda: pollard_pin.Placement.of([0.0, 0.0, 0.1], 0.2, True),
+    "Tolerances": lambda: pollard_pin.read_tolerances(ROOT / "examples" / "tolerances.toml"),
+    "Accuracy": lambda: pollard_pin.path_accuracy(
+        pollard_pin.load(), pollard_pin.appendix_b(), samples=5, draws=3, within=1e-3
+    ),
     "Scene": lambda: gait_scene(gait_report()),
     "LoopDynamics": lambda: thesis_pin.inverse_dynamics(
         looped(), looped().q0, ZERO, ZERO, check=False

@@ -12,7 +12,9 @@ from thesis_pin.command.results import Answer, deliver, give, put_folder
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.showing.beside import ANY, TWO, Beside, reports, scene_of, second_of
 from thesis_pin.command.showing.sliders import any_robot, show_sliders
-from thesis_pin.command.verbs import deliver_sizes, show_scene
+from thesis_pin.command.sizing.delivering import deliver as deliver_smallest
+from thesis_pin.command.sizing.finding import bounded, check_words, deliver_sizes
+from thesis_pin.command.verbs import show_scene
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.loops.checking import soundness
@@ -30,7 +32,8 @@ from thesis_pin.report.tables import Part, Table
 from thesis_pin.report.torque.document import TorqueReport, torque_report
 from thesis_pin.sizing.catalogue import Catalogue
 from thesis_pin.sizing.document import Sizing
-from thesis_pin.sizing.motors import size_motors
+from thesis_pin.sizing.motors import motor_family, size_motors, smallest_motors
+from thesis_pin.sizing.smallest.answer import Answer as Smallest
 
 
 def check(arguments: argparse.Namespace) -> ExitCode:
@@ -63,7 +66,19 @@ def torque(arguments: argparse.Namespace) -> ExitCode:
 
 
 def size(arguments: argparse.Namespace) -> ExitCode:
-    """Hold lists of servos against a motion of any robot."""
+    """Find motors for a motion of any robot: of lists, or the smallest of any size."""
+    check_words(arguments)
+
+    def least(_: object) -> Smallest:
+        report = _report(arguments)
+        family = motor_family(report, **bounded(arguments))
+        alike = arguments.per == "robot"
+        return smallest_motors(
+            report, family, per="robot" if alike else "joint", factor=arguments.factor
+        )
+
+    if not arguments.servos:
+        return deliver_smallest(arguments, "thesis-pin", least)
 
     def make(catalogue: Catalogue, _: object) -> Sizing:
         return size_motors(_report(arguments), catalogue, arguments.factor)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 
 from thesis_pin.command import simulating, verbs
 from thesis_pin.command.flags import options
 from thesis_pin.command.flags.figured import add_figure
 from thesis_pin.command.registry import Robot, Verb, Words
-from thesis_pin.command.showing.beside import add_beside, add_beside_robot
+from thesis_pin.command.showing.beside import add_align, add_beside, add_beside_robot
 from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.showing.words import add_sliders
+from thesis_pin.command.sizing import finding as sizing
+from thesis_pin.command.sizing.words import add_free, add_kind, add_lists, add_output
 
 
 def _verb(
@@ -58,6 +60,7 @@ def report_verb(
         add_figure,
         add_beside,
         add_beside_robot,
+        add_align,
     )
     run = partial(verbs.report, what=f"working out the {name}")
     return _verb(robot, name, (help, description, example), robot.report, run, *add)
@@ -73,6 +76,7 @@ def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
         add_film,
         add_beside,
         add_beside_robot,
+        add_align,
     )
     return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
 
@@ -84,22 +88,41 @@ def convert_verb(robot: Robot, description: str, example: str) -> Verb:
     return _verb(robot, "convert", texts, robot.movement, verbs.convert, *add)
 
 
-def size_verb(robot: Robot, help: str, description: str, example: str, *, samples: int) -> Verb:
-    """The verb that holds a list of servos or motors against a motion."""
+def size_verb(
+    robot: Robot,
+    help: str,
+    description: str,
+    example: str,
+    *,
+    samples: int,
+    per: Sequence[str],
+    bounds: str | None = None,
+    more: Callable[[Words], None] | None = None,
+) -> Verb:
+    """The verb that finds servos or motors for a motion, of a list or of any size.
+
+    Args:
+        robot: The robot.
+        help: See :class:`~thesis_pin.command.registry.Verb`.
+        description: The same.
+        example: The same.
+        samples: Default number of samples.
+        per: See :func:`thesis_pin.command.sizing.words.add_kind`.
+        bounds: The same.
+        more: Add what only this robot has.
+    """
 
     def which(words: Words) -> None:
-        words.add_argument(
-            "servos",
-            nargs="+",
-            metavar="LIST",
-            help=options.LISTS,
-        )
+        add_lists(words)
         options.add_samples(words, samples)
-        options.add_sizing(words)
+        add_kind(words, per=per, bounds=bounds)
+        add_free(words)
+        if more is not None:
+            more(words)
+        add_output(words)
 
-    return _verb(
-        robot, "size", (help, description, example), robot.size, verbs.size, which, robot.motion
-    )
+    texts = (help, description, example)
+    return _verb(robot, "size", texts, robot.size, sizing.size, which, robot.motion)
 
 
 def simulate_verb(

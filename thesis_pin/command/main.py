@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command.flags.options import add_json, add_report, add_sizing, add_view
+from thesis_pin.command.flags.options import add_json, add_report, add_view
 from thesis_pin.command.flags.words import (
     perhaps_motion,
     strictly,
@@ -23,6 +23,7 @@ from thesis_pin.command.registry import Command, Parser, Verb
 from thesis_pin.command.showing.beside import add_beside
 from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
+from thesis_pin.command.sizing.words import add_kind, add_output
 
 COMMAND = Command(
     "thesis-pin",
@@ -78,9 +79,9 @@ COMMAND = Command(
         ),
         Verb(
             "size",
-            "which motors of a list carry this motion?",
+            "which motors carry this motion: of a list, or the smallest of any size?",
             "Motors of a list held against what a motion asks of each motor of any robot: safety "
-            "factor, RMS.",
+            "factor, RMS; without a list the smallest that would do.",
             "size urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
             "examples/pollard_motors.csv --list examples/servos.csv",
             "thesis_pin.sizing.motors:size_motors",
@@ -91,7 +92,8 @@ COMMAND = Command(
                 which_list,
                 which_pose,
                 which_wrenches,
-                add_sizing,
+                partial(add_kind, per=("joint", "robot"), bounds="box"),
+                add_output,
             ),
         ),
         Verb(

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 _INDENT = 2
 _UNBOUNDED = 10_000
+_GAPS = (((0, 1), False), ((0, 1), True), ((0, 0), False))
+"""Padding of tables, and whether neighbours share it: three, two and one blanks between columns."""
+
 _BESIDE = 24
 """Columns that a text beside a label needs; with less it stands below."""
 
@@ -29,8 +32,8 @@ _BESIDE = 24
 def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title: str = "") -> None:
     """Print a table; the first column is text, the rest numbers.
 
-    Where it is wider than the terminal, each row becomes a paragraph: its first
-    cell, then each further one with its heading.
+    Where it is wider than the terminal, columns move together; where that isn't enough, each row
+    becomes a paragraph: its first cell, then each further one with its heading.
     """
     rows = [list(row) for row in rows]
     if _plainly([*columns, title, *(cell for row in rows for cell in row)]):
@@ -45,16 +48,24 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], *, title:
     headings = _said(console, columns)
     cells = [_said(console, row) for row in rows]
     name = readable(title, console.encoding)
-    table = Table(title=name or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for k, heading in enumerate(headings):
-        table.add_column(heading, justify="right" if k else "left", no_wrap=True)
-    for row in cells:
-        table.add_row(*row)
     unbounded = console.options.update(width=_UNBOUNDED)
-    if console.measure(table, options=unbounded).maximum <= console.width:
-        _print(console, table)
-    else:
-        _stack(console, headings, cells, name)
+    for padding, collapse in _GAPS:
+        table = Table(
+            title=name or None,
+            title_justify="left",
+            box=box.SIMPLE_HEAD,
+            pad_edge=False,
+            padding=padding,
+            collapse_padding=collapse,
+        )
+        for k, heading in enumerate(headings):
+            table.add_column(heading, justify="right" if k else "left", no_wrap=True)
+        for row in cells:
+            table.add_row(*row)
+        if console.measure(table, options=unbounded).maximum <= console.width:
+            _print(console, table)
+            return
+    _stack(console, headings, cells, name)
 
 
 def print_parts(parts: Iterable[Part]) -> None:

@@ -199,6 +199,10 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
         simulation: A simulation of a report of the motion; the rest of its room,
             ``study.simulate``, has the same names in every robot's package.
         size: Servos or motors held against a report of the motion.
+        smallest: The smallest of them of any size; in its module also ``time_with_motors``, how
+            short the motion may be with those of a list, and ``motor_family``, the robot's own.
+        walks: What ``size --walk`` does: a function of the arguments, the robot, a list or None
+            and a progress; empty where there is no such flag.
         thesis, audit: The thesis ready to be audited, and the function that does it.
     """
 
@@ -228,6 +232,8 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     urdf: str = "urdf:urdf"
     files: str = "urdf:files"
     size: str = "study.size:size"
+    smallest: str = "study.smallest.asking:smallest_motors"
+    walks: str = ""
     audit: str = "thesis.audit:audit"
     thesis: str = "thesis.audit:THESIS"
 

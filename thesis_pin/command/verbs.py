@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from thesis_pin.command.flags.figured import chosen, without
 from thesis_pin.command.flags.options import refuse_beside
-from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import Robot, found
 from thesis_pin.command.results import (
@@ -19,7 +18,6 @@ from thesis_pin.command.results import (
     put,
     put_folder,
     said,
-    write_results,
 )
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.showing.beside import (
@@ -40,8 +38,6 @@ if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.pages.live.page import LivePage
     from thesis_pin.pages.scene import Scene
     from thesis_pin.report.exchange.movement import Movement
-    from thesis_pin.sizing.catalogue import Catalogue
-    from thesis_pin.sizing.document import Sizing
 
 
 class MakeReport(Protocol):
@@ -97,13 +93,14 @@ def _paired(
     """The reports on both motions that the arguments ask for."""
     first = planned(robot, arguments, samples, bar)
     second = planned(robot, second_of(arguments, robot.motion_flag), samples, bar)
-    return reports(hooks_of(robot), first, second)
+    files = getattr(arguments, robot.motion_flag), arguments.beside
+    return reports(hooks_of(robot), first, second, arguments.align, files)
 
 
 def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Show a motion in the browser, or sliders that move the robot, or write it as a page."""
     if arguments.sliders:
-        refuse_beside(arguments, "sliders", ("beside", "beside-robot"))
+        refuse_beside(arguments, "sliders", ("beside", "beside-robot", "align"))
         from thesis_pin.command.showing.sliders import show_sliders
 
         def page() -> LivePage:
@@ -144,7 +141,7 @@ def show_scene(
         refuse_beside(arguments, "meshcat", ("port", "hold"))
     if arguments.meshcat is not None and arguments.look != "3d":
         raise BadInput("--look means nothing beside --meshcat", remedy="Leave one of them out")
-    with Bar("working out the motion") as bar:
+    with Bar("working out the motion") as bar, warned():
         scene = shown_first(make(bar), arguments)
     shown = {
         "schema": f"{command}/view",
@@ -210,45 +207,6 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         }
         put(arguments.json, json_bytes(document))
     return ExitCode.DONE
-
-
-def size(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
-    """Hold lists of servos against a motion."""
-
-    def make(catalogue: Catalogue, bar: Bar) -> Sizing:
-        report = planned(robot, arguments, lambda _: arguments.samples, bar)
-        found: Sizing = _hook(robot, robot.size)(report, catalogue, arguments.factor)
-        return found
-
-    return deliver_sizes(arguments, robot.command, make)
-
-
-def deliver_sizes(
-    arguments: argparse.Namespace, command: str, make: Callable[[Catalogue, Bar], Sizing]
-) -> ExitCode:
-    """Write and print which servos of lists carry a motion.
-
-    Args:
-        arguments: With ``servos``, ``voltage``, ``out``, ``json`` and ``strict``.
-        command: Which command asks, for the schema's name.
-        make: Holds a list against the motion.
-    """
-    from thesis_pin.report.writers import csv_bytes, json_bytes
-    from thesis_pin.sizing.catalogue import read_catalogue
-    from thesis_pin.sizing.tables import summary
-
-    catalogue = read_catalogue(arguments.servos, voltage=arguments.voltage)
-    files: dict[str, bytes] = {}
-    with Bar("working out the motion") as bar:
-        found = make(catalogue, bar)
-        wanted = arguments.json or arguments.out
-        content = json_bytes(found.document(command)) if wanted else b""
-        if arguments.out:
-            files = {"report.json": content, "sizes.csv": csv_bytes(found.columns())}
-    write_results(arguments, files, content)
-    if free(arguments):
-        print_parts(summary(found))
-    return ExitCode.NO if arguments.strict and not found.yes else ExitCode.DONE
 
 
 def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:

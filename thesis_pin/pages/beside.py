@@ -10,6 +10,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from thesis_pin.pages.alignment import Alignment, Names, by_time
 from thesis_pin.pages.ghost import with_ghost
 from thesis_pin.pages.page import Page, Tile
 from thesis_pin.pages.scene import Scene
@@ -22,16 +23,18 @@ MOST_CURVES = 6
 MOST_AFTER = 601
 """Samples of a scene for what the second motion still does when the first has ended."""
 
-_SAME = 1e-9  # of a duration: less is rounding
 _APART = 1e-3  # s: of times closer than that a page, which has 32 bits for each, might make one
-
-Names = tuple[str, str]
-"""Of the first motion and of the second."""
 
 _PALER = 0.5
 
 
-def beside_page(first: Page, second: Page, names: Names, durations: tuple[float, float]) -> Page:
+def beside_page(
+    first: Page,
+    second: Page,
+    names: Names,
+    durations: tuple[float, float],
+    alignment: Alignment,
+) -> Page:
     """One page of two reports.
 
     Args:
@@ -39,6 +42,7 @@ def beside_page(first: Page, second: Page, names: Names, durations: tuple[float,
         second: The page of the second.
         names: What they are called.
         durations: Of the motions [s].
+        alignment: How their times go together.
     """
     verdicts = (first.verdict, second.verdict)
     shown = {table.title: table for table in first.tables}
@@ -47,9 +51,9 @@ def beside_page(first: Page, second: Page, names: Names, durations: tuple[float,
         title=f"{first.title}, beside {names[1]}",
         verdict=[
             *(f"{name}: {one}" for name, some in zip(names, verdicts, strict=True) for one in some),
-            aligned(names, durations),
+            alignment.said(names, durations),
         ],
-        plots=overlaid_plots(first.plots, second.plots, names),
+        plots=overlaid_plots(first.plots, second.plots, names, alignment),
         tables=[
             side_by_side((first.good, second.good), (first.tiles, second.tiles), names, durations),
             *first.tables,
@@ -59,18 +63,6 @@ def beside_page(first: Page, second: Page, names: Names, durations: tuple[float,
                 if shown.get(table.title) != table
             ),
         ],
-    )
-
-
-def aligned(names: Names, durations: tuple[float, float]) -> str:
-    """How the times of two motions go together, in a sentence."""
-    text = "Both begin at the same moment"
-    if abs(durations[0] - durations[1]) <= _SAME * max(durations):
-        return f"{text} and take {durations[0]:.4g} s."
-    short = int(durations[1] < durations[0])
-    return (
-        f"{text}; {names[short]} ends after {durations[short]:.4g} s and stands still, "
-        f"{names[1 - short]} goes on to {durations[1 - short]:.4g} s."
     )
 
 
@@ -91,26 +83,31 @@ def side_by_side(
     return Table("Side by side", ("", *names), rows)
 
 
-def overlaid_plots(first: Iterable[Plot], second: Sequence[Plot], names: Names) -> list[Plot]:
+def overlaid_plots(
+    first: Iterable[Plot], second: Sequence[Plot], names: Names, alignment: Alignment
+) -> list[Plot]:
     """Plots of the first, each with the curves of the second that show the same."""
     found: list[Plot] = []
     known = {plot.title: plot for plot in second}
     for plot in first:
         other = known.pop(plot.title, None)
-        found += [plot] if other is None else overlaid(plot, other, names)
+        found += [plot] if other is None else overlaid(plot, other, names, alignment)
     return [
         *found,
         *(replace(plot, title=f"{plot.title}, {names[1]}") for plot in known.values()),
     ]
 
 
-def overlaid(first: Plot, second: Plot, names: Names) -> list[Plot]:
-    """A plot with the curves of two motions: solid and dashed, from the same start.
+def overlaid(
+    first: Plot, second: Plot, names: Names, alignment: Alignment | None = None
+) -> list[Plot]:
+    """A plot with the curves of two motions: solid and dashed.
 
     Args:
         first: Of the first motion; its bands stay.
         second: The same plot of the second motion.
         names: What they are called.
+        alignment: How their times go together; None for both from the same start.
 
     Returns:
         One plot, or several of at most :data:`MOST_CURVES` curves of each motion.
@@ -119,7 +116,7 @@ def overlaid(first: Plot, second: Plot, names: Names) -> list[Plot]:
     if count <= MOST_CURVES or [one.name for one in first.curves] != [
         one.name for one in second.curves
     ]:
-        return [_overlaid(first, second, names)]
+        return [_overlaid(first, second, names, alignment)]
     plots = []
     for k in range(0, count, MOST_CURVES):
         part = slice(k, k + MOST_CURVES)
@@ -133,29 +130,34 @@ def overlaid(first: Plot, second: Plot, names: Names) -> list[Plot]:
             )
             for plot in (first, second)
         )
-        plots.append(_overlaid(one, other, names))
+        plots.append(_overlaid(one, other, names, alignment))
     return plots
 
 
-def _overlaid(first: Plot, second: Plot, names: Names) -> Plot:
-    back, time = 0.0, None
+def _overlaid(first: Plot, second: Plot, names: Names, given: Alignment | None) -> Plot:
+    alignment, time, across = None, None, first.across
     if first.time is not None and second.time is not None:
-        back = float(second.time[0] - first.time[0])
-        time = np.array([first.time[0], max(first.time[-1], second.time[-1] - back)])
+        alignment = by_time(first.time, second.time) if given is None else given
+        time = np.array([first.time[0], first.time[-1]])
+        if alignment.names:
+            across = f"{across}, of {names[0]}"
+        else:
+            time[1] = max(time[1], float(alignment.of_first(second.time[-1:])[0]))
     curves = [
-        *(_drawn(first, curve, 0.0) for curve in first.curves),
-        *(_drawn(second, curve, back, names[1]) for curve in second.curves),
+        *(replace(curve, x=first.places(curve), dash="solid") for curve in first.curves),
+        *(_second(second, curve, names[1], alignment) for curve in second.curves),
     ]
     areas = [
         *first.areas,
-        *(
+        *(  # what has no like in the first one's phases has no corners
             replace(
                 area,
                 name=f"{area.name}, {names[1]}",
-                corners=area.corners - (back, 0.0),
+                corners=_moved(area.corners, alignment),
                 colour=_paler(area.colour),
             )
             for area in second.areas
+            if len(_moved(area.corners, alignment))
         ),
     ]
     known = {(limit.name, limit.value) for limit in first.limits}
@@ -165,6 +167,7 @@ def _overlaid(first: Plot, second: Plot, names: Names) -> Plot:
         dashes=f"Solid: {names[0]}; dashed or pale: {names[1]}.",
         curves=curves,
         time=time,
+        across=across,
         areas=areas,
         limits=[
             *first.limits,
@@ -173,13 +176,25 @@ def _overlaid(first: Plot, second: Plot, names: Names) -> Plot:
     )
 
 
-def _drawn(plot: Plot, curve: Curve, back: float, name: str = "") -> Curve:
-    """A curve at places of its own; the second motion's is dashed, its marks are pale."""
-    x = plot.places(curve) - back
-    if not name:
-        return replace(curve, x=x, dash="solid")
+def _second(plot: Plot, curve: Curve, name: str, alignment: Alignment | None) -> Curve:
+    """The second motion's curve at the first one's places: dashed, its marks are pale."""
+    x, y = plot.places(curve), curve.y
+    if alignment is not None:
+        breaks = alignment.gaps(x)
+        x, y = alignment.of_first(x), np.insert(np.asarray(y, dtype=float), breaks, np.nan)
+        x = np.insert(x, breaks, x[breaks])
+        known = np.isfinite(x)
+        x, y = x[known], y[known]
     colour = _paler(curve.colour) if curve.marks else curve.colour
-    return replace(curve, name=f"{curve.name}, {name}", x=x, dash="dash", colour=colour)
+    return replace(curve, name=f"{curve.name}, {name}", x=x, y=y, dash="dash", colour=colour)
+
+
+def _moved(corners: NDArray[np.float64], alignment: Alignment | None) -> NDArray[np.float64]:
+    """Corners of the second motion's area at the first one's places."""
+    if alignment is None:
+        return corners
+    x = alignment.of_first(corners[:, 0])
+    return np.column_stack([x, corners[:, 1]])[np.isfinite(x)]
 
 
 def _paler(colour: str) -> str:
@@ -194,10 +209,12 @@ def with_second(
     time: NDArray[np.float64],
     q: NDArray[np.float64],
     label: str,
+    alignment: Alignment | None = None,
 ) -> Scene:
-    """A scene with a second motion as its ghost, both from the same start.
+    """A scene with a second motion as its ghost.
 
-    The shorter one stands still at its end until the longer one has ended.
+    From the same start, the shorter one stands still at its end until the longer one has ended;
+    by phase, the ghost stands still where it has no like of the first one's phase.
 
     Args:
         scene: Of the first motion.
@@ -206,19 +223,23 @@ def with_second(
         time: Its sample times [s], shape ``(m,)``.
         q: Its configurations, shape ``(m, nq)``.
         label: What it is called, for the legend.
+        alignment: How their times go together; None for both from the same start.
     """
-    own = np.asarray(scene.time, dtype=float)
-    there = np.asarray(time, dtype=float) - time[0] + own[0]
+    own, time = np.asarray(scene.time, dtype=float), np.asarray(time, dtype=float)
+    alignment = by_time(own, time) if alignment is None else alignment
+    there = alignment.of_first(time)
     after = there[there > own[-1] + _APART]
-    if len(after):
+    if len(after) and not alignment.names:
         keep = np.linspace(0, len(after) - 1, min(len(after), MOST_AFTER)).round().astype(int)
         scene = _held(scene, after[keep])
     scene = replace(
         scene,
         title=f"{scene.title}, beside {label}",
-        description=f"{scene.description} A translucent robot shows {label}.",
+        description=f"{scene.description} A translucent robot shows {label}"
+        f"{', in the same phase' if alignment.names else ''}.",
     )
-    return with_ghost(scene, model, geometry, _between(model, there, q, scene.time), label)
+    when = alignment.of_second(np.asarray(scene.time, dtype=float))
+    return with_ghost(scene, model, geometry, _between(model, time, q, when), label)
 
 
 def _held(scene: Scene, after: NDArray[np.float64]) -> Scene:

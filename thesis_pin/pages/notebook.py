@@ -13,6 +13,11 @@ HEIGHT = 480
 MOST = 1_000_000
 """Numbers over time in a cell's page: 4 MB before they are packed, which notebooks keep."""
 
+UNTRUSTED = (
+    "A scene plays here once this notebook is trusted (command: Trust Notebook), or run again."
+)
+"""What is left of the frame where a notebook shows nothing that could run; browsers hide it."""
+
 
 def playing(document: Mapping[str, object], note: str = "") -> str:
     """A scene's page in a frame that may run scripts, and reach neither notebook nor network.
@@ -32,6 +37,7 @@ def playing(document: Mapping[str, object], note: str = "") -> str:
     ).decode()
     frame = (
         f"<iframe sandbox='allow-scripts' title='{escape(title)}' srcdoc='{escape(page)}' "
-        f"style='width:100%;height:{HEIGHT}px;border:1px solid rgba(128,128,128,.5)'></iframe>"
+        f"style='width:100%;height:{HEIGHT}px;border:1px solid rgba(128,128,128,.5)'>"
+        f"{UNTRUSTED}</iframe>"
     )
     return frame + f"<p style='margin:.3em 0'>{escape(note)}</p>" if note else frame

@@ -66,6 +66,20 @@ class Loads(Brief):
         bare = torque - armature * acceleration
         return cls(robot, motion, tuple(joints), time, bare, speed, acceleration, tuple(notes))
 
+    def part(self, joints: Sequence[int]) -> Loads:
+        """The same of some of the joints."""
+        some = list(joints)
+        return Loads(
+            self.robot,
+            self.motion,
+            tuple(self.joints[k] for k in some),
+            self.time,
+            self.torque[:, some],
+            self.speed[:, some],
+            self.acceleration[:, some],
+            self.notes,
+        )
+
     def with_rotor(self, armature: float) -> Array:
         """Torques of motors with such a rotor at each joint [N·m], shape ``(n, k)``."""
         return np.asarray(self.torque + armature * self.acceleration)

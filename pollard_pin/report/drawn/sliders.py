@@ -69,6 +69,10 @@ class ToolRig:
         branch = self.branches[choice]
         return self._if_reached(pose, choice, (pose, number), f"branch {branch} isn't taken")
 
+    def alone(self) -> str:
+        """See :class:`~thesis_pin.pages.live.rig.Rig`."""
+        return "its branches and margins are worked out by the command"
+
     def _known(self, state: Array) -> tuple[Array, int]:
         """Pose and branch of a state; where it makes no sense those of the start."""
         pose, number = state[:6], int(np.clip(state[6], 0, len(self.branches) - 1))

@@ -47,6 +47,18 @@ def test_where_there_is_room_a_table_is_a_table(monkeypatch):
     assert any(re.match(r" θ21 +-1234\.567 +12\.5 +0\.0001 +ok", line) for line in lines)
 
 
+def test_a_table_that_is_a_little_too_wide_is_drawn_together_before_it_is_stacked(monkeypatch):
+    ends = {}
+    for width in range(30, 81):
+        rows = said(monkeypatch, width).splitlines()
+        ends[width] = next((line for line in rows if line.startswith(" θ21")), None)
+    gaps = {len(line) - len("".join(line.split())) for line in ends.values() if line}
+    assert len(gaps) == 3  # three, two and one blanks between columns
+    assert ends[80] is not None
+    assert ends[30] is None
+    assert all(" -1234.567 " in line for line in ends.values() if line)
+
+
 def test_a_stacked_row_names_each_number(monkeypatch):
     text = said(monkeypatch, 24)
     assert "joint θ21\n" in re.sub(" +\n", "\n", text)

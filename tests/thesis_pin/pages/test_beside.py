@@ -7,7 +7,8 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from thesis_pin.pages.beside import MOST_CURVES, aligned, overlaid, side_by_side, with_second
+from thesis_pin.pages.alignment import by_time
+from thesis_pin.pages.beside import MOST_CURVES, overlaid, side_by_side, with_second
 from thesis_pin.pages.page import Tile
 from thesis_pin.pages.scene import Ball, Group, Readout, Scene
 from thesis_pin.report.curves import Area, Curve, Limit, Plot
@@ -58,7 +59,7 @@ def test_many_curves_are_parted_among_plots_that_show_each_once():
     ],
 )
 def test_it_is_said_which_motion_ends_first(durations, said):
-    assert said in aligned(NAMES, durations)
+    assert said in by_time(EARLY, LATE).said(NAMES, durations)
 
 
 def test_numbers_stand_side_by_side_by_what_they_are():

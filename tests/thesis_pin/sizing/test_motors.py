@@ -88,3 +88,29 @@ def test_more_motors_than_freedoms_are_said():
     sizing = thesis_pin.size_motors(report, Catalogue((SERVO,)))
     assert len(sizing.loads.joints) == 3
     assert any("more motors than freedoms" in note for note in sizing.notes())
+
+
+def test_the_smallest_motors_are_what_torques_of_a_robot_with_them_use_wholly():
+    joint = "{left_joint: 0.02, right_joint: 0.02}"
+    own = report_of(five_bar(f"thesis_pin: {{armature: {joint}}}\n"))
+    bare = report_of(five_bar())
+    family = thesis_pin.motor_family(bare, speed=12.0, armature=0.02, bound="line")
+    (case,) = thesis_pin.smallest_motors(bare, family).cases
+    use = np.abs(own.dynamics.torque) / case.once + np.abs(own.speed) / 12.0
+    np.testing.assert_allclose(use.max(axis=0), 1.0, rtol=1e-6)
+    long = np.sqrt(np.trapezoid(own.dynamics.torque**2, own.joints.time, axis=0) / 1.0) / 0.5
+    np.testing.assert_allclose(case.long, np.maximum(case.once, long), rtol=1e-6)
+    (alike,) = thesis_pin.smallest_motors(bare, family, per="robot").cases
+    np.testing.assert_allclose(alike.once, case.once.max())
+
+
+def test_motors_of_any_size_have_the_description_s_speeds_and_rotors():
+    robot = five_bar("thesis_pin: {armature: {left_joint: 0.003}}\n")
+    report = report_of(robot)
+    family = thesis_pin.motor_family(report)
+    np.testing.assert_allclose(family.armature, [0.003, 0.0])
+    limits = robot.model.velocityLimit[robot.actuated]
+    known = np.isfinite(limits) & (limits > 0) & (limits < 1e6)
+    np.testing.assert_allclose(family.speed, np.where(known, limits, np.inf))
+    (case,) = thesis_pin.smallest_motors(report).cases
+    np.testing.assert_allclose(case.once, report.actuators.peak_torque, rtol=1e-9)

@@ -82,21 +82,6 @@ LISTS = "lists of servos: CSV, TOML, or parameter files of Rhoban's bam (.json)"
 """What a list of servos may be, for help."""
 
 
-def add_sizing(words: Words) -> None:
-    """How lists of servos are held against a motion."""
-    voltage = "take those for this voltage (default: all)"
-    add_number(words, "--voltage", "V", voltage, positive=True)
-    factor = "least safety factor against the torque-speed line"
-    add_number(words, "--factor", "FACTOR", factor, positive=True, default=1.0)
-    words.add_argument("--out", metavar="DIR", help="write report.json and sizes.csv")
-    add_json(words, "the answer")
-    words.add_argument(
-        "--strict",
-        action="store_true",
-        help="exit with 1 if some joint has no servo that carries it for long",
-    )
-
-
 def add_json(words: Words, what: str) -> None:
     """Write ``what`` as JSON."""
     words.add_argument("--json", metavar="FILE|-", help=f"write {what} as JSON")

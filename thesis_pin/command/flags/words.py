@@ -71,9 +71,8 @@ _TABLES = (".csv", ".tsv", ".txt", ".dat")
 
 def which_list(words: Words) -> None:
     """Which servos."""
-    words.add_argument(
-        "--list", dest="servos", nargs="+", required=True, metavar="LIST", help=LISTS
-    )
+    text = f"{LISTS} (default: motors of any size)"
+    words.add_argument("--list", dest="servos", nargs="+", metavar="LIST", help=text)
 
 
 def which_grid(words: Words) -> None:

@@ -5,16 +5,19 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict
 
 from thesis_pin.command.registry import Robot, Words, found
 from thesis_pin.command.results import Report
+from thesis_pin.errors import BadInput
 from thesis_pin.report.tables import Part
 
 if TYPE_CHECKING:  # help has to be quick
     import numpy as np
     from numpy.typing import NDArray
 
+    from thesis_pin.pages.alignment import Alignment
     from thesis_pin.pages.scene import Scene
 
 
@@ -28,6 +31,8 @@ class Hooks(NamedTuple):
         scene: The report as a scene.
         figures: Its files.
         table: Its tables and paragraphs.
+        phases: What has its like in other motions, as
+            :class:`thesis_pin.pages.alignment.Phase`; empty if nothing has.
     """
 
     page: str
@@ -36,6 +41,7 @@ class Hooks(NamedTuple):
     scene: str
     figures: str
     table: str
+    phases: str = ""
 
 
 ANY = Hooks(
@@ -58,6 +64,7 @@ def hooks_of(robot: Robot) -> Hooks:
         robot.scene,
         robot.figures,
         robot.table,
+        "report.drawn.phases:phases",
     )
     return Hooks(*(robot.name_of(name) for name in names))
 
@@ -81,9 +88,26 @@ def add_beside_robot(words: Words) -> None:
     )
 
 
+def add_align(words: Words) -> None:
+    """The option that says how two motions' times go together."""
+    words.add_argument(
+        "--align",
+        choices=("time", "phase"),
+        help="a motion beside: from the same start (time, the default), or in the same phase of "
+        "steps or share of the path (phase)",
+    )
+
+
 def asked(arguments: argparse.Namespace) -> bool:
-    """Whether something is to be shown beside the first motion."""
-    return any(getattr(arguments, name, None) is not None for name in ("beside", "beside_robot"))
+    """Whether something is to be shown beside the first motion.
+
+    Raises:
+        BadInput: Nothing is, and it is said how.
+    """
+    beside = any(getattr(arguments, name, None) is not None for name in ("beside", "beside_robot"))
+    if getattr(arguments, "align", None) is not None and not beside:
+        raise BadInput("--align belongs to --beside", remedy="Add --beside FILE, or leave it out")
+    return beside
 
 
 def second_of(arguments: argparse.Namespace, motion: str) -> argparse.Namespace:
@@ -125,12 +149,14 @@ class Beside:
         hooks: Where their parts are.
         first, second: The reports.
         names: What they are called.
+        alignment: How their times go together.
     """
 
     hooks: Hooks
     first: Report
     second: Report
     names: tuple[str, str]
+    alignment: Alignment
 
     @property
     def within_limits(self) -> bool | None:
@@ -163,7 +189,7 @@ class Beside:
 
     def document(self) -> Mapping[str, object]:
         """The first one's, with the second one's in it."""
-        second = {"names": list(self.names), "aligned": "from the start"}
+        second = {"names": list(self.names), **self.alignment.document()}
         return {
             **self.first.document(),
             "beside": second | {"report": self.second.document()},
@@ -174,15 +200,40 @@ class Beside:
         return self.first.columns()
 
 
-def reports(hooks: Hooks, first: Report, second: Report) -> Beside:
-    """Two reports side by side, called by their motions, else by their robots."""
+def reports(
+    hooks: Hooks,
+    first: Report,
+    second: Report,
+    align: str | None = None,
+    files: tuple[str | None, str | None] = (None, None),
+) -> Beside:
+    """Two reports side by side, called by their motions, else their robots, else their files.
+
+    Args:
+        hooks: Where their parts are.
+        first: The first one.
+        second: The second one.
+        align: ``phase``, or from the same start.
+        files: Of the motions, where they have any.
+
+    Raises:
+        BadInput: They have no phases in common.
+    """
+    from thesis_pin.pages.alignment import by_phase, by_time
+
+    if align == "phase":
+        alignment = by_phase(*(_of(hooks.phases)(one) for one in (first, second)))
+    else:
+        alignment = by_time(*(_of(hooks.poses)(one)[2] for one in (first, second)))
     told = [one.parameters for one in (first, second)]  # type: ignore[attr-defined]
     motions = [next(str(p[k]) for k in ("gait", "path", "motion") if k in p) for p in told]
     robots = [str(p["robot"]) for p in told]
     names = motions if motions[0] != motions[1] else robots
+    if names[0] == names[1] and all(files):
+        names = [Path(str(file)).name for file in files]
     if names[0] == names[1]:
         names = [names[0], f"{names[1]}, second"]
-    return Beside(hooks, first, second, (names[0], names[1]))
+    return Beside(hooks, first, second, (names[0], names[1]), alignment)
 
 
 def scene_of(both: Beside) -> Scene:
@@ -191,7 +242,7 @@ def scene_of(both: Beside) -> Scene:
 
     drawn = _of(both.hooks.scene)(both.first)
     model, geometry, time, q = _of(both.hooks.poses)(both.second)
-    return with_second(drawn, model, geometry, time, q, both.names[1])
+    return with_second(drawn, model, geometry, time, q, both.names[1], both.alignment)
 
 
 def page(both: Beside) -> bytes:
@@ -203,7 +254,7 @@ def page(both: Beside) -> bytes:
 
     first, second = (_of(both.hooks.page)(one) for one in (both.first, both.second))
     first = replace(first, scene=scene_of(both))
-    return html(beside_page(first, second, both.names, both.durations))
+    return html(beside_page(first, second, both.names, both.durations, both.alignment))
 
 
 def figures(both: Beside) -> dict[str, bytes]:
@@ -218,14 +269,14 @@ def figures(both: Beside) -> dict[str, bytes]:
 
 def summary(both: Beside) -> list[Part]:
     """What is told of the first, then verdicts and worst numbers of both side by side."""
-    from thesis_pin.pages.beside import aligned, side_by_side
+    from thesis_pin.pages.beside import side_by_side
 
     first, second = (_of(both.hooks.tiles)(one) for one in (both.first, both.second))
     good = (both.first.within_limits, both.second.within_limits)
     return [
         *_of(both.hooks.table)(both.first),
         side_by_side(good, (first, second), both.names, both.durations),
-        aligned(both.names, both.durations),
+        both.alignment.said(both.names, both.durations),
     ]
 
 

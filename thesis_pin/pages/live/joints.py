@@ -14,6 +14,8 @@ from thesis_pin.loops.joints import is_free
 from thesis_pin.loops.moving.coordinates import Coordinate, coordinates
 from thesis_pin.loops.moving.moving import Moved, move, ways
 from thesis_pin.model.loading import LoadedRobot
+from thesis_pin.model.mechanism.supplement import Coupling
+from thesis_pin.pages.live.alone import Tree, tree
 from thesis_pin.pages.live.rig import Slider, Stand
 from thesis_pin.tolerances import TOLERANCES
 
@@ -104,6 +106,15 @@ class JointRig:
     def chosen(self, state: Array, choice: int) -> Stand:
         """There is nothing to choose."""
         return self._stand(np.asarray(pin.normalize(self.robot.model, state)))
+
+    def alone(self) -> Tree | str:
+        """See :class:`~thesis_pin.pages.live.rig.Rig`; a robot whose loops close has to ask."""
+        robot, couplings = self.robot, list[Coupling]()
+        if isinstance(robot, ClosedRobot) and not self._open_because:
+            if robot.loops:
+                return "its loops are kept closed by the command"
+            couplings = list(robot.couplings)
+        return tree(robot.model, self._coordinates, couplings)
 
     def _stand(self, q: Array, notes: tuple[str, ...] = ()) -> Stand:
         marks, levels = [], dict[int, int]()

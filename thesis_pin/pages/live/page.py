@@ -17,6 +17,7 @@ from thesis_pin.loops.checking.poses import pose_text
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.numeric.checks import instance
 from thesis_pin.pages import player
+from thesis_pin.pages.live.alone import hooks
 from thesis_pin.pages.live.hung import Places, items, samples
 from thesis_pin.pages.live.layers import Layers
 from thesis_pin.pages.live.rig import Rig, Stand
@@ -78,7 +79,7 @@ class LivePage:
         return items(self.layers.hung, places, stand.levels)
 
     def html(self, *, served: bool = False, meshcat: str = "") -> bytes:
-        """The page; not served, it shows the robot where it stands, and how to move it.
+        """The page; not served, it moves a robot without loops by itself, and shows another.
 
         Args:
             served: Whether a server answers it.
@@ -103,6 +104,12 @@ class LivePage:
             "command": self._command,
             "stand": self.document(stand),
         }
+        if not served:
+            alone = self.rig.alone()
+            known = isinstance(alone, str)
+            document |= (
+                {"why": alone} if known else {"tree": alone, "hooks": hooks(self.layers.hung)}
+            )
         text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
         return player.render(
             "live.html",
@@ -112,7 +119,7 @@ class LivePage:
             frames=_origin(meshcat),
             unpack=player.web_file("unpack.js"),
             live=player.packed(text),
-            script=player.web_file("live.js"),
+            script=player.web_file("tree.js") + player.web_file("live.js"),
             style=player.web_file("live.css"),
             served=served,
         )

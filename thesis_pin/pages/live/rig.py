@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.model.loading import LoadedRobot
+from thesis_pin.pages.live.alone import Tree
 
 Array = NDArray[np.float64]
 
@@ -95,3 +96,6 @@ class Rig(Protocol):
 
     def chosen(self, state: Array, choice: int) -> Stand:
         """Where it stands with another choice."""
+
+    def alone(self) -> Tree | str:
+        """What a page needs that moves it without asking; or why none can, in words."""

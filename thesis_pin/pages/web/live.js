@@ -1,5 +1,6 @@
 "use strict";
-// Sliders that move a robot (thesis_pin/pages/live): where everything goes is worked out by the server.
+// Sliders that move a robot (thesis_pin/pages/live): where everything goes is worked out by the
+// server, or in a page without one by tree.js, if the robot has no loops.
 
 function makeLive(panel, live, player, served) {
   const make = (tag, more, ...children) => {
@@ -8,6 +9,7 @@ function makeLive(panel, live, player, served) {
     return element;
   };
   let stand = live.stand, dragged = null, busy = false, next = null;
+  const tree = live.tree ? makeTree(live.tree, live.hooks) : null, moves = served || tree !== null;
 
   // -- what there is to see
   const shown = (k, value = stand.values[k]) =>
@@ -58,6 +60,7 @@ function makeLive(panel, live, player, served) {
 
   // -- asking: one question at a time, of the last value alone
   async function ask(question) {
+    if (tree) { answer(question); return; }
     if (busy) { next = question; return; }
     busy = true;
     try {
@@ -78,6 +81,15 @@ function makeLive(panel, live, player, served) {
     fill();
     made.answers += 1;
     if (next) { const question = next; next = null; ask(question); }
+  }
+  // Without a server the page works out where a robot without loops goes.
+  function answer(question) {
+    const { slider: k, value } = question, ends = live.sliders[k];
+    stand = "first" in question ? live.stand
+      : tree.moved(stand, k, Math.min(ends.high, Math.max(ends.low, value)));
+    draw();
+    fill();
+    made.answers += 1;
   }
   const move = (k, value) => ask({ slider: k, value });
 
@@ -127,7 +139,7 @@ function makeLive(panel, live, player, served) {
       ...live.choices.map((text, k) => make("option", { value: String(k), textContent: text })));
     choice.addEventListener("change", () => ask({ choice: Number(choice.value) }));
   }
-  if (served) {
+  if (moves) {
     const first = make("button", { type: "button", textContent: "Back to the start" });
     first.addEventListener("click", () => ask({ first: true }));
     buttons.prepend(first, " ");
@@ -135,10 +147,11 @@ function makeLive(panel, live, player, served) {
 
   // -- the panel
   panel.append(make("h1", { textContent: player.title, style: "font-size: 16px; margin: 4px 0" }), status);
-  if (!served) {
+  if (!served && (!moves || stand.readouts.length)) {
     status.remove();
-    panel.append(make("p", {}, "A page in a file shows one pose. With sliders: ",
-      make("code", { textContent: live.command })), status);
+    panel.append(make("p", {}, moves ? "Values of other poses than the first are said by "
+      : `A page in a file shows one pose: ${live.why}. With sliders: `,
+    make("code", { textContent: live.command })), status);
   }
   panel.append(buttons);
   if (choice) panel.append(make("p", {}, make("label", { htmlFor: "choice", textContent: "branch " }), choice));
@@ -147,7 +160,7 @@ function makeLive(panel, live, player, served) {
   for (const heading of headings) {
     if (heading) panel.append(make("h2", { textContent: heading }));
     const some = rows.filter((row) => row.slider.group === heading);
-    if (served) {
+    if (moves) {
       for (const { slider, range, number, mark, id } of some) {
         const unit = slider.unit ? ` ${slider.unit}` : "", f = slider.factor;
         const end = (value) => `${+(value * f).toFixed(1)}${unit}`;

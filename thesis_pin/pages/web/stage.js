@@ -13,8 +13,9 @@ function makeStage(THREE, element, scene) {
   const world = new THREE.Scene();
   world.background = new THREE.Color(0xf4f6f8);  // not encoded again
   const stage = { world, camera, controls, renderer, viewer, dirty: true, middle: null, size: 1,
-    box: null, open: 1 };
+    box: null, open: 1, view: null };  // view: by name, until a hand turns it
   controls.addEventListener("change", () => { stage.dirty = true; });
+  controls.addEventListener("start", () => { stage.view = null; });
 
   stage.frame = (box) => {
     stage.box = box;
@@ -72,6 +73,7 @@ function makeStage(THREE, element, scene) {
   }
 
   stage.look = (name) => {
+    stage.view = name;
     if (name === "3d" && scene.camera) {
       camera.position.fromArray(scene.camera[0]);
       controls.target.fromArray(scene.camera[1]);
@@ -101,11 +103,12 @@ function makeStage(THREE, element, scene) {
     camera.setViewOffset(width, height, -covered / 2, 0, width, height);
     renderer.setSize(width, height);
     stage.dirty = true;
+    if (stage.view) stage.look(stage.view);  // what opened in a sliver of a window is far away
   };
   // Draw some moments, seen as at first, in a size of their own, and leave all as it was.
   stage.pictures = (width, height, times, clock, take) => {
     const place = camera.position.clone(), target = controls.target.clone(), now = clock.time;
-    const ratio = renderer.getPixelRatio();
+    const view = stage.view, ratio = renderer.getPixelRatio();
     renderer.setPixelRatio(1);
     renderer.setSize(width, height, false);
     camera.aspect = width / height;
@@ -118,6 +121,7 @@ function makeStage(THREE, element, scene) {
       take(renderer.domElement, k);
     });
     clock.time = now;
+    stage.view = view;
     camera.position.copy(place);
     controls.target.copy(target);
     controls.update();

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +18,7 @@ from thesis_pin.command.flags.drawn_as import figure_style
 from thesis_pin.command.flags.options import refuse_beside
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.results import Answer, give, put, write_results
+from thesis_pin.command.results import Answer, give, write_results
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.showing.words import refuse_set, shown_by
 from thesis_pin.command.simulating import tried
@@ -214,91 +215,22 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
 
 def place(arguments: argparse.Namespace) -> ExitCode:
     """Judge placements of a path, and report on the best."""
-    refuse_beside(arguments, "any-branch", ("branch",))
-    style = figure_style(arguments)
-    from pollard_pin.motion.placing import Placement
-    from pollard_pin.study.placement import document as written
-    from pollard_pin.study.placement.limits import with_limits
-    from pollard_pin.study.placement.search import evaluate_placements
-    from pollard_pin.study.placement.telling import told
-    from thesis_pin.report.writers import csv_bytes, json_bytes
+    from pollard_pin.verbs.placed import place as placed
 
-    files: dict[str, bytes] = {}
-    page, report = b"", None
-    with Bar("judging placements") as bar:
-        robot = load(arguments.specification, inertia=arguments.inertia)
-        robot = with_limits(robot, arguments.torque, arguments.speed)
-        path, _ = _curve(arguments, robot.specification, (0.0, 0.0, 0.0))
-        now = (0.0, 0.0, 0.0)
-        if arguments.path is None:
-            now = robot.specification.assumptions.placement.position
-        branch = _branch(arguments)
-        space = evaluate_placements(
-            robot,
-            path,
-            **_ranges(arguments, now),
-            mirrored=_IMAGES[arguments.mirror],
-            branch="useful" if arguments.any_branch else branch,
-            objective=arguments.objective,
-            condition=arguments.condition,
-            samples=arguments.samples,
-            refine=not arguments.grid_only,
-            best=arguments.best,
-            start=Placement(now),
-            start_branch=branch,
-            progress=bar,
-        )
-        if space.best:
-            from pollard_pin.report.document import trajectory_report
-
-            report = trajectory_report(robot, space.best_path, branch=space.best[0].branch)
-        wanted = arguments.json or arguments.out
-        content = json_bytes(written.document(space, report)) if wanted else b""
-        if arguments.out:
-            files = {
-                "placements.csv": csv_bytes(written.columns(space)),
-                "placements.json": content,
-            }
-            if report is not None:
-                from pollard_pin.motion.writing import path_toml
-
-                files["path.toml"] = path_toml(path.name, report.motion).encode()
-            from pollard_pin.study.placement.figures import placements_files
-            from thesis_pin.report.plotting.wanted import written_as
-
-            with written_as(style):
-                files |= placements_files(space)
-        if arguments.html:
-            from pollard_pin.study.placement.page import placements_page
-
-            page = placements_page(space, report)
-    write_results(arguments, files, content)
-    if arguments.html:
-        put(arguments.html, page)
-    if free(arguments):
-        print_parts(told(space, report))
-    return ExitCode.DONE if space.best else ExitCode.NO
+    return placed(arguments, _branch(arguments), partial(_curve, arguments))
 
 
-_IMAGES: dict[str, tuple[bool, ...]] = {"no": (False,), "yes": (True,), "both": (False, True)}
-_BOX = {"x": (0.15, 7), "y": (0.1, 5), "z": (0.15, 7)}
-"""Half a box [m] and its values, about where a path stands."""
+def accuracy(arguments: argparse.Namespace) -> ExitCode:
+    """How errors of the robot's numbers reach the spray tip, on a path or over a grid."""
+    from pollard_pin.verbs.studied import accuracy as studied
 
+    def axes(usual: dict[str, list[float]], points: int) -> dict[str, np.ndarray]:
+        return {
+            name: _axis(name, getattr(arguments, name) or ends, points)
+            for name, ends in usual.items()
+        }
 
-def _ranges(arguments: argparse.Namespace, now: Sequence[float]) -> dict[str, np.ndarray]:
-    """Values of x, y, z [m] and of the turn [rad]."""
-    given = {name: getattr(arguments, name) for name in "xyz"}
-    found: dict[str, np.ndarray] = {}
-    for (name, (half, points)), here in zip(_BOX.items(), now, strict=True):
-        if given[name] is not None:
-            found[name] = given[name].values(arguments.points)
-        elif any(one is not None for one in given.values()) or arguments.turn is not None:
-            found[name] = np.array([here])
-        else:
-            found[name] = np.round(np.linspace(here - half, here + half, points), 12)
-    turn = arguments.turn
-    found["turn"] = np.radians([0.0] if turn is None else turn.values(arguments.points))
-    return found
+    return studied(arguments, _branch(arguments), partial(_path, arguments), axes)
 
 
 def _axis(name: str, ends: list[float], points: int) -> np.ndarray:

@@ -6,9 +6,11 @@ import argparse
 from collections.abc import Sequence
 from functools import partial
 
+from pollard_pin.cli.accuracy import which_tolerances
+from pollard_pin.cli.placement import which_places
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
-from thesis_pin.command.flags.numbers import add_count, add_number, number
+from thesis_pin.command.flags.numbers import add_number, number
 from thesis_pin.command.flags.options import (
     add_branch,
     add_euler,
@@ -18,7 +20,6 @@ from thesis_pin.command.flags.options import (
     add_robot,
     add_smooth,
 )
-from thesis_pin.command.flags.ranges import add_range
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
 
 
@@ -55,6 +56,10 @@ def _which_path(words: argparse.ArgumentParser) -> None:
         action="store_true",
         help="the path's mirror image, y about its middle, as a left door's is to a right one's",
     )
+
+
+def _which_path_and_motors(words: argparse.ArgumentParser) -> None:
+    _which_path(words)
     words.add_argument(
         "--actuators",
         choices=("six", "three"),
@@ -102,60 +107,6 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
     add_figures(words)
 
 
-def _which_places(words: argparse.ArgumentParser) -> None:
-    words.add_argument(
-        "--for",
-        dest="objective",
-        choices=("torque", "conditioning", "time", "clearance"),
-        default="torque",
-        help="what is to be best: least peak torque (share of each motor's limit), least condition "
-        "number, shortest time within the motors' limits, or most clearance from singularities "
-        "(default: torque)",
-    )
-    for axis, default in (("x", "7 within ±0.15 m"), ("y", "5 within ±0.1 m"), ("z", "as x")):
-        text = f"what is added to the path's {axis} [m]: one value, FROM:TO, FROM:TO:STEP or a list"
-        text += f" (default: {default} of where it stands; where it stands if another is given)"
-        add_range(words, f"--{axis}", "RANGE", text)
-    turn = "turns about the vertical through the path's middle [°], likewise (default: none)"
-    add_range(words, "--turn", "RANGE", turn)
-    words.add_argument(
-        "--mirror",
-        nargs="?",
-        const="yes",
-        choices=("no", "yes", "both"),
-        default="no",
-        help="the path's mirror image: not, instead, or as well (default: no)",
-    )
-    add_count(words, "--points", "values of a range without a step", least=2, default=7)
-    _branch(words, default="this one")
-    words.add_argument(
-        "--any-branch",
-        action="store_true",
-        help="try all 16 branches with f0 f1 f2 at +",
-    )
-    torque = "limits of the motors' torque: one number, or six (default: the specification's)"
-    add_number(words, "--torque", "N·m", torque, positive=True, nargs="+")
-    speed = "the same of their speed"
-    add_number(words, "--speed", "rad/s", speed, positive=True, nargs="+")
-    condition = "largest condition number of the six motors that is allowed (default: any)"
-    add_number(words, "--condition", "NUMBER", condition, within=(1.0, 1e6))
-    samples = "evenly spaced samples at which the grid is judged; the best are at 2001"
-    add_count(words, "--samples", samples, least=2, default=401)
-    add_count(words, "--best", "placements that are told", least=1, most=1000, default=10)
-    words.add_argument(
-        "--grid-only", action="store_true", help="try nothing between the grid's values"
-    )
-    words.add_argument(
-        "--out",
-        metavar="DIR",
-        help="write placements.csv, .json, figures and the best as path.toml",
-    )
-    add_figures(words)
-    words.add_argument(
-        "--html", metavar="FILE|-", help="write a page to mail: the robot at the best, map, table"
-    )
-
-
 def _which_engine(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--engine",
@@ -184,7 +135,7 @@ _robot = partial(add_robot, another="another three-chain robot")
 ROBOT = Robot(
     package="pollard_pin",
     another="another three-chain robot",
-    motion=_which_path,
+    motion=_which_path_and_motors,
     report="report.document:trajectory_report",
     page="report.drawn.page:trajectory_page",
     scene="report.drawn.view:path_scene",
@@ -210,10 +161,13 @@ COMMAND = Command(
         ),
         common.size_verb(
             ROBOT,
-            "which motors of a list carry this path?",
-            "Motors of a list held against what a path asks of each joint: safety factor, RMS.",
+            "which motors carry this path: of a list, or the smallest of any size?",
+            "Motors of a list held against what a path asks of each joint: safety factor, RMS; "
+            "without a list the smallest that would do, its time as it is and left free.",
             "size examples/servos.csv --path examples/spray_arch.toml",
             samples=2001,
+            per=("group", "joint", "robot"),
+            bounds="box",
         ),
         common.simulate_verb(
             ROBOT,
@@ -268,7 +222,24 @@ COMMAND = Command(
             "place --path examples/spray_arch.toml --x -0.05:0.05:0.05 --z 0:0.2:0.05",
             "pollard_pin.study.placement.search:evaluate_placements",
             "pollard_pin.verbs:place",
-            (_robot, _which_curve, _which_places, partial(add_json, what="the placements")),
+            (
+                _robot,
+                partial(_branch, default="this one"),
+                _which_curve,
+                which_places,
+                partial(add_json, what="the placements"),
+            ),
+        ),
+        Verb(
+            "accuracy",
+            "how far off is the spray tip if lengths, angles and motors are?",
+            "Errors of lengths, angles, play and motors at the spray tip, along a path or over the "
+            "workspace: at worst, by root sum square, of drawn robots; and which matter most.",
+            "accuracy --path examples/spray_arch.toml --tolerances examples/tolerances.toml "
+            "--within 1mm",
+            "pollard_pin.study.accuracy.study:path_accuracy",
+            "pollard_pin.verbs:accuracy",
+            (_robot, _which_path, which_tolerances),
         ),
         common.info_verb(ROBOT, "info --inertia printed"),
         common.urdf_verb(

@@ -1,0 +1,1 @@
+"""``size``: which servos of a list carry a motion, and the smallest that there could be."""
