@@ -95,7 +95,6 @@ NUMBERS = {
     "--within": {"2.5"},
     "--walk": {"2.5"},
     "--factor": {"2.5"},
-    "--within": set(),
     "--precision": {"0"},
     "--points": set(),
     "--length": {"2.5"},

@@ -102,6 +102,8 @@ def test_the_same_flag_has_the_same_words_in_all_commands():
     assert {form[:3] for form in html} == {("FILE|-", "None", None)}
     at = various.pop("--at")
     assert {form[0] for form in at} == {"SECONDS", "('NAME', 'VALUE')"}  # of a picture, of a map
+    within = various.pop("--within")
+    assert {form[0] for form in within} == {"SECONDS", "LENGTH"}  # of a motion, of the tool
     assert various == {}
 
 
