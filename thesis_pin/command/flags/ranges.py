@@ -7,13 +7,15 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from thesis_pin.command.registry import Words
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import shown
+
+if TYPE_CHECKING:  # help has to be quick
+    import numpy as np
+    from numpy.typing import NDArray
 
 MOST = 1_000_000
 """Values of a range."""
@@ -42,6 +44,8 @@ class Range:
         Args:
             points: How many, where only from and to are given.
         """
+        import numpy as np
+
         if self.listed or len(self.numbers) == 1:
             return np.array(self.numbers)
         low, high = self.numbers
