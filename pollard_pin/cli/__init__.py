@@ -107,6 +107,10 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
     add_figures(words)
 
 
+def _which_judge(words: argparse.ArgumentParser) -> None:
+    """Who judges a design instead of its path's report: nobody else so far."""
+
+
 def _which_engine(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--engine",
@@ -143,6 +147,7 @@ ROBOT = Robot(
     simulation="study.simulate.draws:simulate_path",
     inverse_kinematics="model:Pollard.inverse_kinematics",
     motion_flag="path",
+    sweep="study.sweeping.making:path_study",
 )
 
 COMMAND = Command(
@@ -168,6 +173,16 @@ COMMAND = Command(
             samples=2001,
             per=("group", "joint", "robot"),
             bounds="box",
+        ),
+        common.sweep_verb(
+            ROBOT,
+            "which lengths and motors would do better?",
+            "Thousands of robots, each judged by the report on a path: the best, the Pareto "
+            "front, the one nearest to a wish.",
+            "sweep --path examples/spray_arch.toml --vary 'chain_*.x_43=90%:110%:3' "
+            "--vary chain_0.x_32=0.3,0.33 --samples 101 --jobs 1",
+            samples=2001,
+            judges=_which_judge,
         ),
         common.simulate_verb(
             ROBOT,

@@ -30,6 +30,7 @@ SEEN = {
     "convert": set(),
     "size": {"--out"},
     "simulate": {"--out", "--html"},
+    "sweep": {"--out", "--html"},
     "ik": set(),
     "fk": set(),
     "info": {"--html"},
