@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from pollard_pin.cli.accuracy import which_tolerances
+from pollard_pin.cli.placement import which_places
 from pollard_pin.cli.sweeps import which_judge
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
@@ -225,6 +226,21 @@ COMMAND = Command(
             "pollard_pin.study.workspace:evaluate_workspace",
             "pollard_pin.verbs:workspace",
             (_robot, _which_grid, partial(add_json, what="the reachable positions")),
+        ),
+        Verb(
+            "place",
+            "where a part should stand, turned or mirrored, on which branch",
+            "Judge a grid of placements of a path, refine the best, and report on it.",
+            "place --path examples/spray_arch.toml --x -0.05:0.05:0.05 --z 0:0.2:0.05",
+            "pollard_pin.study.placement.search:evaluate_placements",
+            "pollard_pin.verbs:place",
+            (
+                _robot,
+                partial(_branch, default="this one"),
+                _which_curve,
+                which_places,
+                partial(add_json, what="the placements"),
+            ),
         ),
         Verb(
             "accuracy",
