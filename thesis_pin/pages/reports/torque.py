@@ -36,6 +36,7 @@ def page_of(report: TorqueReport) -> Page:
         verdict=[
             *report.doubts(),
             *report.verdict(),
+            *(f"{note}." for note in report.notes()),
             *without_folder(report.robot, report.warnings()),
         ],
         tiles=tiles(report),
