@@ -7,8 +7,8 @@ import pinocchio as pin
 from thesis_pin.loops.closures import ClosedRobot
 
 HELD = (
-    "The world holds {link}, as the file says, so none of the {count} limbs on it bears its weight; "
-    "of a robot on its feet see thesis-pin balance, of one that flies --free-flyer"
+    "The world holds {link}, as the file says, so none of the {count} limbs on it bears its "
+    "weight; of a robot on its feet see thesis-pin balance, of one that flies --free-flyer"
 )
 
 

@@ -52,7 +52,7 @@ def swing(joint, start=0.0, size=0.4, speed=3.0):
 
 
 def test_limbs_on_a_body_that_the_world_holds_are_told():
-    """Legs of a robot that hangs by its body bear none of its weight: a number for nobody's walk."""
+    """Legs of a robot that hangs by its body bear none of its weight: no walk is like that."""
     body = '<link name="body"><inertial><mass value="5"/><inertia ixx="1" iyy="1" izz="1" '
     body += 'ixy="0" ixz="0" iyz="0"/></inertial></link>'
     leg = ARM.format(kind="revolute", axis="-1 0", effort=20, velocity=10)
