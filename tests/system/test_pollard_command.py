@@ -93,7 +93,10 @@ def test_figures_are_chosen_by_the_thesis_numbers_or_by_name(pollard_pin, tmp_pa
     assert not (tmp_path / "no").exists()
 
 
-VERBS = ("trajectory", "view", "ik", "fk", "workspace", "accuracy", "info", "urdf", "audit")
+VERBS = (
+    *("trajectory", "view", "ik", "fk", "workspace", "place", "accuracy"),
+    *("info", "urdf", "audit"),
+)
 
 
 @pytest.mark.parametrize("verb", VERBS)
