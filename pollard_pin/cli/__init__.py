@@ -8,6 +8,8 @@ from functools import partial
 
 from pollard_pin.cli.accuracy import which_tolerances
 from pollard_pin.cli.timing import which_geometry, which_law
+from pollard_pin.cli.placement import which_places
+from pollard_pin.cli.sweeps import which_judge
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_number, number
@@ -153,6 +155,7 @@ ROBOT = Robot(
     simulation="study.simulate.draws:simulate_path",
     inverse_kinematics="model:Pollard.inverse_kinematics",
     motion_flag="path",
+    sweep="study.sweeping.making:path_study",
 )
 
 COMMAND = Command(
@@ -189,6 +192,16 @@ COMMAND = Command(
             samples=2001,
             per=("group", "joint", "robot"),
             bounds="box",
+        ),
+        common.sweep_verb(
+            ROBOT,
+            "which lengths and motors would do better?",
+            "Thousands of robots, each judged by the report on a path or by the law of motion that "
+            "its motors allow: the best, the Pareto front, the one nearest to a wish.",
+            "sweep --path examples/spray_arch.toml --vary 'chain_*.x_43=90%:110%:3' "
+            "--vary chain_0.x_32=0.3,0.33 --samples 101 --jobs 1",
+            samples=2001,
+            judges=which_judge,
         ),
         common.simulate_verb(
             ROBOT,
@@ -235,6 +248,21 @@ COMMAND = Command(
             "pollard_pin.study.workspace:evaluate_workspace",
             "pollard_pin.verbs:workspace",
             (_robot, _which_grid, partial(add_json, what="the reachable positions")),
+        ),
+        Verb(
+            "place",
+            "where a part should stand, turned or mirrored, on which branch",
+            "Judge a grid of placements of a path, refine the best, and report on it.",
+            "place --path examples/spray_arch.toml --x -0.05:0.05:0.05 --z 0:0.2:0.05",
+            "pollard_pin.study.placement.search:evaluate_placements",
+            "pollard_pin.verbs:place",
+            (
+                _robot,
+                partial(_branch, default="this one"),
+                _which_curve,
+                which_places,
+                partial(add_json, what="the placements"),
+            ),
         ),
         Verb(
             "accuracy",

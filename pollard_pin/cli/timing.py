@@ -73,7 +73,7 @@ def which_law(words: argparse.ArgumentParser) -> None:
         help="which of the list: one name, or six in the motors' order (default: its only one)",
     )
     force = "largest force in each ball joint"
-    add_number(words, "--force", "N", force, positive=True)
+    add_number(words, "--loop-force", "N", force, positive=True)
     add_number(words, "--tool-speed", "M/S", "largest speed of the spray tip", positive=True)
     push = "largest acceleration of the spray tip"
     add_number(words, "--tool-acceleration", "M/S2", push, positive=True)

@@ -213,6 +213,13 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
     return ExitCode.DONE
 
 
+def place(arguments: argparse.Namespace) -> ExitCode:
+    """Judge placements of a path, and report on the best."""
+    from pollard_pin.verbs.placed import place as placed
+
+    return placed(arguments, _branch(arguments), partial(_curve, arguments))
+
+
 def accuracy(arguments: argparse.Namespace) -> ExitCode:
     """How errors of the robot's numbers reach the spray tip, on a path or over a grid."""
     from pollard_pin.verbs.studied import accuracy as studied

@@ -110,7 +110,7 @@ def _impossible(arguments: argparse.Namespace, why: str) -> dict[str, object]:
 def _limits(arguments: argparse.Namespace, specification: Specification) -> tuple[Limits, bool]:
     """The limits that the arguments give, and whether they say the motors'."""
     values: dict[str, object] = {
-        "force": arguments.force,
+        "force": arguments.loop_force,
         "tool_speed": arguments.tool_speed,
         "tool_acceleration": arguments.tool_acceleration,
     }

@@ -78,7 +78,7 @@ NUMBERS = {
     "--repeat": set(),
     "--feed": {"2.5"},
     "--torque": {"2.5"},
-    "--force": {"2.5"},
+    "--loop-force": {"2.5"},
     "--tool-speed": {"2.5"},
     "--tool-acceleration": {"2.5"},
     "--speed-window": {"2.5"},
@@ -89,6 +89,7 @@ NUMBERS = {
     "--mass-error": {"0"},
     "--servo-zero-error": {"0", "2.5"},
     "--draws": set(),
+    "--draw": set(),
     "--seed": {"0"},
     "--armature": {"0"},
     "--servo-stiffness": {"2.5"},
@@ -124,6 +125,9 @@ NUMBERS = {
     "--step-length": {"2.5"},
     "--side": {"0", "-1", "2.5"},
     "--turn": {"0", "-1", "2.5"},
+    "--torque": {"2.5"},
+    "--best": set(),
+    "--condition": {"2.5"},
     "--step-time": {"2.5"},
     "--walking-speed": {"2.5"},
     "--foot-spacing": set(),
@@ -145,7 +149,8 @@ NUMBERS = {
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
 READ = (
-    *("--specification", "--gait", "--path", "--pose", "--servos", "--list", "--tolerances"),
+    *("--specification", "--gait", "--path", "--pose", "--servos", "--list", "--designs"),
+    "--tolerances",
     *("file", "closures", "motion", "servos"),
 )
 """Flags and words that name a file to read."""
@@ -159,6 +164,25 @@ FILES = {
     "a folder": "folder",
 }
 
+SWEEPING = (
+    ["--json", "-", "--html", "-"],
+    ["--vary", "nothing"],
+    ["--vary", "name="],
+    ["--vary", "name=1:2"],
+    ["--random"],
+    ["--seed", "1"],
+    ["--draw", "5", "--pair"],
+    ["--pair"],
+    ["--jobs", "2", "--scheduler", "tcp://127.0.0.1:1"],
+    ["--keys", "nothing.*"],
+    ["--measure", "nothing"],
+    ["--pareto", "mass"],
+    ["--pareto", "mass,nothing"],
+    ["--pareto", "mass,within_limits"],
+    ["--wish", "mass"],
+    ["--wish", "mass<heavy"],
+    ["--wish", "nothing<1"],
+)
 CONTRADICTIONS = {
     "scout-pin gait": [
         ["--json", "-", "--html", "-"],
@@ -172,6 +196,14 @@ CONTRADICTIONS = {
         ["--meshcat"],
         ["--branch=+-"],
         ["--sliders"],
+    ],
+    "scout-pin sweep": [
+        *SWEEPING,
+        ["--vary", "servo.stall_torque=0.3,0.5"],
+        ["--vary", "legs.*.x_3=0.07,0.08"],
+        ["--plan", "speed=0.1"],
+        ["--steps", "2"],
+        ["--branch=+-"],
     ],
     "scout-pin size": [
         ["--branch=+-"],
@@ -228,6 +260,15 @@ CONTRADICTIONS = {
         ["--timing", "constant-rate"],
         ["--branch=+-"],
         ["--figure", "5.2"],
+    ],
+    "pollard-pin sweep": [
+        *SWEEPING,
+        ["--vary", "chain_1=0.3,0.5"],
+        ["--timed", "fastest"],
+        ["--vary", "chain_*.x_43=0.3,0.31"],
+        ["--duration", "3"],
+        ["--branch=+-"],
+        ["--actuators", "three"],
     ],
     "pollard-pin simulate": [
         ["--json", "-", "--html", "-"],
@@ -292,6 +333,17 @@ CONTRADICTIONS = {
         ["--json", "-", "--html", "-"],
     ],
     "pollard-pin workspace": [["--x", "0.8", "0.1"], ["--z", "0", "1", "2"], ["--branch=+-"]],
+    "pollard-pin place": [
+        ["--json", "-", "--html", "-"],
+        ["--any-branch", "--branch=-++-+++"],
+        ["--branch=+-"],
+        ["--duration", "3"],
+        ["--x", "0.2:0.1"],
+        ["--x", "0:0.2:7"],
+        ["--z", "0.1,0.1"],
+        ["--torque", "1", "2"],
+        ["--mirror", "twice"],
+    ],
     "pollard-pin info": [["--json", "-", "--html", "-"]],
     "pollard-pin urdf": [],
     "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],

@@ -15,6 +15,7 @@ VERBS = {
         ["gait"],
         ["plan"],
         ["size", "examples/servos.csv"],
+        ["sweep", "--vary", "torso.mass=0.1,0.2", "--samples", "41"],
         ["size"],
         ["simulate"],
         ["new", "my_biped.toml"],
@@ -29,6 +30,7 @@ VERBS = {
     "pollard-pin": (
         ["trajectory"],
         ["size", "examples/servos.csv"],
+        ["sweep", "--vary", "chain_0.x_32=0.32,0.33", "--samples", "41"],
         ["simulate"],
         ["view", "--html", "-"],
         ["convert", "--as", "joints"],
@@ -36,6 +38,7 @@ VERBS = {
         ["fk", "0", "0", "0", "0", "0", "0"],
         ["time"],
         ["workspace"],
+        ["place", "--grid-only", "--samples", "21"],
         ["accuracy"],
         ["info"],
         ["urdf"],
