@@ -51,10 +51,10 @@ def which_law(words: argparse.ArgumentParser) -> None:
         type=_percent("--share", 1.0, 99.9),
         help="of the way on which the window is kept (default: 90)",
     )
-    torque = "largest torque of the motors: one number, or six (default: the specification's)"
+    torque = "limits of the motors' torque: one number, or six (default: the specification's)"
     add_number(words, "--torque", "N·m", torque, positive=True, nargs="+")
-    speed = "largest speed of the motors: one number, or six (default: the specification's)"
-    add_number(words, "--speed", "RAD/S", speed, positive=True, nargs="+")
+    speed = "the same of their speed"
+    add_number(words, "--speed", "rad/s", speed, positive=True, nargs="+")
     words.add_argument(
         "--line",
         action="store_true",
