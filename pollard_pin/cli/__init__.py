@@ -8,6 +8,7 @@ from functools import partial
 
 from pollard_pin.cli.accuracy import which_tolerances
 from pollard_pin.cli.placement import which_places
+from pollard_pin.cli.sweeps import which_judge
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_number, number
@@ -107,10 +108,6 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
     add_figures(words)
 
 
-def _which_judge(words: argparse.ArgumentParser) -> None:
-    """Who judges a design instead of its path's report: nobody else so far."""
-
-
 def _which_engine(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--engine",
@@ -177,12 +174,12 @@ COMMAND = Command(
         common.sweep_verb(
             ROBOT,
             "which lengths and motors would do better?",
-            "Thousands of robots, each judged by the report on a path: the best, the Pareto "
-            "front, the one nearest to a wish.",
+            "Thousands of robots, each judged by the report on a path or by the law of motion that "
+            "its motors allow: the best, the Pareto front, the one nearest to a wish.",
             "sweep --path examples/spray_arch.toml --vary 'chain_*.x_43=90%:110%:3' "
             "--vary chain_0.x_32=0.3,0.33 --samples 101 --jobs 1",
             samples=2001,
-            judges=_which_judge,
+            judges=which_judge,
         ),
         common.simulate_verb(
             ROBOT,

@@ -258,6 +258,7 @@ CONTRADICTIONS = {
     "pollard-pin sweep": [
         *SWEEPING,
         ["--vary", "chain_1=0.3,0.5"],
+        ["--timed", "fastest"],
         ["--vary", "chain_*.x_43=0.3,0.31"],
         ["--duration", "3"],
         ["--branch=+-"],
