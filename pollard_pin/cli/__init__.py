@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from functools import partial
 
 from pollard_pin.cli.accuracy import which_tolerances
-from pollard_pin.cli.timing import which_geometry, which_law
 from pollard_pin.cli.placement import which_places
 from pollard_pin.cli.sweeps import which_judge
+from pollard_pin.cli.timing import which_geometry, which_law
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_number, number

@@ -125,7 +125,6 @@ NUMBERS = {
     "--step-length": {"2.5"},
     "--side": {"0", "-1", "2.5"},
     "--turn": {"0", "-1", "2.5"},
-    "--torque": {"2.5"},
     "--best": set(),
     "--condition": {"2.5"},
     "--step-time": {"2.5"},
