@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 from thesis_pin.command.flags.numbers import add_number, number
 from thesis_pin.command.flags.options import add_euler, add_report, add_samples, add_smooth
-from thesis_pin.errors import BadInput
 
 
 def which_geometry(words: argparse.ArgumentParser) -> None:
@@ -95,19 +94,3 @@ def _percent(flag: str, low: float, high: float) -> Callable[[str], float]:
         return read(text.strip().removesuffix("%")) / 100.0
 
     return share
-
-
-def refuse_other_laws(arguments: argparse.Namespace) -> None:
-    """Refuse flags that belong to another law.
-
-    Raises:
-        BadInput: One is given, or the law of least load has no duration.
-    """
-    owner = {"duration": "least-load", "speed-window": "window", "share": "window"}
-    for flag, law in owner.items():
-        name = "seconds" if flag == "duration" else flag.replace("-", "_")
-        value = getattr(arguments, name)
-        if value is not None and arguments.law != law:
-            raise BadInput(f"--{flag} belongs to --law {law}", remedy="Leave one of them out")
-    if arguments.law == "least-load" and arguments.seconds is None:
-        raise BadInput("--law least-load needs --duration", remedy="Say how long it may take")

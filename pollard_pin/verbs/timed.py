@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 
-from pollard_pin.cli.timing import refuse_other_laws
 from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.model import load
 from pollard_pin.motion.path import ToolPath
@@ -34,7 +33,7 @@ def time(
         branch: Which solution.
         path: Makes the path.
     """
-    refuse_other_laws(arguments)
+    _refuse_other_laws(arguments)
     form = "toml" if arguments.to in (None, "-") else form_of(arguments.to, None)
     files: list[bytes] = []
 
@@ -179,3 +178,19 @@ def _of_list(file: str, names: list[str] | None) -> dict[str, object]:
         "speed": [one.no_load_speed for one in chosen],
         "rotor": [one.armature for one in chosen],
     }
+
+
+def _refuse_other_laws(arguments: argparse.Namespace) -> None:
+    """Refuse flags that belong to another law.
+
+    Raises:
+        BadInput: One is given, or the law of least load has no duration.
+    """
+    owner = {"duration": "least-load", "speed-window": "window", "share": "window"}
+    for flag, law in owner.items():
+        name = "seconds" if flag == "duration" else flag.replace("-", "_")
+        value = getattr(arguments, name)
+        if value is not None and arguments.law != law:
+            raise BadInput(f"--{flag} belongs to --law {law}", remedy="Leave one of them out")
+    if arguments.law == "least-load" and arguments.seconds is None:
+        raise BadInput("--law least-load needs --duration", remedy="Say how long it may take")
