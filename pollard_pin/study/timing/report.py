@@ -14,6 +14,7 @@ from pollard_pin.motion.law_file import law_toml
 from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import Specification
 from pollard_pin.study.timing.timed import TimedPath
+from pollard_pin.study.timing.verdict import verdict
 from thesis_pin.display.brief import Brief
 from thesis_pin.display.cell import Cell
 from thesis_pin.numeric.checks import instance
@@ -89,9 +90,7 @@ class TimeReport(Brief):
 
     def verdict(self) -> list[str]:
         """The answer in sentences, the most important first."""
-        from pollard_pin.study.timing.words import verdict
-
-        return verdict(self)
+        return verdict(self.timed, self.shares)
 
     def _cell(self) -> Cell:
         rows = [(name, f"{share:.0%}") for name, share in self.shares.items()]

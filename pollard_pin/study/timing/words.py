@@ -1,4 +1,4 @@
-"""What a law of motion's report says: sentences, a table, a page, figures."""
+"""What a law of motion's report says: tables, a page, figures."""
 
 from __future__ import annotations
 
@@ -15,62 +15,7 @@ from thesis_pin.pages.page import Tile, html
 from thesis_pin.report.curves import BLUE, VERMILLION, Curve, Limit, Plot, apart
 from thesis_pin.report.figures import figure_files, panels
 from thesis_pin.report.tables import Part, Table
-from thesis_pin.timing.binding import FREE, Stretch, stretches
-
-_SOME = 0.005  # share of the time from which a limit is told
-_TOLD = 5
-
-
-def verdict(found: TimeReport) -> list[str]:
-    """The answer in sentences, the most important first."""
-    return [_answer(found), _kept(found), *_bound(found)]
-
-
-def _answer(found: TimeReport) -> str:
-    timed, name = found.timed, found.report.robot.specification.name.capitalize()
-    seconds, tool = f"{timed.duration:.4g} s", timed.tool_speed
-    on = f"{name} on {timed.course.path.name}"
-    if timed.aim == "fastest":
-        return (
-            f"{on}: {seconds} from rest to rest is the fastest within these limits; halving the "
-            f"grid's steps once more would save about {max(timed.solved.gain, 0.0):.1%}."
-        )
-    if timed.aim == "constant-speed":
-        return (
-            f"{on}: {timed.speed:.4g} m/s is the largest constant tool speed within these limits, "
-            f"from beginning to end without a rest; it takes {seconds}."
-        )
-    if timed.aim == "window":
-        window, share = 100 * (timed.window or 0.0), 100 * (timed.share or 0.0)
-        return (
-            f"{on}: {seconds} from rest to rest at a tool speed of {timed.speed:.4g} m/s, kept "
-            f"within {window:.3g}% of itself on {share:.3g}% of the way and never exceeded; "
-            f"elsewhere limits bind or the motion rests, and it falls to {tool.min():.3g} m/s."
-        )
-    return (
-        f"{on}: in {seconds} from rest to rest no motor needs more than "
-        f"{timed.largest_torque_share:.1%} of its torque limit, and no law of that duration asks "
-        "for less (measured by the largest share of any motor)."
-    )
-
-
-def _kept(found: TimeReport) -> str:
-    use = found.timed.solved.use
-    k = int(np.argmax(use.peak))
-    when = float(np.interp(use.place[k], found.timed.law.place, found.timed.law.time))
-    looked = f"{use.points} points between any two of {len(found.timed.law.place)} places"
-    peak = f"{use.peak[k]:.2%} (the {use.names[k]}, t = {when:.4g} s)"
-    if not found.within_limits:
-        return f"The law doesn't keep its limits: at {looked} it uses up to {peak} of one."
-    return f"At {looked} it uses at most {peak} of any limit."
-
-
-def _bound(found: TimeReport) -> Iterator[str]:
-    binding = {name: share for name, share in found.shares.items() if name != FREE}
-    named = [f"{name} ({share:.0%})" for name, share in binding.items() if share >= _SOME]
-    if named:
-        more = f" and {len(named) - _TOLD} more" if len(named) > _TOLD else ""
-        yield f"What binds, by shares of the time: {', '.join(named[:_TOLD])}{more}."
+from thesis_pin.timing.binding import Stretch, stretches
 
 
 def summary(found: TimeReport) -> Iterator[Part]:
@@ -94,7 +39,7 @@ def summary(found: TimeReport) -> Iterator[Part]:
     if extra:
         yield f"Limited too: {', '.join(extra)}."
     yield ""
-    yield from verdict(found)
+    yield from found.verdict()
     if not found.given:
         yield (
             "The motors' torques and speeds are the specification's, which are assumptions; give "
@@ -197,7 +142,7 @@ def page(found: TimeReport) -> bytes:
             whole,
             title=f"{found.report.robot.specification.name.capitalize()}: {timed.path.name}",
             good=found.within_limits,
-            verdict=[*verdict(found), *(f"Note: {note}." for note in timed.course.notes)],
+            verdict=[*found.verdict(), *(f"Note: {note}." for note in timed.course.notes)],
             tiles=[*tiles, *whole.tiles],
             plots=[*plots(found), *whole.plots],
             tables=[motors_table(found), binding, *whole.tables],
