@@ -41,8 +41,8 @@ def along_axis(study: AccuracyNumbers) -> Plot:
     limits = [] if study.limit is None else [Limit("allowed", study.limit * 1e3)]
     return Plot(
         "Distance of the spray tip from its place",
-        "At the worst signs of all errors, and by the root of the sum of squares; gaps where there is "
-        "no bound, and where what is linear in the errors means little.",
+        "At the worst signs of all errors, and by the root of the sum of squares; gaps where there "
+        "is no bound, and where what is linear in the errors means little.",
         "distance [mm]",
         [
             Curve("at worst", worst, VERMILLION),
