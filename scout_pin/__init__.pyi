@@ -32,6 +32,7 @@ from .report.document import gait_report as gait_report
 
 # Study
 from .study.size import size as size
+from .study.sweeping.making import gait_study as gait_study
 from .study.smallest.asking import smallest_motors as smallest_motors
 from .study.smallest.asking import time_with_motors as time_with_motors
 from .study.smallest.servos import motor_family as motor_family
@@ -43,6 +44,7 @@ from .report.drawn.viewer import viewer as viewer
 
 # Only Scout
 from .study.plan.planning import plan_gait as plan_gait
+from .study.sweeping.making import plan_study as plan_study
 from .study.plan.request import PlanRequest as PlanRequest
 from .study.plan.results.result import Plan as Plan
 from .kinematics.rates import leg_rates as leg_rates

@@ -19,8 +19,11 @@ EXTRAS = {
     "mujoco": ("mujoco",),
     "simulate": ("mujoco",),
     "film": ("imageio_ffmpeg", "playwright"),
+    "sweep": ("pyarrow",),
+    "distributed": ("distributed", "pyarrow", "threadpoolctl"),
 }
-"""Extra → what it brings: models, a second engine, films; each says so without it."""
+"""Extra → what it brings: models, a second engine, films, rows in Parquet, clusters; each says so
+without it."""
 BROUGHT = {name for names in EXTRAS.values() for name in names}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
@@ -65,7 +68,7 @@ def test_no_extra_but_the_developers_exists_that_nothing_uses():
 @pytest.mark.parametrize(("extra", "names"), EXTRAS.items())
 def test_what_an_extra_brings_is_imported_late(extra, names):
     assert declared(PROJECT["optional-dependencies"][extra]) == {canonical(one) for one in names}
-    modules = "thesis_pin.loops.loading, thesis_pin.pages.film.making"
+    modules = "thesis_pin.loops.loading, thesis_pin.pages.film.making, thesis_pin.command.sweeping"
     code = f"import sys, {modules}; assert not {set(names)!r} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
 

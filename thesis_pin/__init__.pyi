@@ -46,6 +46,12 @@ from .sizing.motors import motor_family as motor_family
 from .sizing.motors import size_motors as size_motors
 from .sizing.motors import smallest_motors as smallest_motors
 
+# Many designs
+from .sweep.result import Sweep as Sweep
+from .sweep.running.runner import sweep_designs as sweep_designs
+from .sweep.shown.choice import Choice as Choice
+from .sweep.study import make_designs as make_designs
+
 # Viewer
 from .pages.player import write_html as write_html
 from .pages.scene import Scene as Scene

@@ -169,6 +169,10 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             and up to 0.15 N·m/cm³.
         specific_power, specific_torque: The same for its mass [W/kg], [N·m/kg]; the best
             have 400 W/kg and 80 N·m/kg.
+        widest_length: Largest tolerance of a length that is taken for one [m]: a 16th of an arm.
+        widest_angle: The same of an angle [rad]: ten degrees.
+        linear: Share by which exact kinematics at the worst errors may differ from what is linear
+            in them until it is told [-]: nobody knows tolerances better.
         replay_deviation: How far a replayed motion's tool may be from its path [m]: spray and
             servos know no better.
         replay_turn: The same of its orientation [rad]: half a servo's usual accuracy of 1°.
@@ -280,6 +284,9 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     torque_density: float = 3e5
     specific_power: float = 600.0
     specific_torque: float = 120.0
+    widest_length: float = 0.02
+    widest_angle: float = 0.17453292519943295
+    linear: float = 0.05
     replay_deviation: float = 1e-3
     replay_turn: float = 1e-2
     replay_lost: float = 0.05

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from pollard_pin.coordinates import pose_from_placement
 from pollard_pin.motion.orientation import named_alike
-from pollard_pin.motion.path import Sampled, ToolPath
+from pollard_pin.motion.path import Curve, Sampled, ToolPath
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.arrays import vector
@@ -150,10 +150,14 @@ def place_path(path: ToolPath, placement: Placement) -> ToolPath:
     )
     return replace(
         path,
-        function=partial(_placed, path.function, placement, about, _names(path, placement)),
+        function=_there(path.function, path.duration, placement, about),
         parameters={**path.parameters, "placed": placed},
         notes=(*path.notes, placement.said(about)),
         variants=variants,
+        curves=tuple(
+            Curve(one.length, _there(one.function, one.length, placement, about))
+            for one in path.curves
+        ),
     )
 
 
@@ -164,12 +168,21 @@ def _after(first: _Moved | None, then: _Moved, tool: BodyMotion) -> BodyMotion:
     return then(tool if first is None else first(tool))
 
 
-def _names(path: ToolPath, placement: Placement) -> np.ndarray | None:
-    """Times and angles ψ, θ, φ next to which a turned path names its own, ``(4, n)``."""
+def _there(
+    function: Callable[[np.ndarray], Sampled], end: float, placement: Placement, about: np.ndarray
+) -> Callable[[np.ndarray], Sampled]:
+    """A motion over time, or over another parameter from 0 to its end, as it is from there."""
+    return partial(_placed, function, placement, about, _names(function, end, placement))
+
+
+def _names(
+    function: Callable[[np.ndarray], Sampled], end: float, placement: Placement
+) -> np.ndarray | None:
+    """Times and angles ψ, θ, φ next to which a turned motion names its own, ``(4, n)``."""
     if placement.turn == 0.0:
         return None
-    time = np.linspace(0.0, path.duration, SAMPLES)
-    tool, near = path.function(time)
+    time = np.linspace(0.0, end, SAMPLES)
+    tool, near = function(time)
     rotation = placement.of_tool(tool, np.zeros(3)).rotation
     start = pose_from_placement(np.zeros(3), rotation[0], _mirrored(near[0], placement))[3:]
     return np.concatenate([time[None], named_alike(rotation, start).T])

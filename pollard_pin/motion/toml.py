@@ -193,14 +193,23 @@ def read_toml_path(file: str | Path) -> ToolPath:
     """
     content = read_toml("path", PathFile, file)
     try:
-        if content.poses:
-            return _through(content)
-        return joined(_segments(content), name=content.name)
+        return path_of(content)
     except TrajectoryError as error:
         place = f"{file}: {error.where}" if error.where else str(file)
         raise TrajectoryError(
             error.what, where=place, allowed=error.allowed, remedy=error.remedy
         ) from None
+
+
+def path_of(content: PathFile) -> ToolPath:
+    """The path of a file that has been read.
+
+    Raises:
+        TrajectoryError: Its poses or segments make no motion.
+    """
+    if content.poses:
+        return _through(content)
+    return joined(_segments(content), name=content.name)
 
 
 def _through(content: PathFile) -> ToolPath:

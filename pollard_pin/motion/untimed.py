@@ -79,6 +79,7 @@ def _splined(path: ToolPath, time: Array, way: Array) -> tuple[Curve, float]:
         # Twice as many places as nodes: those between them say how good the curve is.
         places = np.linspace(way[0], way[-1], 2 * count - 1)
         places_at = np.interp(places, way, time)
+        places_at[[0, -1]] = time[[0, -1]]  # whatever it moved at rest
         motion = path.at(places_at)
         position, rotation = motion.tool.position, motion.tool.rotation
         chord = np.linalg.norm(np.diff(position, axis=0), axis=1)

@@ -8,6 +8,7 @@ from functools import partial
 from scout_pin.cli.gaits import which_gait, which_pose
 from scout_pin.cli.making import which_new, which_urdf
 from scout_pin.cli.servos import which_servos, which_size
+from scout_pin.cli.sweeps import which_judge
 from scout_pin.cli.walks import which_walk
 from thesis_pin.command import common
 from thesis_pin.command.flags.options import add_json, add_robot
@@ -25,6 +26,8 @@ ROBOT = Robot(
     inverse_kinematics="model:Scout.leg_inverse_kinematics",
     still="verbs:still",
     motion_flag="gait",
+    study="verbs.sweeping:study",
+    sweep="study.sweeping.making:gait_study",
     walks="verbs.sized:walk",
 )
 
@@ -51,6 +54,16 @@ COMMAND = Command(
             samples=401,
             per=("robot", "group", "joint"),
             more=which_size,
+        ),
+        common.sweep_verb(
+            ROBOT,
+            "which dimensions and servos would do better?",
+            "Thousands of bipeds, each judged by the report on a gait or by the walk that is "
+            "planned for it: the best, the Pareto front, the one nearest to a wish.",
+            "sweep --gait examples/walk.toml --vary 'legs.*.x_3=0.06:0.08:3' "
+            "--vary 'servos.*.stall_torque=0.3,0.5' --samples 41 --jobs 1",
+            samples=401,
+            judges=which_judge,
         ),
         common.simulate_verb(
             ROBOT,

@@ -83,6 +83,7 @@ NUMBERS = {
     "--mass-error": {"0"},
     "--servo-zero-error": {"0", "2.5"},
     "--draws": set(),
+    "--draw": set(),
     "--seed": {"0"},
     "--armature": {"0"},
     "--servo-stiffness": {"2.5"},
@@ -139,7 +140,8 @@ NUMBERS = {
 JUNK = ("nan", "inf", "-inf", "-1e999", "0", "-1", "2.5", "1_0x", "eleven")
 
 READ = (
-    *("--specification", "--gait", "--path", "--pose", "--servos", "--list"),
+    *("--specification", "--gait", "--path", "--pose", "--servos", "--list", "--designs"),
+    "--tolerances",
     *("file", "closures", "motion", "servos"),
 )
 """Flags and words that name a file to read."""
@@ -153,6 +155,25 @@ FILES = {
     "a folder": "folder",
 }
 
+SWEEPING = (
+    ["--json", "-", "--html", "-"],
+    ["--vary", "nothing"],
+    ["--vary", "name="],
+    ["--vary", "name=1:2"],
+    ["--random"],
+    ["--seed", "1"],
+    ["--draw", "5", "--pair"],
+    ["--pair"],
+    ["--jobs", "2", "--scheduler", "tcp://127.0.0.1:1"],
+    ["--keys", "nothing.*"],
+    ["--measure", "nothing"],
+    ["--pareto", "mass"],
+    ["--pareto", "mass,nothing"],
+    ["--pareto", "mass,within_limits"],
+    ["--wish", "mass"],
+    ["--wish", "mass<heavy"],
+    ["--wish", "nothing<1"],
+)
 CONTRADICTIONS = {
     "scout-pin gait": [
         ["--json", "-", "--html", "-"],
@@ -166,6 +187,14 @@ CONTRADICTIONS = {
         ["--meshcat"],
         ["--branch=+-"],
         ["--sliders"],
+    ],
+    "scout-pin sweep": [
+        *SWEEPING,
+        ["--vary", "servo.stall_torque=0.3,0.5"],
+        ["--vary", "legs.*.x_3=0.07,0.08"],
+        ["--plan", "speed=0.1"],
+        ["--steps", "2"],
+        ["--branch=+-"],
     ],
     "scout-pin size": [
         ["--branch=+-"],
@@ -223,6 +252,14 @@ CONTRADICTIONS = {
         ["--branch=+-"],
         ["--figure", "5.2"],
     ],
+    "pollard-pin sweep": [
+        *SWEEPING,
+        ["--vary", "chain_1=0.3,0.5"],
+        ["--vary", "chain_*.x_43=0.3,0.31"],
+        ["--duration", "3"],
+        ["--branch=+-"],
+        ["--actuators", "three"],
+    ],
     "pollard-pin simulate": [
         ["--json", "-", "--html", "-"],
         ["--open-loop"],
@@ -257,6 +294,19 @@ CONTRADICTIONS = {
     "pollard-pin convert": [["--json", "-", "--to", "-"], ["--units", "mm"], ["--duration", "3"]],
     "pollard-pin ik": [["--branch=+-"]],
     "pollard-pin fk": [],
+    "pollard-pin accuracy": [
+        ["--workspace"],
+        ["--workspace", "--turn", "10"],
+        ["--points", "5"],
+        ["--x", "0.4"],
+        ["--orientation", "0", "0", "0"],
+        ["--stiffness", "1", "2"],
+        ["--draws", "1000000"],
+        ["--samples", "1000000"],
+        ["--duration", "3"],
+        ["--branch=+-"],
+        ["--json", "-", "--html", "-"],
+    ],
     "pollard-pin workspace": [["--x", "0.8", "0.1"], ["--z", "0", "1", "2"], ["--branch=+-"]],
     "pollard-pin info": [["--json", "-", "--html", "-"]],
     "pollard-pin urdf": [],

@@ -23,11 +23,13 @@ SEEN = {
     "view": {"--html"},
     "workspace": {"--out"},
     "thesis-pin workspace": {"--out", "--html"},
+    "accuracy": {"--out", "--html"},
     "urdf": {"--out"},
     "audit": {"--html"},
     "convert": set(),
     "size": {"--out"},
     "simulate": {"--out", "--html"},
+    "sweep": {"--out", "--html"},
     "ik": set(),
     "fk": set(),
     "info": {"--html"},
@@ -100,6 +102,8 @@ def test_the_same_flag_has_the_same_words_in_all_commands():
     assert {form[:3] for form in html} == {("FILE|-", "None", None)}
     at = various.pop("--at")
     assert {form[0] for form in at} == {"SECONDS", "('NAME', 'VALUE')"}  # of a picture, of a map
+    within = various.pop("--within")
+    assert {form[0] for form in within} == {"SECONDS", "LENGTH"}  # of a motion, of the tool
     assert various == {}
 
 

@@ -131,6 +131,10 @@ MAKERS = {
     "Workspace": lambda: thesis_pin.evaluate_workspace(
         looped(), {looped().actuators[0]: np.linspace(1.4, 1.5, 3)}
     ),
+    "Tolerances": lambda: pollard_pin.read_tolerances(ROOT / "examples" / "tolerances.toml"),
+    "Accuracy": lambda: pollard_pin.path_accuracy(
+        pollard_pin.load(), pollard_pin.appendix_b(), samples=5, draws=3, within=1e-3
+    ),
     "Scene": lambda: gait_scene(gait_report()),
     "LoopDynamics": lambda: thesis_pin.inverse_dynamics(
         looped(), looped().q0, ZERO, ZERO, check=False

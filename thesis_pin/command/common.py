@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from thesis_pin.command import simulating, verbs
-from thesis_pin.command.flags import options
+from thesis_pin.command.flags import options, sweeps
 from thesis_pin.command.flags.figured import add_figure
-from thesis_pin.command.registry import Robot, Verb, Words
+from thesis_pin.command.registry import Robot, Verb, Words, found
 from thesis_pin.command.showing.beside import add_align, add_beside, add_beside_robot
 from thesis_pin.command.showing.film import add_film
 from thesis_pin.command.showing.meshcat import add_meshcat
@@ -123,6 +123,44 @@ def size_verb(
 
     texts = (help, description, example)
     return _verb(robot, "size", texts, robot.size, sizing.size, which, robot.motion)
+
+
+def sweep_verb(
+    robot: Robot,
+    help: str,
+    description: str,
+    example: str,
+    *,
+    samples: int,
+    judges: Callable[[Words], None],
+) -> Verb:
+    """The verb that judges many designs.
+
+    Args:
+        robot: The robot.
+        help: See :class:`~thesis_pin.command.registry.Verb`.
+        description: The same.
+        example: The same.
+        samples: Of the report that judges a motion.
+        judges: Add what says who judges instead of the motion's report.
+    """
+    how_many = partial(options.add_samples, default=samples)
+    add = (
+        sweeps.add_designs,
+        robot.motion,
+        how_many,
+        judges,
+        sweeps.add_wishes,
+        sweeps.add_running,
+    )
+    run = partial(_late, "thesis_pin.command.sweeping:run")
+    return _verb(robot, "sweep", (help, description, example), robot.sweep, run, *add)
+
+
+def _late(name: str, robot: Robot, arguments: argparse.Namespace) -> int:
+    """Run what is imported only when it runs."""
+    code: int = found(name)(robot, arguments)  # type: ignore[operator]
+    return code
 
 
 def simulate_verb(

@@ -22,10 +22,11 @@ class Bar:
     Args:
         what: What is going on.
         after: Seconds after which it is shown; None takes :data:`PATIENCE`.
+        left: Whether to count, and say how long it still takes.
     """
 
-    def __init__(self, what: str, *, after: float | None = None) -> None:
-        self.what, self.after = what, PATIENCE if after is None else after
+    def __init__(self, what: str, *, after: float | None = None, left: bool = False) -> None:
+        self.what, self.after, self.left = what, PATIENCE if after is None else after, left
         self._done: tuple[int, int | None] = (0, None)
         self._lock, self._over = threading.Lock(), False
         self._bar: Progress | None = None
@@ -44,9 +45,23 @@ class Bar:
 
     def _show(self) -> None:
         from rich.console import Console
-        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+        from rich.progress import (
+            BarColumn,
+            MofNCompleteColumn,
+            Progress,
+            ProgressColumn,
+            TextColumn,
+            TimeElapsedColumn,
+            TimeRemainingColumn,
+        )
 
-        columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+        columns: list[ProgressColumn] = [
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TimeElapsedColumn(),
+        ]
+        if self.left:
+            columns += [MofNCompleteColumn(), TimeRemainingColumn(), TextColumn("left")]
         with self._lock:
             if self._over:
                 return

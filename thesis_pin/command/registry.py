@@ -201,6 +201,8 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
             short the motion may be with those of a list, and ``motor_family``, the robot's own.
         walks: What ``size --walk`` does: a function of the arguments, the robot, a list or None
             and a progress; empty where there is no such flag.
+        study: The study of designs that the arguments ask for, a function of them.
+        sweep: The public function that makes one.
         thesis, audit: The thesis ready to be audited, and the function that does it.
     """
 
@@ -232,6 +234,8 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     size: str = "study.size:size"
     smallest: str = "study.smallest.asking:smallest_motors"
     walks: str = ""
+    study: str = "verbs:sweep_study"
+    sweep: str = ""
     audit: str = "thesis.audit:audit"
     thesis: str = "thesis.audit:THESIS"
 

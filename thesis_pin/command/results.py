@@ -14,6 +14,7 @@ from thesis_pin.command.progress import Bar
 from thesis_pin.command.registry import found
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
+from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 from thesis_pin.files import Claim, is_standard_output, write_file, write_folder
 from thesis_pin.report.tables import Part
@@ -123,7 +124,9 @@ def deliver(
             if arguments.out:
                 with written_as(style):
                     drawn = keep(_called(figures)(answer))
-            written = _called(page)(answer) if arguments.html else b""
+            if arguments.html:
+                with warned():
+                    written = _called(page)(answer)
         except Exception:
             write_results(arguments, files, content)
             raise

@@ -56,7 +56,7 @@ def add_simulation(words: Words) -> None:
     )
     draws = "robots with such errors, each other ones"
     add_count(words, "--draws", draws, least=1, default=1)
-    seed = "of the errors; the same seed draws the same robots"
+    seed = "of the draws; the same seed draws the same robots"
     add_count(words, "--seed", seed, least=0, default=0)
     add_jobs(words)
     words.add_argument("--out", metavar="DIR", help="write report.json, samples.csv and figures")

@@ -141,7 +141,7 @@ def show_scene(
         refuse_beside(arguments, "meshcat", ("port", "hold"))
     if arguments.meshcat is not None and arguments.look != "3d":
         raise BadInput("--look means nothing beside --meshcat", remedy="Leave one of them out")
-    with Bar("working out the motion") as bar:
+    with Bar("working out the motion") as bar, warned():
         scene = shown_first(make(bar), arguments)
     shown = {
         "schema": f"{command}/view",

@@ -111,6 +111,21 @@ class Claim:
         os.close(self._lock)
         _claimed.discard(self._partial)
 
+    def add(self, name: str, content: bytes) -> None:
+        """Write one file into the folder at once; it stays there whatever becomes of the rest.
+
+        Args:
+            name: Its name, ``/`` between folders.
+            content: What is to stand in it.
+
+        Raises:
+            CannotWrite: It can't be written.
+        """
+        target = self.path / name
+        with cannot_write(self._name):
+            target.parent.mkdir(parents=True, exist_ok=True)
+        write_file(target, content)
+
     def write(self, files: Mapping[str, bytes]) -> None:
         """Write the files; see :func:`write_folder`."""
         import hashlib  # 2 ms that no run without a folder needs

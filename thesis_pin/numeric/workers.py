@@ -58,7 +58,7 @@ def shared(
         ProcessPoolExecutor(jobs, context, initializer=_begin, initargs=(ear, begin)) as pool,
     ):
         try:
-            with _ctrl_c_later():
+            with ctrl_c_later():
                 asked = [pool.submit(work, task) for task in tasks]
             for done in as_completed(asked):
                 yield done.result()
@@ -75,7 +75,7 @@ def shared(
 
 
 @contextlib.contextmanager
-def _ctrl_c_later() -> Generator[None]:
+def ctrl_c_later() -> Generator[None]:
     """Keep Ctrl-C back; processes that are begun meanwhile never get it.
 
     They inherit that the signal is blocked. Blocking it doesn't keep it from the caller: another

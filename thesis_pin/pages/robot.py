@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import warnings
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.errors import ThesisPinError
+from thesis_pin.errors import ModelWarning, ThesisPinError
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.pages.drawing import (
     CLOSED,
@@ -18,6 +20,7 @@ from thesis_pin.pages.drawing import (
     joint_placements,
     robot_items,
 )
+from thesis_pin.pages.meshes import seen
 from thesis_pin.pages.scene import Arrow, Ball, Group, Item
 from thesis_pin.report.curves import SKY
 
@@ -30,19 +33,37 @@ GROUPS = (
 """Groups of the items."""
 
 
+_LOOKED = "; looked for in "  # of a message on a mesh: folders follow
+
+
 def size_of(moves: Array) -> float:
     """How large a robot looks [m], by the placements of its joints ``(n, joints, 7)``."""
     extent = float(np.ptp(moves[..., :3].reshape(-1, 3), axis=0).max())
     return extent if extent > 0 else 1.0
 
 
-def items_of(robot: ClosedRobot, q: Array) -> Iterator[Item]:
-    """A robot at configurations ``(n, nq)``: its shapes where they are known, else bars; loops."""
-    moves = joint_placements(robot.model, q)
-    size = size_of(moves)
-    bodies = _bodies(robot, q)
-    yield from bodies
-    yield from around(robot, q, size, bars=not bodies)
+def items_of(robot: ClosedRobot, q: Array) -> tuple[tuple[Item, ...], tuple[str, ...]]:
+    """A robot at configurations: its shapes where they are known, else bars; its loops.
+
+    Args:
+        robot: The robot; a :class:`~thesis_pin.errors.ModelWarning` says what of it isn't drawn.
+        q: Configurations, shape ``(n, nq)``.
+
+    Returns:
+        The items, and for the page what of the robot isn't drawn, in words.
+    """
+    notes: list[str] = []
+    bodies = _bodies(robot, q, notes)
+    if notes and not bodies:
+        notes.append("bars are drawn from joint to joint instead")
+    if notes:
+        warnings.warn("; ".join(notes), ModelWarning, stacklevel=2)
+    size = size_of(joint_placements(robot.model, q))
+    # A page that is mailed doesn't say where files lie on this machine.
+    where, here = robot.description.where, _LOOKED
+    short = (note.partition(here)[0].replace(where, os.path.basename(where)) for note in notes)
+    told = tuple(f"{note[:1].upper()}{note[1:]}." for note in short)
+    return (*bodies, *around(robot, q, size, bars=not bodies)), told
 
 
 def around(robot: ClosedRobot, q: Array, size: float, *, bars: bool = False) -> Iterator[Item]:
@@ -59,11 +80,12 @@ def around(robot: ClosedRobot, q: Array, size: float, *, bars: bool = False) -> 
     yield from _loops(robot, q, size)
 
 
-def _bodies(robot: ClosedRobot, q: Array) -> list[Item]:
-    """The visual shapes; none where there are none, or a mesh is missing."""
+def _bodies(robot: ClosedRobot, q: Array, notes: list[str]) -> list[Item]:
+    """The visual shapes that are there; ``notes`` is told of the others."""
     try:
-        shapes = robot_items(robot.model, robot.visual_model, q, group="robot")
-    except (ThesisPinError, ValueError, RuntimeError):  # Pinocchio's, for meshes
+        shapes = robot_items(robot.model, seen(robot, "visual", notes), q, group="robot")
+    except ThesisPinError as error:  # a shape of a kind that can't be drawn
+        notes.append(str(error))
         return []
     return [replace(shape, name=f"body {k} {shape.name}") for k, shape in enumerate(shapes)]
 

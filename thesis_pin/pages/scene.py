@@ -88,6 +88,7 @@ class Scene(Brief):
         forward: The way ahead on the floor, for the views from front and side.
         camera: Camera position and the point it looks at, shape ``(2, 3)``; None
             looks at the items from the right, ahead and above.
+        notes: What there is to say of it, as what can't be drawn, in sentences.
     """
 
     title: str
@@ -99,6 +100,7 @@ class Scene(Brief):
     floor: float | None = 0.0
     forward: tuple[float, float] = (0.0, 1.0)
     camera: np.ndarray | None = None
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse what no page could show.
@@ -145,6 +147,7 @@ class Scene(Brief):
             "floor": self.floor,
             "forward": self.forward,
             "camera": None if self.camera is None else np.asarray(self.camera).tolist(),
+            "notes": self.notes,
             "groups": [vars(group) for group in self.groups],
             "items": [item.document() for item in self.items],
             "readouts": [vars(readout) for readout in self.readouts],

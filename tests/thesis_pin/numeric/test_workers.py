@@ -120,7 +120,7 @@ def test_ctrl_c_that_another_thread_takes_waits_until_all_processes_are_begun():
     other.start()
 
     def begin():
-        with workers._ctrl_c_later():
+        with workers.ctrl_c_later():
             signal.pthread_kill(other.ident, signal.SIGINT)
             time.sleep(0.05)
             begun.append(True)

@@ -123,6 +123,24 @@ def count(name: str, least: int, most: int = MOST) -> Callable[[str], int]:
     return read
 
 
+_LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "um": 1e-6, "µm": 1e-6}
+
+
+def length(text: str) -> float:
+    """An argparse type: a positive length with its unit, as ``1mm``; in metres."""
+    number = text.rstrip("mcuµ ")
+    unit = text[len(number) :].strip()
+    try:
+        value = float(number) * _LENGTHS.get(unit, math.nan)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > 0):
+        raise argparse.ArgumentTypeError(
+            f"it is {shown(text)}; allowed: a positive length with its unit, 1mm, 0.5 mm or 0.001m"
+        )
+    return value
+
+
 def quantity(flag: str, text: str) -> float:
     """A number among the words of a flag.
 

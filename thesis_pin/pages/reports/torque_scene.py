@@ -14,6 +14,7 @@ from thesis_pin.pages.drawing import (
     frame_placements,
     joint_placements,
 )
+from thesis_pin.pages.meshes import seen
 from thesis_pin.pages.robot import GROUPS, items_of, size_of
 from thesis_pin.pages.scene import Arc, Arrow, Group, Item, Readout, Scene, levels, thinned
 from thesis_pin.report.curves import BLUE, ORANGE, VERMILLION
@@ -35,6 +36,7 @@ def scene(report: TorqueReport) -> Scene:
     q = report.joints.q[keep]
     moves = joint_placements(robot.model, q)
     size = size_of(moves)
+    drawn, notes = items_of(robot, q)
     force = 0.3 * size / max(float(report.loop_force_size.max(initial=0.0)), 1e-12)
     largest = max(float(np.abs(report.dynamics.torque).max(initial=0.0)), 1e-12)
     return Scene(
@@ -52,7 +54,7 @@ def scene(report: TorqueReport) -> Scene:
             ),
         ),
         items=(
-            *items_of(robot, q),
+            *drawn,
             *_forces(report, keep, q, force, size),
             *_torques(report, keep, moves, size, largest),
         ),
@@ -61,6 +63,7 @@ def scene(report: TorqueReport) -> Scene:
             for k, name in enumerate(report.names[:MOST_READOUTS])
         ),
         floor=float(moves[..., 2].min()) - 0.05 * size,
+        notes=notes,
     )
 
 
@@ -69,7 +72,7 @@ def poses(
 ) -> tuple[pin.Model, pin.GeometryModel, Array, Array]:
     """A report's model and visual geometry, times ``(n,)`` [s], configurations ``(n, nq)``."""
     robot = report.robot
-    return robot.model, robot.visual_model, report.joints.time, report.joints.q
+    return robot.model, seen(robot, "visual", []), report.joints.time, report.joints.q
 
 
 def _forces(

@@ -66,7 +66,8 @@ def scene(space: Workspace) -> Scene | None:
     q = space.q.reshape(-1, space.q.shape[-1])[way]
     model = space.robot.model
     moves = joint_placements(model, q)
-    items: list[Item] = list(items_of(space.robot, q))
+    drawn, notes = items_of(space.robot, q)
+    items: list[Item] = list(drawn)
     groups, size = list(GROUPS), size_of(moves)
     if space.grid.frame is not None:
         points = frame_placements(model, space.grid.frame, q)[:, :3]
@@ -84,6 +85,7 @@ def scene(space: Workspace) -> Scene | None:
         items=tuple(items),
         readouts=(*readouts, Readout("condition number", space.condition.ravel()[way], "", 2)),
         floor=float(moves[..., 2].min()) - 0.05 * size,
+        notes=notes,
     )
 
 

@@ -151,8 +151,9 @@ function makePlayer(root, scene, options = {}) {
   }
   const status = make("p", { className: "status" });
   status.setAttribute("role", "status");
+  const notes = scene.notes.map((textContent) => make("p", { className: "note", textContent }));
   root.append(make("div", { className: "bar" },
-    ...(options.still ? [] : [play, slider, output, rate]), views, status));
+    ...(options.still ? [] : [play, slider, output, rate]), views, status, ...notes));
 
   // -- clock
   let now = start, playing = false, last = null, frames = 0, since = null, slow = 0, drawn = 0;

@@ -96,7 +96,7 @@ def test_a_rod_that_closes_a_loop_is_drawn_from_end_to_end():
     text = tree.yaml.replace("['3d']", "['rod']") + "thesis_pin: {lengths: [0.2]}\n"
     robot = ClosedRobot(tree.urdf, ClosureFile.parse(text))
     q = np.zeros((2, 3))
-    rod = next(item for item in items_of(robot, q) if item.name == "rod of loop 0")
+    rod = next(item for item in items_of(robot, q)[0] if item.name == "rod of loop 0")
     assert isinstance(rod, Arrow)
     one, two = (frame_placements(robot.model, name, q)[:, :3] for name in robot.loops[0].frames)
     np.testing.assert_allclose(rod.vector, two - one, atol=1e-12)

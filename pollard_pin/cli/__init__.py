@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Sequence
 from functools import partial
 
+from pollard_pin.cli.accuracy import which_tolerances
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_number, number
@@ -54,6 +55,10 @@ def _which_path(words: argparse.ArgumentParser) -> None:
         action="store_true",
         help="the path's mirror image, y about its middle, as a left door's is to a right one's",
     )
+
+
+def _which_path_and_motors(words: argparse.ArgumentParser) -> None:
+    _which_path(words)
     words.add_argument(
         "--actuators",
         choices=("six", "three"),
@@ -101,6 +106,10 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
     add_figures(words)
 
 
+def _which_judge(words: argparse.ArgumentParser) -> None:
+    """Who judges a design instead of its path's report: nobody else so far."""
+
+
 def _which_engine(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--engine",
@@ -129,7 +138,7 @@ _robot = partial(add_robot, another="another three-chain robot")
 ROBOT = Robot(
     package="pollard_pin",
     another="another three-chain robot",
-    motion=_which_path,
+    motion=_which_path_and_motors,
     report="report.document:trajectory_report",
     page="report.drawn.page:trajectory_page",
     scene="report.drawn.view:path_scene",
@@ -137,6 +146,7 @@ ROBOT = Robot(
     simulation="study.simulate.draws:simulate_path",
     inverse_kinematics="model:Pollard.inverse_kinematics",
     motion_flag="path",
+    sweep="study.sweeping.making:path_study",
 )
 
 COMMAND = Command(
@@ -162,6 +172,16 @@ COMMAND = Command(
             samples=2001,
             per=("group", "joint", "robot"),
             bounds="box",
+        ),
+        common.sweep_verb(
+            ROBOT,
+            "which lengths and motors would do better?",
+            "Thousands of robots, each judged by the report on a path: the best, the Pareto "
+            "front, the one nearest to a wish.",
+            "sweep --path examples/spray_arch.toml --vary 'chain_*.x_43=90%:110%:3' "
+            "--vary chain_0.x_32=0.3,0.33 --samples 101 --jobs 1",
+            samples=2001,
+            judges=_which_judge,
         ),
         common.simulate_verb(
             ROBOT,
@@ -208,6 +228,17 @@ COMMAND = Command(
             "pollard_pin.study.workspace:evaluate_workspace",
             "pollard_pin.verbs:workspace",
             (_robot, _which_grid, partial(add_json, what="the reachable positions")),
+        ),
+        Verb(
+            "accuracy",
+            "how far off is the spray tip if lengths, angles and motors are?",
+            "Errors of lengths, angles, play and motors at the spray tip, along a path or over the "
+            "workspace: at worst, by root sum square, of drawn robots; and which matter most.",
+            "accuracy --path examples/spray_arch.toml --tolerances examples/tolerances.toml "
+            "--within 1mm",
+            "pollard_pin.study.accuracy.study:path_accuracy",
+            "pollard_pin.verbs:accuracy",
+            (_robot, _which_path, which_tolerances),
         ),
         common.info_verb(ROBOT, "info --inertia printed"),
         common.urdf_verb(

@@ -1,0 +1,1 @@
+"""An accuracy study in words, tables, documents, pictures and pages."""

@@ -1,0 +1,1 @@
+"""One robot asked about in thousands of sizes: designs, who works them out, which are best."""

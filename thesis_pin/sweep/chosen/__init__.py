@@ -1,0 +1,1 @@
+"""Which designs are best: by several aims at once, and by a wish."""

@@ -1,0 +1,1 @@
+"""A sweep as tables, a document, figures and a page."""
