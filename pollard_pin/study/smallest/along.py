@@ -27,12 +27,15 @@ class Found:
         law: The law, as long as it may be.
         grid: Its places.
         solved: The fastest law with such motors, judged between its places.
+        settled: Relative change of the torque when all intervals were halved: about as much less
+            would do.
     """
 
     torque: Array
     law: Law
     grid: Grid
     solved: Solved
+    settled: float
 
 
 def heat_along(path: AnyLaw, found: Found, family: Family) -> Array:

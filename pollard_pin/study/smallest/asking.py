@@ -13,7 +13,7 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES
 from pollard_pin.study.size import loads_of
 from pollard_pin.study.smallest.along import Found, heat_along, loads_along
-from pollard_pin.study.smallest.free import AnyLaw, law_of
+from pollard_pin.study.smallest.free import AnyLaw
 from pollard_pin.study.smallest.motors import Per, groups, motor_family
 from pollard_pin.study.smallest.searching import gentlest_in, smallest_in
 from thesis_pin.numeric.checks import choice, function, instance, real
@@ -26,6 +26,8 @@ from thesis_pin.sizing.smallest.answer import Answer
 from thesis_pin.sizing.smallest.family import Family
 from thesis_pin.sizing.smallest.result import Smallest, smallest
 from thesis_pin.sizing.smallest.timed import Timed, sizes, timed
+from thesis_pin.timing.fastest import fastest
+from thesis_pin.timing.law import Law
 from thesis_pin.timing.limits import Limits
 from thesis_pin.timing.solving import POINTS as JUDGED
 from thesis_pin.timing.solving import refined
@@ -159,7 +161,7 @@ def time_with_motors(
     grid = path.course.grid
     for one in map(limits, catalogue.actuators):
         if np.isfinite(path.fastest(one, grid)):
-            grid, _, _ = refined(grid, partial(law_of, one))
+            grid, _, _ = refined(grid, partial(_fastest, one))
             break
     found = timed(
         catalogue.actuators,
@@ -194,7 +196,7 @@ def _judged(best: Found) -> list[str]:
     use, places = best.solved.use, len(best.law.place)
     said = (
         f"At {JUDGED} points between any two of the law's {places:,} places at most "
-        f"{use.largest:.1%} of a limit is used."
+        f"{use.largest:.1%} of a limit is used; half as many make {best.settled:.1%} of torque."
     )
     if best.solved.keeps:
         return [said]
@@ -215,6 +217,10 @@ def _curve(
     k = int(best.torque.argmax())
     motors = [family.actuator(torque, k) for torque in sizes(float(best.torque.max()), POINTS)]
     return timed(motors, times, notes=["Motors of the curve keep their proportions."])
+
+
+def _fastest(limits: Limits, grid: Grid) -> Law:
+    return fastest(grid, limits)
 
 
 def _times(

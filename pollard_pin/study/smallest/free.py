@@ -18,7 +18,6 @@ from thesis_pin.errors import Infeasible
 from thesis_pin.sizing.loads import Array, Loads
 from thesis_pin.sizing.smallest.family import Family
 from thesis_pin.timing.fastest import fastest
-from thesis_pin.timing.law import Law
 from thesis_pin.timing.limits import Limits
 from thesis_pin.timing.track import Grid
 
@@ -71,7 +70,7 @@ class AnyLaw:
     def fastest(self, limits: Limits, grid: Grid) -> float:
         """Shortest time of the path on a grid [s]; infinite if the motors can't even hold it."""
         try:
-            return law_of(limits, grid).duration
+            return fastest(grid, limits).duration
         except Infeasible:
             return math.inf
 
@@ -105,15 +104,3 @@ class AnyLaw:
                 root = np.where(reach & (below > 0.0), 2.0 * rest / below, np.inf)
             most = min(most, float(root.min()))
         return self.report.path.duration / most if most > 0.0 else None
-
-
-def law_of(limits: Limits, grid: Grid) -> Law:
-    """The fastest law on a grid.
-
-    Raises:
-        Infeasible: The motors can't even hold the robot still somewhere.
-    """
-    with np.errstate(divide="ignore"):  # motors that can just hold it move for ever
-        law = fastest(grid, limits)
-        law.time  # noqa: B018 (kept with the law)
-    return law
