@@ -36,6 +36,7 @@ from .report.document import trajectory_report as trajectory_report
 # Study
 from .study.size import size as size
 from .study.sweeping.making import path_study as path_study
+from .study.sweeping.making import time_study as time_study
 from .study.smallest.asking import smallest_motors as smallest_motors
 from .study.smallest.asking import time_with_motors as time_with_motors
 from .study.smallest.motors import motor_family as motor_family
@@ -50,7 +51,9 @@ from .model import CLOSURE_PATH as CLOSURE_PATH
 from .motion.curves import appendix_b as appendix_b
 from .dynamics.inverse import inverse_dynamics_at as inverse_dynamics_at
 from .dynamics.three_motors import three_torques as three_torques
+from .motion.placing import Placement as Placement, place_path as place_path
 from .study.workspace import evaluate_workspace as evaluate_workspace
+from .study.placement.search import evaluate_placements as evaluate_placements
 from .study.accuracy.study import (
     path_accuracy as path_accuracy,
     workspace_accuracy as workspace_accuracy,

@@ -172,7 +172,9 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
         specific_power, specific_torque: The same for its mass [W/kg], [N·m/kg]; the best
             have 400 W/kg and 80 N·m/kg.
         widest_length: Largest tolerance of a length that is taken for one [m]: a 16th of an arm.
-        widest_angle: The same of an angle [rad]: ten degrees.
+        finest_length: Widest tolerance of a robot's lengths below which one is asked for their unit
+            [m]: gauge blocks are made so.
+        widest_angle: The same as ``widest_length`` of an angle [rad]: ten degrees.
         linear: Share by which exact kinematics at the worst errors may differ from what is linear
             in them until it is told [-]: nobody knows tolerances better.
         replay_deviation: How far a replayed motion's tool may be from its path [m]: spray and
@@ -288,6 +290,7 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     specific_power: float = 600.0
     specific_torque: float = 120.0
     widest_length: float = 0.02
+    finest_length: float = 1e-6
     widest_angle: float = 0.17453292519943295
     linear: float = 0.05
     replay_deviation: float = 1e-3

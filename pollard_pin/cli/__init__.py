@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from functools import partial
 
 from pollard_pin.cli.accuracy import which_tolerances
+from pollard_pin.cli.placement import which_places
+from pollard_pin.cli.sweeps import which_judge
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_number, number
@@ -106,10 +108,6 @@ def _which_grid(words: argparse.ArgumentParser) -> None:
     add_figures(words)
 
 
-def _which_judge(words: argparse.ArgumentParser) -> None:
-    """Who judges a design instead of its path's report: nobody else so far."""
-
-
 def _which_engine(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--engine",
@@ -176,12 +174,12 @@ COMMAND = Command(
         common.sweep_verb(
             ROBOT,
             "which lengths and motors would do better?",
-            "Thousands of robots, each judged by the report on a path: the best, the Pareto "
-            "front, the one nearest to a wish.",
+            "Thousands of robots, each judged by the report on a path or by the law of motion that "
+            "its motors allow: the best, the Pareto front, the one nearest to a wish.",
             "sweep --path examples/spray_arch.toml --vary 'chain_*.x_43=90%:110%:3' "
             "--vary chain_0.x_32=0.3,0.33 --samples 101 --jobs 1",
             samples=2001,
-            judges=_which_judge,
+            judges=which_judge,
         ),
         common.simulate_verb(
             ROBOT,
@@ -228,6 +226,21 @@ COMMAND = Command(
             "pollard_pin.study.workspace:evaluate_workspace",
             "pollard_pin.verbs:workspace",
             (_robot, _which_grid, partial(add_json, what="the reachable positions")),
+        ),
+        Verb(
+            "place",
+            "where a part should stand, turned or mirrored, on which branch",
+            "Judge a grid of placements of a path, refine the best, and report on it.",
+            "place --path examples/spray_arch.toml --x -0.05:0.05:0.05 --z 0:0.2:0.05",
+            "pollard_pin.study.placement.search:evaluate_placements",
+            "pollard_pin.verbs:place",
+            (
+                _robot,
+                partial(_branch, default="this one"),
+                _which_curve,
+                which_places,
+                partial(add_json, what="the placements"),
+            ),
         ),
         Verb(
             "accuracy",

@@ -30,7 +30,6 @@ if TYPE_CHECKING:  # reports need none of it
     from pollard_pin.study.simulate.conditions import Conditions
     from thesis_pin.pages.live.page import LivePage
     from thesis_pin.report.exchange.movement import Movement
-    from thesis_pin.sweep.study import Study
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:
@@ -126,37 +125,6 @@ def sliders(arguments: argparse.Namespace, robot: Pollard) -> LivePage:
     return slider_page(robot, _branch(arguments), shown_by(arguments, "pollard-pin"))
 
 
-def sweep_study(arguments: argparse.Namespace) -> Study:
-    """What the arguments have designs judged by.
-
-    Raises:
-        BadInput: Something is asked that no report on six motors answers.
-    """
-    from pollard_pin.study.sweeping.making import path_study
-    from pollard_pin.study.sweeping.paths import MEASURES
-    from thesis_pin.sweep.measures import named
-
-    if arguments.actuators != "six":
-        raise BadInput("designs are judged with six motors", remedy="Leave --actuators out")
-    wanted = " ".join(filter(None, (arguments.pareto, arguments.wish)))
-    return path_study(
-        arguments.specification,
-        arguments.path,
-        samples=arguments.samples,
-        inertia=arguments.inertia,
-        branch=_branch(arguments),
-        placement=arguments.placement,
-        duration=arguments.duration,
-        timing=arguments.timing,
-        turn_deg=arguments.turn or 0.0,
-        mirrored=arguments.mirror,
-        euler=arguments.euler,
-        feed=arguments.feed,
-        smooth=arguments.smooth,
-        extra=[*(arguments.measure or ()), *named(MEASURES, wanted)],
-    )
-
-
 def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:
     """The branches of the tool pose that the arguments ask for."""
     from pollard_pin.report.tables import ik_document, solutions_table
@@ -243,6 +211,13 @@ def workspace(arguments: argparse.Namespace) -> ExitCode:
         note = "Where the determinant changes sign the motors lose the tool; a path must stay on "
         print_parts([Table("", ("workspace", ""), rows), f"{note}one side."])
     return ExitCode.DONE
+
+
+def place(arguments: argparse.Namespace) -> ExitCode:
+    """Judge placements of a path, and report on the best."""
+    from pollard_pin.verbs.placed import place as placed
+
+    return placed(arguments, _branch(arguments), partial(_curve, arguments))
 
 
 def accuracy(arguments: argparse.Namespace) -> ExitCode:

@@ -37,6 +37,7 @@ VERBS = {
         ["ik", "0.45", "0", "0.1", "0", "0", "0"],
         ["fk", "0", "0", "0", "0", "0", "0"],
         ["workspace"],
+        ["place", "--grid-only", "--samples", "21"],
         ["accuracy"],
         ["info"],
         ["urdf"],

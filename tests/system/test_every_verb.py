@@ -22,6 +22,7 @@ SEEN = {
     "plan": {"--out", "--html"},
     "view": {"--html"},
     "workspace": {"--out"},
+    "place": {"--out", "--html"},
     "thesis-pin workspace": {"--out", "--html"},
     "accuracy": {"--out", "--html"},
     "urdf": {"--out"},

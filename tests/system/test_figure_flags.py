@@ -9,6 +9,7 @@ COMMANDS = {
     "scout-pin gait": [],
     "pollard-pin trajectory": [],
     "pollard-pin workspace": ["--points", "5"],
+    "pollard-pin place": ["--grid-only", "--samples", "21"],
     "pollard-pin accuracy": ["--samples", "31"],
     "thesis-pin workspace": [*DELTA, "--points", "5"],
     "thesis-pin torque": [*DELTA, "examples/delta_pick.csv", "--frame", "platform"],

@@ -284,6 +284,34 @@ CALLS = {
             "jobs": 1,
         },
     ),
+    "Placement.of": (
+        pollard_pin.Placement.of,
+        {"position": [0, 0, 0.1], "turn": 0.1, "mirrored": True},
+    ),
+    "place_path": (
+        pollard_pin.place_path,
+        {"path": PATH, "placement": pollard_pin.Placement((0.0, 0.0, 0.1))},
+    ),
+    "evaluate_placements": (
+        pollard_pin.evaluate_placements,
+        {
+            "robot": POLLARD,
+            "path": PATH,
+            "x": [0.0, 0.05],
+            "y": 0.0,
+            "z": 0.0,
+            "turn": 0.0,
+            "mirrored": False,
+            "branch": BRANCH,
+            "objective": "torque",
+            "condition": 50.0,
+            "samples": 5,
+            "refine": False,
+            "best": 1,
+            "start": pollard_pin.Placement(),
+            "start_branch": BRANCH,
+        },
+    ),
     "path_accuracy": (
         pollard_pin.path_accuracy,
         {

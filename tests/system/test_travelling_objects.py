@@ -131,6 +131,10 @@ MAKERS = {
     "Workspace": lambda: thesis_pin.evaluate_workspace(
         looped(), {looped().actuators[0]: np.linspace(1.4, 1.5, 3)}
     ),
+    "Placements": lambda: pollard_pin.evaluate_placements(
+        pollard_pin.load(), pollard_pin.appendix_b(), z=[0.0, 0.05], samples=21
+    ),
+    "Placement": lambda: pollard_pin.Placement.of([0.0, 0.0, 0.1], 0.2, True),
     "Tolerances": lambda: pollard_pin.read_tolerances(ROOT / "examples" / "tolerances.toml"),
     "Accuracy": lambda: pollard_pin.path_accuracy(
         pollard_pin.load(), pollard_pin.appendix_b(), samples=5, draws=3, within=1e-3

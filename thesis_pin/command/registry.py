@@ -15,8 +15,10 @@ from thesis_pin.command.running import ExitCode, run
 from thesis_pin.command.text import clean, say
 from thesis_pin.version import __version__
 
-_NEGATIVE = re.compile(r"-(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-inf(inity)?|-nan", re.IGNORECASE)
-"""Words that begin with a minus and are values all the same; ours to judge where not finite."""
+_PLAIN = r"(\d+\.?\d*|\.\d+)(e[-+]?\d+)?"
+_NEGATIVE = re.compile(rf"-{_PLAIN}([:,][-+]?{_PLAIN})*|-inf(inity)?|-nan", re.IGNORECASE)
+"""Words that begin with a minus and are values all the same, ranges too; ours to judge where not
+finite."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -234,7 +236,7 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     size: str = "study.size:size"
     smallest: str = "study.smallest.asking:smallest_motors"
     walks: str = ""
-    study: str = "verbs:sweep_study"
+    study: str = "verbs.sweeping:study"
     sweep: str = ""
     audit: str = "thesis.audit:audit"
     thesis: str = "thesis.audit:THESIS"
