@@ -133,6 +133,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
         path_corner: Angle between the directions of two pieces of a path, below which the motion
             needn't stop where they meet [rad]: a tool at 1 m/s jumps by 1 µm/s there.
         law_share: What a law of motion may use beyond a limit between the places of its grid [-].
+        law_way: How far a written law's way may be off its path's, as a share: what rounding to six
+            digits makes of it [-].
         straight: Area that three points span, relative to the square of their largest
             distance from the first, below which they lie on a line [-].
         on_circle: How far rounding may throw a double root off the unit circle [-].
@@ -266,6 +268,7 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     path_join: float = 1e-9
     path_corner: float = 1e-6
     law_share: float = 0.01
+    law_way: float = 1e-5
     straight: float = 1e-9
     on_circle: float = 1e-2
     half_turn: float = 1e-6
