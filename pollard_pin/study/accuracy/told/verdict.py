@@ -98,9 +98,11 @@ def _answer(study: AccuracyNumbers) -> Iterator[str]:
             )
     if study.space is None:
         yield (
-            f"At worst the spray tip is {mm(farthest[k])} off ({study.place(k)}), and its "
-            f"direction {deg(stack.worst_turn.max())}; by the root of the sum of squares "
-            f"{mm(stack.root.max())} and {deg(stack.root_turn.max())}."
+            f"At worst the spray tip is {mm(farthest[k])} off ({study.place(k)}), "
+            f"{mm(farthest.mean())} in the mean of the path; by the root of the sum of squares "
+            f"{mm(stack.root.max())}, in the mean {mm(stack.root.mean())}. Its direction is "
+            f"{deg(stack.worst_turn.max())} off at worst, {deg(stack.root_turn.max())} by the root "
+            "of the sum of squares."
         )
     else:
         least = int(np.argmin(farthest))
