@@ -24,6 +24,8 @@ from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, write_results
 from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
+from thesis_pin.command.warned import warned
 from thesis_pin.report.plotting.wanted import Wanted, written_as
 from thesis_pin.report.writers import csv_bytes, json_bytes
 
@@ -50,7 +52,7 @@ def place(arguments: argparse.Namespace, branch: Branch, curve: Curve) -> ExitCo
     refuse_beside(arguments, "any-branch", ("branch",))
     style = figure_style(arguments)
     page, report = b"", None
-    with Bar("judging placements") as bar:
+    with Bar("judging placements") as bar, warned():
         space = _search(arguments, branch, curve, bar)
         if space.best:
             report = trajectory_report(space.robot, space.best_path, branch=space.best[0].branch)
@@ -64,6 +66,8 @@ def place(arguments: argparse.Namespace, branch: Branch, curve: Curve) -> ExitCo
     write_results(arguments, files, content)
     if arguments.html:
         put(arguments.html, page)
+    for doubt in [] if report is None else report.doubts():
+        say(f"warning: {doubt}")
     if free(arguments):
         print_parts(told(space, report))
     return ExitCode.DONE if space.best else ExitCode.NO

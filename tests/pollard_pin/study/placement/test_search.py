@@ -143,6 +143,13 @@ def test_the_shortest_time_is_one_that_the_motors_keep(pollard):
     assert space.best[0].fastest <= space.start.fastest
 
 
+def test_a_path_that_rests_has_no_shortest_time(pollard):
+    rest = line([0.45, 0.02, 0.05, 0.1, 0, 0], [0.45, 0.02, 0.05, 0.1, 0, 0], 1.0)
+    with pytest.raises(BadInput, match="stays where it is"):
+        evaluate_placements(pollard, rest, objective="time", samples=11)
+    assert evaluate_placements(pollard, rest, z=[0.0, 0.1], samples=11, refine=False).best
+
+
 def test_nothing_that_can_be_followed_is_answered_with_reasons(pollard):
     space = evaluate_placements(pollard, nodding(), x=[1.0, 1.1], samples=21)
     assert space.best == ()
