@@ -36,6 +36,7 @@ from .report.document import trajectory_report as trajectory_report
 # Study
 from .study.size import size as size
 from .study.sweeping.making import path_study as path_study
+from .study.sweeping.making import time_study as time_study
 from .study.smallest.asking import smallest_motors as smallest_motors
 from .study.smallest.asking import time_with_motors as time_with_motors
 from .study.smallest.motors import motor_family as motor_family

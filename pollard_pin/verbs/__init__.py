@@ -30,7 +30,6 @@ if TYPE_CHECKING:  # reports need none of it
     from pollard_pin.study.simulate.conditions import Conditions
     from thesis_pin.pages.live.page import LivePage
     from thesis_pin.report.exchange.movement import Movement
-    from thesis_pin.sweep.study import Study
 
 
 def _branch(arguments: argparse.Namespace) -> Branch:
@@ -124,37 +123,6 @@ def sliders(arguments: argparse.Namespace, robot: Pollard) -> LivePage:
     refuse_beside(arguments, "sliders", motion)
     refuse_set(arguments, "sliders", smooth="auto", actuators="six")
     return slider_page(robot, _branch(arguments), shown_by(arguments, "pollard-pin"))
-
-
-def sweep_study(arguments: argparse.Namespace) -> Study:
-    """What the arguments have designs judged by.
-
-    Raises:
-        BadInput: Something is asked that no report on six motors answers.
-    """
-    from pollard_pin.study.sweeping.making import path_study
-    from pollard_pin.study.sweeping.paths import MEASURES
-    from thesis_pin.sweep.measures import named
-
-    if arguments.actuators != "six":
-        raise BadInput("designs are judged with six motors", remedy="Leave --actuators out")
-    wanted = " ".join(filter(None, (arguments.pareto, arguments.wish)))
-    return path_study(
-        arguments.specification,
-        arguments.path,
-        samples=arguments.samples,
-        inertia=arguments.inertia,
-        branch=_branch(arguments),
-        placement=arguments.placement,
-        duration=arguments.duration,
-        timing=arguments.timing,
-        turn_deg=arguments.turn or 0.0,
-        mirrored=arguments.mirror,
-        euler=arguments.euler,
-        feed=arguments.feed,
-        smooth=arguments.smooth,
-        extra=[*(arguments.measure or ()), *named(MEASURES, wanted)],
-    )
 
 
 def ik(arguments: argparse.Namespace, robot: Pollard) -> Answer:
@@ -273,3 +241,10 @@ def _axis(name: str, ends: list[float], points: int) -> np.ndarray:
             allowed="one value, or from and to in ascending order",
         )
     return np.linspace(ends[0], ends[-1], points if len(ends) == 2 else 1)
+
+
+def time(arguments: argparse.Namespace) -> ExitCode:
+    """Find a law of motion along a path."""
+    from pollard_pin.verbs import timed
+
+    return timed.time(arguments, _branch(arguments), partial(_path, arguments))

@@ -26,7 +26,6 @@ ROBOT = Robot(
     inverse_kinematics="model:Scout.leg_inverse_kinematics",
     still="verbs:still",
     motion_flag="gait",
-    study="verbs.sweeping:study",
     sweep="study.sweeping.making:gait_study",
     walks="verbs.sized:walk",
 )

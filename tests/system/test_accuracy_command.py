@@ -126,6 +126,15 @@ def test_a_bad_list_is_one_message(accuracy, text, said):
     assert said in err
 
 
+def test_metres_in_a_column_of_millimetres_are_asked_about(accuracy):
+    code, _, err = accuracy(*PATH, text="parameter,tolerance_mm\nlengths,0.0001\n")
+    assert code == 0
+    assert "the widest tolerance of a length is 0.1 µm" in err
+    code, _, err = accuracy(*PATH, text="parameter,tolerance,unit\nlengths,0.1,m\n")
+    assert code == 2
+    assert "tolerances.csv:2: a tolerance is 100.0; allowed: a finite number" in err
+
+
 def test_a_list_isn_t_replaced_by_an_answer(accuracy, tmp_path):
     code, _, err = accuracy(*PATH, "--json", tmp_path / "tolerances.csv")
     assert code == 2

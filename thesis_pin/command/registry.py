@@ -236,7 +236,7 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
     size: str = "study.size:size"
     smallest: str = "study.smallest.asking:smallest_motors"
     walks: str = ""
-    study: str = "verbs:sweep_study"
+    study: str = "verbs.sweeping:study"
     sweep: str = ""
     audit: str = "thesis.audit:audit"
     thesis: str = "thesis.audit:THESIS"

@@ -12,13 +12,15 @@ from pollard_pin.motion.files import load_path
 from pollard_pin.motion.path import Timing, ToolPath
 from pollard_pin.motion.toml import PathFile
 from pollard_pin.specification import Specification
-from pollard_pin.study.sweeping.paths import MEASURES, PATH, PLACE, PathStudy
+from pollard_pin.study.sweeping.paths import LIMITS, MEASURES, PATH, PLACE, PathStudy
+from pollard_pin.study.sweeping.times import BOUNDS, TimeStudy
+from pollard_pin.study.timing.timed import AIMS, Aim
 from thesis_pin.errors import BadInput
-from thesis_pin.model.limits import LIMITS
+from thesis_pin.model.limits import LIMITS as READ
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.source import read_bytes
 from thesis_pin.model.specification import read_toml
-from thesis_pin.numeric.checks import whole
+from thesis_pin.numeric.checks import choice, whole
 from thesis_pin.sweep.measures import chosen
 
 
@@ -82,6 +84,63 @@ def path_study(
     return PathStudy(base, made, samples, inertia, one_branch(branch), tuple(extra), motion)
 
 
+def time_study(
+    specification: Specification | str | Path | None = None,
+    path: str | Path | None = None,
+    *,
+    law: Aim = "fastest",
+    inertia: Reading = "physical",
+    branch: Branch = DEFAULT_BRANCH,
+    placement: Sequence[float] | None = None,
+    duration: float | None = None,
+    timing: Timing | None = None,
+    turn_deg: float = 0.0,
+    mirrored: bool = False,
+    euler: str | None = None,
+    feed: float | None = None,
+    smooth: str = "auto",
+) -> TimeStudy:
+    """Robots that are judged by the law of motion that their motors allow along a path.
+
+    Designs may change what bounds the law besides the motors' limits, as ``limits.tool_speed``:
+    :data:`pollard_pin.study.sweeping.times.BOUNDS`.
+
+    Args:
+        specification: See :func:`path_study`, as all others.
+        path: The same.
+        law: See :func:`pollard_pin.time_path`.
+        inertia: The same.
+        branch: The same.
+        placement: The same.
+        duration: The same.
+        timing: The same.
+        turn_deg: The same.
+        mirrored: The same.
+        euler: The same.
+        feed: The same.
+        smooth: The same.
+
+    Raises:
+        BadInput: A file can't be read, or something belongs to another kind of path.
+        UnknownName: There is no such law.
+    """
+    choice("law", law, AIMS)
+    base, made, motion = base_and_path(
+        specification,
+        path,
+        placement=placement,
+        duration=duration,
+        timing=timing,
+        turn_deg=turn_deg,
+        mirrored=mirrored,
+        euler=euler,
+        feed=feed,
+        smooth=smooth,
+    )
+    base[LIMITS] = dict(BOUNDS)
+    return TimeStudy(base, made, law, inertia, one_branch(branch), motion)
+
+
 def base_and_path(
     specification: Specification | str | Path | None,
     path: str | Path | None,
@@ -120,7 +179,7 @@ def base_and_path(
     if Path(path).suffix.lower() == ".toml":
         base[PATH] = read_toml("path", PathFile, path).model_dump(mode="json")
         return base, None, ""
-    content = hashlib.sha256(read_bytes("path", path, LIMITS.csv_bytes)).hexdigest()
+    content = hashlib.sha256(read_bytes("path", path, READ.csv_bytes)).hexdigest()
     return base, made, f"{content} {euler} {feed} {timing} {smooth}"
 
 

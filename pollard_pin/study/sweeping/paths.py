@@ -17,7 +17,9 @@ from pollard_pin.motion.placing import Placement, place_path
 from pollard_pin.motion.toml import PathFile, path_of
 from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import ACTUATOR_NAMES, Specification
+from pollard_pin.study.smallest.asking import smallest_motors
 from thesis_pin.display.brief import Brief
+from thesis_pin.errors import BadInput
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
 from thesis_pin.numeric.checks import real
@@ -25,7 +27,7 @@ from thesis_pin.sweep.designs.text import toml
 from thesis_pin.sweep.measures import Measure, chosen, row
 from thesis_pin.sweep.study import Cell, Column
 
-PATH, PLACE = "path", "place"
+PATH, PLACE, LIMITS = "path", "place", "limits"
 """Names under which the data have what isn't of the specification."""
 
 DESIGN = "the design"
@@ -45,6 +47,18 @@ def _use(report: TrajectoryReport) -> float:
 def _worst(report: TrajectoryReport) -> str:
     use = report.motor_use
     return ACTUATOR_NAMES[int(np.argmax(np.maximum(use.torque, use.speed)))]
+
+
+def _smallest(report: TrajectoryReport, motors: slice) -> float | None:
+    """Torque limit of the smallest motors, as the specification's otherwise, that do it for long.
+
+    None where no motor of the kind does.
+    """
+    try:
+        found = smallest_motors(report, law="given").cases[0].long[motors]
+    except BadInput:
+        return None
+    return float(found.max()) if np.isfinite(found).all() else None
 
 
 MEASURES: tuple[Measure[TrajectoryReport], ...] = (
@@ -92,6 +106,16 @@ MEASURES: tuple[Measure[TrajectoryReport], ...] = (
     Measure(
         Column("mass", "kg", "of everything that moves", "less"),
         lambda report: report.robot.specification.mass,
+    ),
+    Measure(
+        Column("smallest_base", "N·m", "least torque limit of equal base motors for it", "less"),
+        lambda report: _smallest(report, BASE),
+        usual=False,
+    ),
+    Measure(
+        Column("smallest_wrist", "N·m", "least torque limit of equal wrist motors for it", "less"),
+        lambda report: _smallest(report, WRIST),
+        usual=False,
     ),
     Measure(
         Column("joint_force", "N", "largest force in any joint", "less"),
@@ -146,21 +170,12 @@ class PathStudy(Brief):
         """Everything that decides the rows but for the base, JSON-ready."""
         return {
             "robot": str(self.base["name"]),
-            "judge": f"path {self.name}",
+            "judge": f"path {named(self.base, self.path)}",
             "samples": self.samples,
             "inertia": self.inertia,
             "branch": str(self.branch),
             "motion": self.motion,
         }
-
-    @property
-    def name(self) -> str:
-        """The path's."""
-        if self.path is not None:
-            return self.path.name
-        return str(
-            cast(Mapping[str, object], self.base.get(PATH, {"name": "of appendix B"}))["name"]
-        )
 
     def judge(self, data: object) -> Mapping[str, Cell]:
         """The columns of one design: those of its path's report."""
@@ -182,6 +197,18 @@ class PathStudy(Brief):
         return written(self.base, cast(Mapping[str, object], data), notes)
 
 
+def named(base: Mapping[str, object], path: ToolPath | None) -> str:
+    """What a study's path is called.
+
+    Args:
+        base: What designs change.
+        path: A path that they don't; None for one in the data, or appendix B's curve.
+    """
+    if path is not None:
+        return path.name
+    return str(cast(Mapping[str, object], base.get(PATH, {"name": "of appendix B"}))["name"])
+
+
 def robot_of(parts: Mapping[str, object], inertia: Reading) -> Pollard:
     """The robot of a design.
 
@@ -195,7 +222,7 @@ def robot_of(parts: Mapping[str, object], inertia: Reading) -> Pollard:
 
 def _own(parts: Mapping[str, object]) -> dict[str, object]:
     """What is of the specification."""
-    return {key: value for key, value in parts.items() if key not in (PATH, PLACE)}
+    return {key: value for key, value in parts.items() if key not in (PATH, PLACE, LIMITS)}
 
 
 def path_in(parts: Mapping[str, object], robot: Pollard, path: ToolPath | None) -> ToolPath:
@@ -241,7 +268,8 @@ def written(
     said = list(notes)
     if place != Placement():
         x, y, z = place.position
-        flags = f"--placement {x!r} {y!r} {z!r} --turn {math.degrees(place.turn)!r}"
+        turn = cast(Mapping[str, float], parts[PLACE])["turn_deg"]
+        flags = f"--placement {x + 0.0!r} {y + 0.0!r} {z + 0.0!r} --turn={turn!r}"
         said.append(f"Its path is put elsewhere: {flags}{' --mirror' * place.mirrored}")
     files = {"best.toml": toml(_own(parts), said)}
     if parts.get(PATH) is not base.get(PATH):

@@ -109,6 +109,7 @@ def plan_cycle(
     robot: Scout,
     request: PlanRequest | None = None,
     *,
+    instead: bool = True,
     progress: Callable[[int, int], None] = silent,
 ) -> CyclePlan:
     """Plan a cycle that keeps every limit of a request.
@@ -122,6 +123,8 @@ def plan_cycle(
     Args:
         robot: The biped, with a free-flyer root.
         request: What is asked for; None for the default.
+        instead: Whether to find out what stands in the way where it can't be met, and what could
+            be met, which takes longer than the plan.
         progress: Called with the searches done and their number at most.
 
     Returns:
@@ -148,7 +151,7 @@ def plan_cycle(
     try:
         found = search.first(request)
         if not found.kept:
-            why = shortfall(search, request, found)
+            why = shortfall(search, request, found) if instead else None
         else:
             if request.objective != "limits":
                 found = improved(search, found, request.objective)

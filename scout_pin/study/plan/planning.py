@@ -47,6 +47,7 @@ def plan_gait(
     *,
     steps: int = 10,
     samples: int = 801,
+    instead: bool = True,
     progress: Callable[[int, int], None] = silent,
 ) -> Plan:
     """Plan a walk: a cycle, a start from rest that leads to it, and a stop at rest.
@@ -59,6 +60,8 @@ def plan_gait(
         request: What is asked for; None for the default.
         steps: Steps of the walk, each a step's length ahead; then the foot behind is drawn up.
         samples: Evenly spaced samples at which each report judges; of a long walk more.
+        instead: Whether to find out what stands in the way where the request can't be met, and what
+            could be met, which takes longer than the plan.
         progress: Called with what is done and the whole.
 
     Returns:
@@ -93,7 +96,7 @@ def plan_gait(
         told[0] = min(told[0] + 1, told[1])
         progress(*told)
 
-    cycle = plan_cycle(robot, request, progress=of_cycle)
+    cycle = plan_cycle(robot, request, instead=instead, progress=of_cycle)
     if cycle.interrupted and not cycle.met:
         raise KeyboardInterrupt
     if not cycle.met:

@@ -14,7 +14,9 @@ from scout_pin.motion.files import GaitFile, gait_of
 from scout_pin.motion.gait import Gait
 from scout_pin.report.document import GaitReport, gait_report
 from scout_pin.specification import JOINT_NAMES, Specification
+from scout_pin.study.smallest.asking import smallest_motors
 from thesis_pin.display.brief import Brief
+from thesis_pin.errors import BadInput
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
 from thesis_pin.sweep.designs.text import toml
@@ -31,6 +33,18 @@ def _worst(report: GaitReport) -> str:
 
 def _shortest(report: GaitReport) -> float | None:
     return min((one.shortest for one in report.time_units), default=None)
+
+
+def _smallest(report: GaitReport) -> float | None:
+    """Stall torque of the smallest servos, the specification's otherwise, that do it for long.
+
+    None where no servo of the kind does.
+    """
+    try:
+        found = smallest_motors(report, law="given").cases[0].long
+    except BadInput:
+        return None
+    return float(found.max()) if np.isfinite(found).all() else None
 
 
 MEASURES: tuple[Measure[GaitReport], ...] = (
@@ -78,6 +92,11 @@ MEASURES: tuple[Measure[GaitReport], ...] = (
     Measure(
         Column("mass", "kg", "of the whole robot", "less"),
         lambda report: report.robot.specification.mass,
+    ),
+    Measure(
+        Column("smallest_servo", "N·m", "least stall torque of equal servos for it", "less"),
+        _smallest,
+        usual=False,
     ),
     Measure(
         Column("fastest_time_unit", "s", "least that the servos' lines allow", "less"),

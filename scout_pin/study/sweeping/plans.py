@@ -121,7 +121,7 @@ class PlanStudy(Brief):
         parts = cast(Mapping[str, object], data)
         robot = robot_of(parts, self.inertia)
         request = request_of(cast(Mapping[str, object], parts[PLAN]))
-        return plan_gait(robot, request, steps=self.steps, samples=self.samples)
+        return plan_gait(robot, request, steps=self.steps, samples=self.samples, instead=False)
 
     def written(self, data: object, notes: Sequence[str]) -> Mapping[str, bytes]:
         """The design as a specification; what was asked of its walk stands at its top."""

@@ -139,12 +139,13 @@ def _refuse_words(base: object, parameter: Parameter, value: Value) -> None:
     """
     for key, new in parameter.sets(base, value):
         before = value_at(base, key)
-        number = isinstance(before, int | float) and not isinstance(before, bool)
-        if number and isinstance(new, str | bool):
+        truth = isinstance(before, bool)
+        number = isinstance(before, int | float) and not truth
+        if (number and isinstance(new, str | bool)) or (truth and not isinstance(new, bool)):
             raise BadInput(
-                f"{dotted(key)} is the number {shown(before)} and can't be {new!r}",
+                f"{dotted(key)} is {shown(before)} and can't be {new!r}",
                 where=parameter.label,
-                allowed="numbers",
+                allowed="true or false" if truth else "numbers",
             )
 
 

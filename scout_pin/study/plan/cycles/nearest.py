@@ -20,7 +20,9 @@ _TINY = (0.01, 0.001)  # of one as far from what can be met as another unit make
 _CLIMBS = 10  # from the first that is met towards what was asked for
 _FIRST, _FINE = 0.16, 0.02  # relative steps of it: the first one, and when it is given up
 _FASTER, _SLOWER = 1.5, 0.4
-_CONFIRMED = (1.0, 0.85, 0.6)  # of what was met from nearby: searched anew until one is met
+_CONFIRMED = {0.6: 1 / 2, 1.0: 2 / 3, 0.85: 1 / 2}
+"""Shares of what was met from nearby that are searched anew, what is safe before what may take all
+of the time there is; of that, what each may take."""
 
 OFFERS = 4 * (2 * len(_SHARES) + _CLIMBS + ATTEMPTS)
 """Descents at most, or so."""
@@ -118,9 +120,21 @@ def nearest(
             step = _SLOWER * (share / low - 1.0)
             if step < _FINE:
                 break
-    # What is met from nearby isn't always found from afar: then a little less is.
-    offers = (change.request(request, share * low) for share in _CONFIRMED)
-    return next((one for one in offers if one is not None and _again(search, one)), None)
+    return _confirmed(search, request, change, low)
+
+
+def _confirmed(
+    search: Search, request: PlanRequest, change: Change, share: float
+) -> PlanRequest | None:
+    """What is met anew: what is met from nearby isn't always, then less is."""
+    offered = None
+    for part, most in _CONFIRMED.items():
+        asked = change.request(request, part * share)
+        if asked is not None and _again(search, asked, most):
+            offered = asked
+            if part == max(_CONFIRMED):
+                break
+    return offered
 
 
 def _begun(
@@ -144,15 +158,25 @@ def _begun(
     return first
 
 
-def _again(search: Search, request: PlanRequest) -> bool:
-    """Whether a request is met by who knows nothing of this search."""
+def _again(search: Search, request: PlanRequest, most: float) -> bool:
+    """Whether a request is met by who knows nothing of this search.
+
+    Args:
+        search: The search.
+        request: The request.
+        most: Share of what may still be searched that this may take.
+    """
+    if search.left <= 0.0:
+        return False
+    anew = None
     try:
         anew = Search(search.sampler.robot, request, search.tick)
-        kept = anew.first(request).kept
+        anew.allowed = most * search.left
+        return anew.first(request).kept
     except (ThesisPinError, ArithmeticError):
         return False
-    search.iterations += anew.iterations
-    return kept
+    finally:
+        search.iterations += anew.iterations if anew else 0
 
 
 def _fresh(search: Search, request: PlanRequest | None, found: Candidate) -> Candidate | None:
@@ -175,7 +199,7 @@ def attempt(
     start: Unknowns,
     held: frozenset[str] = frozenset(KINDS),
 ) -> Candidate | None:
-    """What a descent leads to; None where nothing can be said.
+    """What a descent leads to; None where nothing can be said, or enough was searched.
 
     Args:
         search: Where it is searched.
@@ -183,6 +207,8 @@ def attempt(
         start: Where to begin.
         held: Kinds of limits that count.
     """
+    if search.spent:
+        return None
     try:
         return search.solved(request, start, held=held)
     except (ThesisPinError, ArithmeticError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -41,6 +42,10 @@ _TRIED = 30  # steps of a first attempt
 _STUCK, _SLOW = 0.1, 0.02  # gain of five of them below which they end
 _LONGER = 90  # and of the best ones'
 _HOPELESS = 3  # starts, none of which gets near
+AFFORDED = {1: 1400, 2: 1050}
+"""Steps of Gauss–Newton, by the steps of a cycle that are unknown, after which nobody searches on
+for why a request isn't met: less than 20 s of a processor."""
+
 FAR = 0.5
 """Excess from which a request isn't nearly met."""
 
@@ -96,10 +101,14 @@ class Search:
         robot: The biped; its friction is the floor's.
         request: What is asked for first.
         tick: Called after each descent.
+
+    Attributes:
+        allowed: Steps of Gauss–Newton after which no further descent begins.
     """
 
     def __init__(self, robot: Scout, request: PlanRequest, tick: Callable[[], None]) -> None:
         self.tick, self.build, self.iterations = tick, Build.of(robot), 0
+        self.allowed = math.inf
         self.steps = Steps.of(robot, request)
         straight = max(STRAIGHT, float(np.cos(request.knee)))
         branches = standing_branches(robot, self.build, self.steps, request)
@@ -111,6 +120,16 @@ class Search:
             alike = False
         self.cyclic = Cyclic(1 if alike and not request.aside else 2)
         self.latest: Candidate | None = None
+
+    @property
+    def left(self) -> float:
+        """Steps of Gauss–Newton that may still go into why a request isn't met."""
+        return AFFORDED[self.cyclic.steps] - self.iterations
+
+    @property
+    def spent(self) -> bool:
+        """Whether no further descent is to begin."""
+        return self.iterations >= self.allowed
 
     def problem(self, request: PlanRequest) -> CycleProblem:
         """A request as a problem."""
@@ -183,7 +202,8 @@ class Search:
             if self._better(found):
                 return found
             tried.append(found)
-            if len(tried) >= _HOPELESS and min(one.most for one in tried) > FAR:
+            hopeless = len(tried) >= _HOPELESS and min(one.most for one in tried) > FAR
+            if hopeless or self.spent:
                 break
         if not tried:
             raise BadInput(
@@ -194,6 +214,8 @@ class Search:
             )
         tried.sort(key=lambda one: one.most)
         for one in [one for one in tried if one.most <= FAR][:2]:
+            if self.spent:
+                break
             found = self.solved(request, one.known, most=_LONGER)
             if self._better(found):
                 return found

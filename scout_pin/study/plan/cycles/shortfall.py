@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from scout_pin.study.plan.cycles.nearest import OFFERS, attempt, changes, nearest
 from scout_pin.study.plan.cycles.search import FAR, Candidate, Search
 from scout_pin.study.plan.limits import KINDS, Worst
-from scout_pin.study.plan.request import PlanRequest
+from scout_pin.study.plan.request import LEAST, PlanRequest
 
 _REACH = frozenset({"knee", "lower", "upper", "posture"})
 _BINDING = 0.02  # how near to a limit a compromise presses against it
+_CLIMBING = 1 / 3  # of what may still be searched, what one change may take but for its proof
 
 ALTERNATIVES = 6 + OFFERS
 """Descents at most, or so."""
@@ -53,10 +54,17 @@ def shortfall(search: Search, request: PlanRequest, found: Candidate) -> Shortfa
         found: The cycle that passes limits least.
     """
     far = found.most > FAR
+    search.allowed = search.iterations + search.left
     binding = (_unreached(search, request, found) if far else []) or _near(
         search, request, found, most=1 if far else len(KINDS)
     )
-    met = {one.name: nearest(search, request, found, one) for one in changes(search, request)}
+    wanted = list(changes(search, request))
+    met: dict[str, PlanRequest | None] = dict.fromkeys(one.name for one in wanted)
+    # What is seldom asked for is what fails, and more time seldom helps: it comes last, as there
+    # may be no time for all of them.
+    for one in sorted(wanted, key=lambda one: (one.name not in LEAST, one.up)):
+        search.allowed = search.iterations + _CLIMBING * search.left
+        met[one.name] = nearest(search, request, found, one)
     return Shortfall(tuple(binding), {name: one for name, one in met.items() if one is not None})
 
 

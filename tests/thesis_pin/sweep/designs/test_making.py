@@ -94,7 +94,7 @@ def test_a_table_beside_ranges_gives_each_of_its_designs_with_each_of_those():
         ("x", "varies nothing"),
         ("=1", "varies nothing"),
         ("x,=1", "varies nothing"),
-        ("x=round", "is the number 1.0 and can't be 'round'"),
+        ("x=round", "is 1.0 and can't be 'round'"),
         ("x=true", "can't be True"),
         ("kind=50%", "of which there is no share"),
         ("nothing=50%", "of which there is no share"),

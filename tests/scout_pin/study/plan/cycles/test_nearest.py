@@ -1,7 +1,8 @@
 """Requests next to one that can't be met."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from types import SimpleNamespace
 
 import pytest
 
@@ -10,6 +11,7 @@ from scout_pin.study.plan.cycles.feet import least_spacing
 from scout_pin.study.plan.cycles.nearest import Change, changes, nearest
 from scout_pin.study.plan.cycles.search import Search
 from scout_pin.study.plan.request import GAP, STEP_TIME, PlanRequest
+from thesis_pin.errors import NoSupportForce
 
 SPEED = Change("speed", lambda share: share * 0.3)
 ASKED = PlanRequest(speed=0.3)
@@ -39,7 +41,14 @@ def of_speeds(monkeypatch, most, met_anew):
 
     monkeypatch.setattr(module, "attempt", attempt)
     monkeypatch.setattr(module, "_fresh", fresh)
-    monkeypatch.setattr(module, "_again", lambda search, request: request.speed <= met_anew)
+    asked = []
+
+    def again(search, request, most):
+        asked.append((request.speed, most))
+        return request.speed <= met_anew
+
+    monkeypatch.setattr(module, "_again", again)
+    return asked
 
 
 def test_what_fails_from_afar_is_met_step_by_step(monkeypatch):
@@ -58,6 +67,64 @@ def test_what_is_not_met_anew_is_not_offered_but_the_next_less_ambitious(monkeyp
 def test_a_request_is_offered_where_only_much_less_than_the_edge_is_met_anew(monkeypatch):
     of_speeds(monkeypatch, 0.18, 0.12)
     assert 0.1 < nearest(None, ASKED, Found(ASKED, False), SPEED).speed <= 0.12
+
+
+def test_what_is_safe_is_searched_anew_before_what_may_take_all_the_time(monkeypatch):
+    asked = of_speeds(monkeypatch, 0.18, 0.12)
+    assert nearest(None, ASKED, Found(ASKED, False), SPEED).speed == asked[0][0]
+    speeds, shares = zip(*asked, strict=True)
+    assert speeds[0] < speeds[2] < speeds[1]
+    assert all(0.0 < share < 1.0 for share in shares), "something is left for the next"
+    asked = of_speeds(monkeypatch, 0.18, 1.0)
+    assert nearest(None, ASKED, Found(ASKED, False), SPEED).speed == max(asked)[0]
+    assert len(asked) == 2, "nothing lies between"
+
+
+@dataclass
+class Limited:
+    """A search of which so much is done, of so much that is allowed."""
+
+    iterations: float
+    allowed: float = math.inf
+    left: float = 300.0
+    sampler: object = field(default_factory=lambda: SimpleNamespace(robot=None))
+    tick: object = None
+
+    @property
+    def spent(self):
+        return self.iterations >= self.allowed
+
+    def solved(self, request, start, **_):
+        self.iterations += 30
+        return Found(request, True)
+
+    def first(self, request):
+        while not self.spent:
+            self.solved(request, None)
+        raise NoSupportForce("nothing is regular")
+
+
+def test_a_search_anew_takes_its_share_of_what_is_left_and_is_counted(monkeypatch):
+    anew = []
+
+    def search(robot, request, tick):
+        anew.append(Limited(0.0))
+        return anew[-1]
+
+    monkeypatch.setattr(module, "Search", search)
+    of = Limited(1000.0)
+    assert not module._again(of, ASKED, 0.5)
+    assert anew[0].allowed == 150.0
+    assert of.iterations == 1150.0
+    assert not module._again(Limited(1000.0, left=0.0), ASKED, 0.5)
+    assert len(anew) == 1, "where nothing is left nobody searches"
+
+
+def test_no_descent_begins_after_what_is_allowed():
+    search = Limited(0.0, allowed=70.0)
+    found = [module.attempt(search, ASKED, None) for _ in range(5)]
+    assert [one is not None for one in found] == [True, True, True, False, False]
+    assert search.iterations == 90.0
 
 
 def test_a_request_in_another_unit_is_led_back_to_what_can_be_met(monkeypatch):
