@@ -15,7 +15,7 @@ from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import Specification
 from pollard_pin.study.placement.document import columns, document
 from pollard_pin.study.placement.limits import with_limits
-from pollard_pin.study.placement.result import Placements
+from pollard_pin.study.placement.result import Found, Placements
 from pollard_pin.study.placement.search import evaluate_placements
 from pollard_pin.study.placement.telling import told
 from thesis_pin.command.flags.drawn_as import figure_style
@@ -128,8 +128,17 @@ def _files(
 
     files = {"placements.csv": csv_bytes(columns(space)), "placements.json": content}
     if report is not None:
-        from pollard_pin.motion.writing import path_toml
-
-        files["path.toml"] = path_toml(report.path.name, report.motion).encode()
+        files["path.toml"] = _path_file(space.best[0], report).encode()
     with written_as(style):
         return files | placements_files(space)
+
+
+def _path_file(best: Found, report: TrajectoryReport) -> str:
+    """The path at the best placement: with the law that was found, or through its samples."""
+    if best.law is None:
+        from pollard_pin.motion.writing import path_toml
+
+        return path_toml(report.path.name, report.motion)
+    from pollard_pin.motion.law_file import law_toml
+
+    return law_toml(report.path.name, best.law.course.track.chain, best.law.law)

@@ -64,6 +64,7 @@ def test_appendix_b_is_placed_from_the_print_and_its_law_is_written(capfd, tmp_p
     report = told(capfd, "--path", str(tmp_path / "path.toml"))
     assert report["parameters"]["duration"] == pytest.approx(best["fastest_by_law"])
     assert max(report["summary"]["peak_torque"]) == pytest.approx(2.0, rel=1e-2)
+    assert document["report"]["motor_limits"]["within"]
 
 
 @pytest.mark.parametrize(

@@ -148,7 +148,8 @@ def test_the_shortest_time_is_one_that_the_motors_keep_and_no_law_there_is_short
     assert best.law.duration < best.fastest <= 1.5
     report = trajectory_report(robot, space.best_path)
     assert report.path.duration == pytest.approx(best.law.duration, rel=1e-9)
-    assert 0.98 < max(report.motor_use.torque.max(), report.motor_use.speed.max()) < 1.01
+    assert report.within_limits
+    assert max(report.motor_use.torque.max(), report.motor_use.speed.max()) > 0.98
 
 
 def test_played_as_fast_as_it_is_told_no_motor_exceeds_its_limits(pollard):
