@@ -164,8 +164,10 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             seconds in 60° of usual servos, read as rad/s, are less [rad/s].
         motor_torque: Relative width of the interval in which the stall torque of the smallest motor
             counts as found [-]: nobody makes or measures motors better.
-        walking_torque: The same where a walk is planned anew with each servo [-]: plans are local
-            answers, and not found more exactly.
+        settled_torque: Relative change of the stall torque of the smallest motors for a path that a
+            grid of half the steps may make and counts as none [-].
+        walking_torque: As ``motor_torque``, where a walk is planned anew with each servo [-]: plans
+            are local answers, and not found more exactly.
         power_density, torque_density: Greatest power and stall torque of an actuator for its
             size that are taken for right [W/m³], [N·m/m³]; hobby servos have 0.02 to 0.6 W/cm³
             and up to 0.15 N·m/cm³.
@@ -284,6 +286,7 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     sheet_rounding: float = 0.1
     slow_servo: float = 0.3
     motor_torque: float = 5e-4
+    settled_torque: float = 4e-3
     walking_torque: float = 0.01
     power_density: float = 1e6
     torque_density: float = 3e5
