@@ -18,7 +18,7 @@ def which_geometry(words: argparse.ArgumentParser) -> None:
     )
     add_smooth(words)
     add_euler(words)
-    words.set_defaults(duration=None, timing=None, feed=None)  # which other verbs have
+    words.set_defaults(duration=None, timing=None, feed=None, untimed=True)
 
 
 def which_law(words: argparse.ArgumentParser) -> None:
