@@ -25,6 +25,7 @@ SAYS = {
     "pollard_kinematics": "16 of 16 useful branches reach the pose",
     "pollard_accuracy": "What moves it most: encoder.chain1_shoulder",
     "pollard_placement": "the motors peak at 0.929 N·m",
+    "pollard_fast_path": "at its fastest: 0.558 s",
     "pollard_spray_path": "the path crosses a singularity of the actuation",
 }
 
