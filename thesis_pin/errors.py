@@ -305,12 +305,13 @@ class Infeasible(BadInput):
         what: Which limit.
         share: How much of it is used.
         place: Where on the path, by its parameter.
+        where: The same in words.
     """
 
-    def __init__(self, what: str, share: float, place: float) -> None:
+    def __init__(self, what: str, share: float, place: float, *, where: str = "") -> None:
         self.limit, self.share, self.place = what, share, place
         super().__init__(
             f"holding the robot still takes {share:.1%} of the {what}",
-            where=f"s = {place:.6g} of the path",
+            where=where or f"s = {place:.6g} of the path",
             remedy="Allow more, or move the path",
         )

@@ -133,6 +133,8 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
         path_corner: Angle between the directions of two pieces of a path, below which the motion
             needn't stop where they meet [rad]: a tool at 1 m/s jumps by 1 µm/s there.
         law_share: What a law of motion may use beyond a limit between the places of its grid [-].
+        law_way: How far a written law's way may be off its path's, as a share: what rounding to six
+            digits makes of it [-].
         straight: Area that three points span, relative to the square of their largest
             distance from the first, below which they lie on a line [-].
         on_circle: How far rounding may throw a double root off the unit circle [-].
@@ -162,15 +164,19 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
             seconds in 60° of usual servos, read as rad/s, are less [rad/s].
         motor_torque: Relative width of the interval in which the stall torque of the smallest motor
             counts as found [-]: nobody makes or measures motors better.
-        walking_torque: The same where a walk is planned anew with each servo [-]: plans are local
-            answers, and not found more exactly.
+        settled_torque: Relative change of the stall torque of the smallest motors for a path that a
+            grid of half the steps may make and counts as none [-].
+        walking_torque: As ``motor_torque``, where a walk is planned anew with each servo [-]: plans
+            are local answers, and not found more exactly.
         power_density, torque_density: Greatest power and stall torque of an actuator for its
             size that are taken for right [W/m³], [N·m/m³]; hobby servos have 0.02 to 0.6 W/cm³
             and up to 0.15 N·m/cm³.
         specific_power, specific_torque: The same for its mass [W/kg], [N·m/kg]; the best
             have 400 W/kg and 80 N·m/kg.
         widest_length: Largest tolerance of a length that is taken for one [m]: a 16th of an arm.
-        widest_angle: The same of an angle [rad]: ten degrees.
+        finest_length: Widest tolerance of a robot's lengths below which one is asked for their unit
+            [m]: gauge blocks are made so.
+        widest_angle: The same as ``widest_length`` of an angle [rad]: ten degrees.
         linear: Share by which exact kinematics at the worst errors may differ from what is linear
             in them until it is told [-]: nobody knows tolerances better.
         replay_deviation: How far a replayed motion's tool may be from its path [m]: spray and
@@ -264,6 +270,7 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     path_join: float = 1e-9
     path_corner: float = 1e-6
     law_share: float = 0.01
+    law_way: float = 1e-5
     straight: float = 1e-9
     on_circle: float = 1e-2
     half_turn: float = 1e-6
@@ -279,12 +286,14 @@ class Tolerances(NamedTuple):  # a dataclass of so many fields takes three times
     sheet_rounding: float = 0.1
     slow_servo: float = 0.3
     motor_torque: float = 5e-4
+    settled_torque: float = 4e-3
     walking_torque: float = 0.01
     power_density: float = 1e6
     torque_density: float = 3e5
     specific_power: float = 600.0
     specific_torque: float = 120.0
     widest_length: float = 0.02
+    finest_length: float = 1e-6
     widest_angle: float = 0.17453292519943295
     linear: float = 0.05
     replay_deviation: float = 1e-3

@@ -9,6 +9,7 @@ from functools import partial
 from pollard_pin.cli.accuracy import which_tolerances
 from pollard_pin.cli.placement import which_places
 from pollard_pin.cli.sweeps import which_judge
+from pollard_pin.cli.timing import which_geometry, which_law
 from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_number, number
@@ -45,6 +46,16 @@ def _which_curve(words: argparse.ArgumentParser) -> None:
 def _which_path(words: argparse.ArgumentParser) -> None:
     _branch(words, default="this one")
     _which_curve(words)
+    _which_place(words)
+
+
+def _which_geometry(words: argparse.ArgumentParser) -> None:
+    _branch(words, default="this one")
+    which_geometry(words)
+    _which_place(words)
+
+
+def _which_place(words: argparse.ArgumentParser) -> None:
     placement = (
         "what is added to the path's x, y, z [m] (default: nothing; to appendix B's curve, as it "
         "is printed, the specification's)"
@@ -160,6 +171,17 @@ COMMAND = Command(
             "trajectory --path examples/spray_arch.toml --out report",
             samples=2001,
             breaks="a motor exceeds its limits",
+        ),
+        Verb(
+            "time",
+            "how fast can this path be followed?",
+            "Laws of motion along a path whose geometry is kept, within limits of motors, ball "
+            "joints and tool: the fastest, the largest constant tool speed, the least loading.",
+            "time --path examples/spray_arch.toml --torque 2 2 2 0.05 0.05 0.05 --speed 10 "
+            "--to fastest.toml",
+            "pollard_pin.study.timing.timed:time_path",
+            "pollard_pin.verbs:time",
+            (_robot, _which_geometry, which_law),
         ),
         common.size_verb(
             ROBOT,

@@ -36,7 +36,7 @@ def which_tolerances(words: argparse.ArgumentParser) -> None:
     add_count(words, "--points", "points an axis (default: 41 with --workspace)", least=2)
     draws = "robots with such errors, each other ones (default: 200 on a path, else none)"
     add_count(words, "--draws", draws, least=1)
-    seed = "of the errors; the same seed draws the same robots"
+    seed = "of the draws; the same seed draws the same robots"
     add_count(words, "--seed", seed, least=0, default=0)
     words.add_argument(
         "--within",

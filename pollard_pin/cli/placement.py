@@ -20,9 +20,9 @@ def which_places(words: argparse.ArgumentParser) -> None:
         "number, shortest time within the motors' limits, or most clearance from singularities "
         "(default: torque)",
     )
-    for axis, default in (("x", "7 within ±0.15 m"), ("y", "5 within ±0.1 m"), ("z", "as x")):
+    for axis, default in (("x", "7 within ±0.15 m"), ("y", "5 within ±0.1 m"), ("z", "as of x")):
         text = f"what is added to the path's {axis} [m]: one value, FROM:TO, FROM:TO:STEP or a list"
-        text += f" (default: {default} of where it stands; where it stands if another is given)"
+        text += f" (default: {default}, about where it stands; nothing else where a range is given)"
         add_range(words, f"--{axis}", "RANGE", text)
     turn = "turns about the vertical through the path's middle [°], likewise (default: none)"
     add_range(words, "--turn", "RANGE", turn)
@@ -38,7 +38,7 @@ def which_places(words: argparse.ArgumentParser) -> None:
     words.add_argument(
         "--any-branch",
         action="store_true",
-        help="try all 16 branches with f0 f1 f2 at +",
+        help="try all 16 branches with f0 f1 f2 at +, but for those on which the arms cross",
     )
     torque = "limits of the motors' torque: one number, or six (default: the specification's)"
     add_number(words, "--torque", "N·m", torque, positive=True, nargs="+")

@@ -47,8 +47,8 @@ class Chain(Brief):
         """Pieces one after the other; the motion stops where their directions differ."""
         scale, stops = [1.0], [True]
         for before, after in itertools.pairwise(curves):
-            one = _direction(before.function(np.array([before.length]))[0])
-            two = _direction(after.function(np.zeros(1))[0])
+            one = direction(before.function(np.array([before.length]))[0])
+            two = direction(after.function(np.zeros(1))[0])
             sizes = np.linalg.norm(one), np.linalg.norm(two)
             apart = float(np.linalg.norm(one / sizes[0] - two / sizes[1]))
             scale.append(scale[-1] * float(sizes[1] / sizes[0]))
@@ -104,5 +104,6 @@ class Chain(Brief):
         )
 
 
-def _direction(tool: BodyMotion) -> Array:
+def direction(tool: BodyMotion) -> Array:
+    """Where the tool's first sample goes, by its velocity and its turning, ``(6,)``."""
     return np.concatenate([tool.velocity[0], ARM * tool.omega[0]])

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pollard_pin.coordinates import pose_rotation
+from thesis_pin.display.counted import counted
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.tables.doubts import doubted
 from thesis_pin.tables.meaning import Chosen, chosen, known_names, reader, time_column, time_names
@@ -99,7 +100,7 @@ def read_poses(file: str | Path, euler: str | None = None) -> PoseTable:
     orientation = tuple(table.column(*columns[name], name) for name in form)
     asked = doubted(table.file, position, orientation if form[0] != "qx" else ())
     if len(table) < 2:
-        raise TrajectoryError(f"{len(table)} poses", where=table.file, allowed="at least 2")
+        raise TrajectoryError(counted(len(table), "pose"), where=table.file, allowed="at least 2")
     values = np.stack([column.values for column in orientation], axis=-1)
     rotation, said = oriented(table, form, values, euler)
     if form[0] == "psi":
@@ -132,7 +133,8 @@ def _form(table: Table, columns: Mapping[object, object] | Chosen) -> tuple[str,
     if missing:
         names = (" or ".join(headings(name, _UNITS[name])) for name in missing)
         raise BadInput(
-            f"{len(table.header)} columns ({', '.join(table.header)}); missing: {', '.join(names)}",
+            f"{counted(len(table.header), 'column')} ({', '.join(table.header)}); "
+            f"missing: {', '.join(names)}",
             where=table.file,
             allowed="one column each for time, x, y, z and the orientation: "
             + ", or ".join(" ".join(form) for form in FORMS),

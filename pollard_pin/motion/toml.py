@@ -1,4 +1,4 @@
-"""Paths in TOML: poses over time or at a speed, or a start and segments.
+"""Paths in TOML: poses over time or at a speed, a start and segments, or pieces and a law.
 
 ::
 
@@ -17,6 +17,8 @@
     position = [0.45, 0.1, 0.0]
     duration = 4.0               # or speed
     timing = "rest-to-rest"
+
+Pieces and a law are what :mod:`pollard_pin.motion.law_file` says.
 """
 
 from __future__ import annotations
@@ -32,6 +34,7 @@ from pydantic import Field
 from pollard_pin.coordinates import pose_from_placement, pose_rotation
 from pollard_pin.motion.curves import arc, joined, line
 from pollard_pin.motion.feed import at_speed
+from pollard_pin.motion.law_file import LawTable, Piece, lawful
 from pollard_pin.motion.orientation import turns
 from pollard_pin.motion.path import PEAK, Timing, ToolPath
 from pollard_pin.motion.samples import through_orientations
@@ -134,11 +137,18 @@ class PathFile(Strict):
     poses: tuple[Node, ...] = ()
     start: Oriented | None = None
     segments: tuple[Annotated[Line | Arc, Field(discriminator="kind")], ...] = ()
+    law: LawTable | None = None
+    pieces: tuple[Piece, ...] = ()
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Poses or segments, not both; time goes forwards, or a speed gives it."""
-        if bool(self.poses) == bool(self.segments):
-            yield (), "needs either [[poses]] or [start] and [[segments]]", None
+        if bool(self.poses) + bool(self.segments) + bool(self.pieces) != 1:
+            yield (
+                (),
+                "needs either [[poses]], [start] and [[segments]], or [law] and [[pieces]]",
+                None,
+            )
+        yield from self._lawful()
         if self.segments and self.start is None:
             yield (), "[[segments]] need a [start]", None
         if self.euler is not None:
@@ -162,6 +172,20 @@ class PathFile(Strict):
                 if getattr(self, name) is not None:
                     yield (name,), "belongs to [[poses]]; each segment has its own", None
         yield from self._times()
+
+    def _lawful(self) -> Iterator[tuple[Key, str, object]]:
+        if bool(self.pieces) != (self.law is not None):
+            yield ("law",), "[law] and [[pieces]] need each other", None
+        if self.law is not None:
+            for key, what, value in self.law.faults():
+                yield ("law", *key), what, value
+        for k, piece in enumerate(self.pieces):
+            for key, what, value in piece.faults():
+                yield ("pieces", k, *key), what, value
+        if self.pieces:
+            for name in ("speed", "timing", "interpolation", "euler", "start"):
+                if getattr(self, name) is not None:
+                    yield (name,), "means nothing beside [[pieces]]", None
 
     def _times(self) -> Iterator[tuple[Key, str, object]]:
         if self.poses and len(self.poses) < 2:
@@ -205,8 +229,10 @@ def path_of(content: PathFile) -> ToolPath:
     """The path of a file that has been read.
 
     Raises:
-        TrajectoryError: Its poses or segments make no motion.
+        TrajectoryError: Its poses, segments or pieces make no motion.
     """
+    if content.law is not None:
+        return lawful(content.name, content.law, content.pieces)
     if content.poses:
         return _through(content)
     return joined(_segments(content), name=content.name)

@@ -12,6 +12,7 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.kinematics.solutions import Solutions
 from pollard_pin.model import Pollard
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
+from thesis_pin.display.counted import counted
 from thesis_pin.report import branches
 from thesis_pin.report.tables import Part, Table
 
@@ -139,8 +140,9 @@ def _best(solutions: Solutions) -> str:
     labels = solutions.branches
     best = labels.index(DEFAULT_BRANCH) if DEFAULT_BRANCH in labels else 0
     best = best if solutions.valid[best] else int(np.argmax(solutions.valid))
+    count = int(solutions.valid.sum())
     return (
-        f"{int(solutions.valid.sum())} of {len(labels)} branches are valid. "
+        f"{count} of {len(labels)} branches {'is' if count == 1 else 'are'} valid. "
         f"{labels[best]}: {solutions.explain(best)}."
     )
 
@@ -177,7 +179,7 @@ def modes_table(robot: Pollard, modes: Assemblies) -> Iterator[Part]:
         yield Table("assembly modes, metres and degrees", ("branch", *POSE_NAMES), rows)
     worst = float(np.nanmax(modes.residual))
     yield from (
-        f"{len(rows)} assembly modes; ball joints closed to {worst:.0e} m.",
+        f"{counted(len(rows), 'assembly mode')}; ball joints closed to {worst:.0e} m.",
         *(
             f"{robot.branch_of(modes.angles[k])} is outside the joint limits: "
             f"{', '.join(JOINT_SYMBOLS[j] for j in np.flatnonzero(modes.outside[k]))}."

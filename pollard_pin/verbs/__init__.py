@@ -77,6 +77,7 @@ def _curve(
         feed=arguments.feed,
         timing=arguments.timing,
         smooth=arguments.smooth,
+        untimed=getattr(arguments, "untimed", False),
     )
     return path, place
 
@@ -241,3 +242,10 @@ def _axis(name: str, ends: list[float], points: int) -> np.ndarray:
             allowed="one value, or from and to in ascending order",
         )
     return np.linspace(ends[0], ends[-1], points if len(ends) == 2 else 1)
+
+
+def time(arguments: argparse.Namespace) -> ExitCode:
+    """Find a law of motion along a path."""
+    from pollard_pin.verbs import timed
+
+    return timed.time(arguments, _branch(arguments), partial(_path, arguments))

@@ -186,7 +186,7 @@ class LegSolutions(Brief):
         if branch is not None:
             text = f"branch {label(BRANCHES[branch])} is {self._explain_branch(index, branch)}"
         elif (valid := self.valid[index]).any():
-            text = f"{int(valid.sum())} of 8 branches are valid"
+            text = f"{valid.sum()} of 8 branches {'is' if valid.sum() == 1 else 'are'} valid"
         elif (reachable := self.reachable[index]).any():
             beyond = np.where(reachable[:, None], self.beyond_limits[index], np.inf)
             best = int(np.argmin(beyond.max(axis=-1)))
@@ -202,7 +202,8 @@ class LegSolutions(Brief):
 
     def _explain_some(self, index: tuple[int, ...], numbers: list[int]) -> str:
         if count := int(self.valid[index][numbers].sum()):
-            return f"{count} of the {len(numbers)} branches asked for are valid"
+            are = "is" if count == 1 else "are"
+            return f"{count} of the {len(numbers)} branches asked for {are} valid"
         beyond, reachable = self.beyond_limits[index].max(axis=-1), self.reachable[index]
         order = np.where(reachable, beyond, 1e3 + self.excess[index])
         nearest = self.explain(index, min(numbers, key=lambda k: float(order[k])))

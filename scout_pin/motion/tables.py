@@ -19,6 +19,7 @@ from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.motion.joint_angles import placed
 from scout_pin.motion.variants import Rows
 from scout_pin.specification import JOINT_NAMES
+from thesis_pin.display.counted import counted
 from thesis_pin.errors import BadInput, ModelWarning, TrajectoryError, UnknownName
 from thesis_pin.files import name_as_text
 from thesis_pin.model.limits import LIMITS
@@ -107,7 +108,7 @@ def read_gait_table(path: str | Path, robot: Scout | None = None) -> GaitSamples
         if name not in columns:
             raise TrajectoryError(f"there is no column {name!r}", where=table.file)
     if len(table) < 4:
-        raise TrajectoryError(f"{len(table)} samples", where=table.file, allowed="at least 4")
+        raise TrajectoryError(counted(len(table), "sample"), where=table.file, allowed="at least 4")
     time = time_column(table, columns)
     support = table.texts(columns["support"][0]) if "support" in columns else []
     support = [name if name in SUPPORTS else name.casefold() for name in support]

@@ -92,14 +92,23 @@ def test_a_workspace_has_a_map_and_its_doubts(accuracy, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "y"), [(["--y", 0.1, "--z", 0.1], 0.1), (["--x", 0.4, "--y", -0.1, 0.1], -0.1)]
+    ("words", "count"),
+    [
+        (["--x", 0.4, 0.6, "--y", 0.1, "--z", 0.1], 5),
+        (["--x", 0.4, "--y", -0.1, 0.1, "--z", 0.0, 0.1], 25),
+        (["--x", 0.4, 0.6, "--y", -0.1, 0.1, "--z", 0.0, 0.1], 125),
+        (["--x", 0.4, "--z", 0.1], 1),
+    ],
 )
-def test_lines_and_volumes_are_mapped_too(accuracy, tmp_path, words, y):
-    out = tmp_path / "out"
-    code, said, _ = accuracy("--workspace", "--points", 5, *words, "--json", "-", "--out", out)
+def test_points_lines_slices_and_volumes_are_studied(accuracy, tmp_path, words, count):
+    out, page = tmp_path / "out", tmp_path / "page.html"
+    words = ["--workspace", "--points", 5, *words, "--json", "-", "--out", out, "--html", page]
+    code, said, _ = accuracy(*words)
     assert code == 0
-    assert min(pose[1] for pose in json.loads(said)["pose"]) == pytest.approx(y)
-    assert (out / "map.svg").exists()
+    assert len(json.loads(said)["pose"]) == count
+    assert (out / "map.svg").exists() == (count > 1)
+    if count > 1:  # something is drawn: Matplotlib's meshes are images, curves are paths
+        assert len((out / "map.png").read_bytes()) > 8000
 
 
 def test_the_same_seed_gives_the_same_bytes(accuracy):
@@ -124,6 +133,15 @@ def test_a_bad_list_is_one_message(accuracy, text, said):
     assert err.startswith("pollard-pin: error: ")
     assert "tolerances.csv" in err
     assert said in err
+
+
+def test_metres_in_a_column_of_millimetres_are_asked_about(accuracy):
+    code, _, err = accuracy(*PATH, text="parameter,tolerance_mm\nlengths,0.0001\n")
+    assert code == 0
+    assert "the widest tolerance of a length is 0.1 µm" in err
+    code, _, err = accuracy(*PATH, text="parameter,tolerance,unit\nlengths,0.1,m\n")
+    assert code == 2
+    assert "tolerances.csv:2: a tolerance is 100.0; allowed: a finite number" in err
 
 
 def test_a_list_isn_t_replaced_by_an_answer(accuracy, tmp_path):

@@ -36,6 +36,7 @@ VERBS = {
         ["convert", "--as", "joints"],
         ["ik", "0.45", "0", "0.1", "0", "0", "0"],
         ["fk", "0", "0", "0", "0", "0", "0"],
+        ["time"],
         ["workspace"],
         ["place", "--grid-only", "--samples", "21"],
         ["accuracy"],

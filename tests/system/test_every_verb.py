@@ -30,6 +30,7 @@ SEEN = {
     "convert": set(),
     "size": {"--out"},
     "simulate": {"--out", "--html"},
+    "time": {"--out", "--html"},
     "sweep": {"--out", "--html"},
     "ik": set(),
     "fk": set(),
@@ -105,6 +106,10 @@ def test_the_same_flag_has_the_same_words_in_all_commands():
     assert {form[0] for form in at} == {"SECONDS", "('NAME', 'VALUE')"}  # of a picture, of a map
     within = various.pop("--within")
     assert {form[0] for form in within} == {"SECONDS", "LENGTH"}  # of a motion, of the tool
+    law = various.pop("--law")
+    assert {form[2][0] for form in law} == {"given", "fastest"}  # of a time, of a path's geometry
+    for flag, metavars in (("--speed", {"SPEED", "rad/s"}), ("--duration", {"SECONDS"})):
+        assert {form[0] for form in various.pop(flag)} == metavars  # of playing, of motors
     assert various == {}
 
 

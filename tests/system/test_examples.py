@@ -23,6 +23,7 @@ SAYS = {
     "pollard_closed_loop_torques": "five_bar: 2 degrees of freedom",
     "pollard_explicit_model": "printed: generalized force differs from Pinocchio by 3.9e+00",
     "pollard_kinematics": "16 of 16 useful branches reach the pose",
+    "pollard_accuracy": "What moves it most: encoder.chain1_shoulder",
     "pollard_placement": "the motors peak at 0.929 N·m",
     "sweep_arms": "9 of 9 designs keep every limit (within_limits).",
     "sweep_walking_speed": "Nearest to the wish is design 3: servos.*.stall_torque = 0.432",

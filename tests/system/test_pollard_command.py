@@ -151,7 +151,7 @@ def test_inverse_and_forward_kinematics_return_to_the_pose(pollard_pin):
         (("fk", "-35", "-40", "40", "0", "20", "0"), "2 assembly modes"),
         (("info",), "6 by counting, 6 by rank"),
         (("workspace", "--points", "15"), "reachable share"),
-        (("accuracy", "--samples", "31", "--within", "1mm"), "What moves it most: motor.chain1"),
+        (("accuracy", "--samples", "31", "--within", "1mm"), "What moves it most: motor.chain"),
         (("accuracy", "--workspace", "--points", "9"), "in the median"),
     ],
 )

@@ -110,6 +110,33 @@ def test_less_than_the_smallest_is_told_by_the_list_s_own_judgement(least, tmp_p
         assert all(answer["fits"]["carries"][0]) == carried
 
 
+def test_time_against_motor_is_drawn_and_written(tmp_path, capfd):
+    words = ["size", *MOTIONS["pollard-pin"], "--law", "free", "--within", "2", "--curve"]
+    out = tmp_path / "out"
+    code, said, _ = run("pollard-pin size", [*words, "--out", str(out), "--formats", "svg"], capfd)
+    assert code == 0
+    assert "With the law of least torque, 2 s: base motors need" in " ".join(said.split())
+    assert {one.name for one in out.iterdir()} - {"manifest.sha256"} == {
+        *("report.json", "sizes.csv", "curve.csv", "curve.svg")
+    }
+    rows = list(csv.DictReader((out / "curve.csv").read_text("utf-8").splitlines()))
+    assert float(rows[0]["fastest_s"]) == pytest.approx(2.0, rel=0.02)
+
+
+def test_the_smallest_of_a_list_in_time_is_named(tmp_path, capfd):
+    servos = tmp_path / "servos.csv"
+    servos.write_text(
+        LIST.replace("strong,9,60,", "strong,9,600,90,40\nstronger,9,600,"), encoding="utf-8"
+    )
+    words = ["size", str(servos), *MOTIONS["pollard-pin"], "--law", "free"]
+    code, out, _ = run("pollard-pin size", [*words, "--within", "3", "--strict"], capfd)
+    assert code == 0
+    assert "strong is the smallest of 3" in out
+    code, out, _ = run("pollard-pin size", [*words, "--within", "0.01", "--strict"], capfd)
+    assert code == 1
+    assert "With no motor of 3 it can be done in 0.01 s." in " ".join(out.split())
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -122,8 +149,6 @@ def test_less_than_the_smallest_is_told_by_the_list_s_own_judgement(least, tmp_p
     ],
 )
 def test_flags_that_mean_nothing_are_refused(least, words, said):
-    if "--law" in words and least.command == "pollard-pin":
-        words = words[2:]
     code, out, err = least(*words)
     assert (code, out) == (2, "")
     assert said in err

@@ -46,7 +46,7 @@ def test_a_freedom_that_nobody_can_tell_is_answered_by_no_and_hides_nothing(capf
     code, out, err = check(capfd, leaning, DATA / "four_bar.yaml")
     said = " ".join(out.split())
     assert (code, err) == (1, "")
-    assert "four_bar: 4 joints, 1 motors (motor)" in said
+    assert "four_bar: 4 joints, 1 motor (motor)" in said
     assert "gap m" in said
     assert "nearly dependent" in said
     assert "degrees of freedom: 0 with 0, 1 with 0.0008" in said

@@ -15,6 +15,7 @@ from studied import swept
 import pollard_pin
 import scout_pin
 import thesis_pin
+from pollard_pin.study.timing.report import time_report
 from scout_pin.report.drawn.view import gait_scene
 from scout_pin.report.verdict import sentences
 from thesis_pin import errors
@@ -122,6 +123,7 @@ MAKERS = {
     "Branch": lambda: pollard_pin.DEFAULT_BRANCH,
     "TrajectoryReport": trajectory_report,
     "TimedPath": timed_path,
+    "TimeReport": lambda: time_report(timed_path(), samples=21),
     "TorqueBlock of Scout": lambda: torque_block(scout_pin),
     "TorqueBlock of Pollard": lambda: torque_block(pollard_pin),
     "ClosureFile": lambda: thesis_pin.ClosureFile.read(FIVE_BAR),

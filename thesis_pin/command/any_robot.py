@@ -16,6 +16,7 @@ from thesis_pin.command.sizing.delivering import deliver as deliver_smallest
 from thesis_pin.command.sizing.finding import bounded, check_words, deliver_sizes
 from thesis_pin.command.verbs import show_scene
 from thesis_pin.command.warned import warned
+from thesis_pin.display.counted import counted
 from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.loops.checking import soundness
 from thesis_pin.loops.checking.assembly import assembly
@@ -170,8 +171,8 @@ def _tell(found: soundness.Soundness) -> list[Part]:
     motors = ", ".join(_named(motor) for motor in robot.motors)
     return [
         *([Table("", columns, rows)] if rows else []),
-        f"{robot.model.name}: {robot.model.njoints - 1} joints, "
-        f"{len(robot.motors)} motors{f' ({motors})' if motors else ''}.",
+        f"{robot.model.name}: {counted(robot.model.njoints - 1, 'joint')}, "
+        f"{counted(len(robot.motors), 'motor')}{f' ({motors})' if motors else ''}.",
         *found.sentences(),
         *(f"Warning: {one}" for one in found.warnings),
         *(f"Not used: {one}" for one in robot.description.passed_over),

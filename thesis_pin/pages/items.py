@@ -137,6 +137,21 @@ class Arrow(Item):
 
 
 @dataclass(frozen=True)
+class Bars(Item):
+    """Bars that stand still, drawn as one body: many of them cost as much as a few.
+
+    Attributes:
+        ends: Of each bar, shape ``(k, 2, 3)``, finite.
+        radius: Their radius [m].
+        colour: ``#rrggbb``.
+    """
+
+    ends: np.ndarray
+    radius: float
+    colour: str
+
+
+@dataclass(frozen=True)
 class Trace(Item):
     """The way of a point: the whole of it faint, what has been covered bold.
 

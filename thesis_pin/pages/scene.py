@@ -24,6 +24,7 @@ from thesis_pin.pages.items import GREY as GREY
 from thesis_pin.pages.items import Arc as Arc
 from thesis_pin.pages.items import Arrow as Arrow
 from thesis_pin.pages.items import Ball as Ball
+from thesis_pin.pages.items import Bars as Bars
 from thesis_pin.pages.items import Item as Item
 from thesis_pin.pages.items import Polygon as Polygon
 from thesis_pin.pages.items import Shape as Shape

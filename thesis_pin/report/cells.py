@@ -80,7 +80,8 @@ def solutions_cell(
             for k, name in enumerate(branches)
         ]
         some = int(valid.any(axis=1).sum())
-        said = [f"{some} of {poses} poses are reached within the joints' limits."]
+        are = "is" if some == 1 else "are"
+        said = [f"{some} of {poses} poses {are} reached within the joints' limits."]
         return Cell(title, said, some == poses, ("branch", "within limits", "reached"), rows)
     words = ("within limits", "beyond limits", "out of reach")
     rows = [
@@ -88,6 +89,7 @@ def solutions_cell(
         for k in np.argsort(state[0], kind="stable")
     ]
     count = int(valid.sum())
-    said = [f"{count} of {len(branches)} branches reach the pose within the joints' limits."]
+    reach = "reaches" if count == 1 else "reach"
+    said = [f"{count} of {len(branches)} branches {reach} the pose within the joints' limits."]
     note = "Angles in degrees."
     return Cell(title, said, count > 0, ("branch", "", *joints), rows, note=note)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
+from thesis_pin.display.counted import counted
 from thesis_pin.report.tables import Part, Table
 from thesis_pin.version import __version__
 
@@ -219,13 +220,14 @@ def told(info: Info) -> list[Part]:
     rank = info["freedom"]["by_rank"]
     return [
         f"{info['robot']}: {info['source']}. Mass {info['mass']:.5g} kg, "
-        f"{len(info['joints'])} joints, {len(info['bodies'])} bodies with mass.",
+        f"{counted(len(info['joints']), 'joint')}, "
+        f"{counted(len(info['bodies']), 'body', 'bodies')} with mass.",
         joints,
         *_sizes(info),
         bodies,
         inertias,
         f"Degrees of freedom: {info['freedom']['counted']} by counting, "
-        f"{'none found' if rank is None else rank} by rank{where}; {motors} motors.",
+        f"{'none found' if rank is None else rank} by rank{where}; {counted(motors, 'motor')}.",
         *(
             f"Loop {loop['name']}: {' and '.join(map(str, _list(loop['frames'])))} coincide."
             for loop in info["loops"]

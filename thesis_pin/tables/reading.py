@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from thesis_pin.display.counted import counted
 from thesis_pin.errors import BadInput
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.source import read_any_text
@@ -168,7 +169,7 @@ def _header(
     if len(bare) != len(cells):
         allowed = f"{len(bare)}: {', '.join(bare)}" if bare else "a header of names"
         raise BadInput(
-            f"the {kind} has {len(cells)} columns without a header",
+            f"the {kind} has {counted(len(cells), 'column')} without a header",
             where=f"{name}:{first}",
             allowed=allowed,
             remedy="Write the columns' names into the first line",
@@ -204,7 +205,7 @@ def _of_one_width(
         if len(cells) != width:
             if len(cells) < width or any(cells[width:]):
                 raise BadInput(
-                    f"{len(cells)} cells",
+                    counted(len(cells), "cell"),
                     where=f"{name}:{line}",
                     allowed=f"{width}, as in the first row",
                     remedy="If commas are decimal marks, separate cells by semicolons"

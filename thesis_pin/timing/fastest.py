@@ -18,8 +18,13 @@ _ROUNDS = 12  # of tangents
 _LOW = 1e-6  # share of the largest ṡ² below which √ṡ² isn't taken for its tangent
 
 
-def spans(grid: Grid, limits: Limits) -> Spans:
+def spans(grid: Grid, limits: Limits, *, rests: bool = True) -> Spans:
     """A grid's intervals with their limits.
+
+    Args:
+        grid: Places on a track.
+        limits: The limits.
+        rests: Whether the motion rests where the track asks for it.
 
     Raises:
         Infeasible: At rest a limit is exceeded somewhere.
@@ -31,7 +36,7 @@ def spans(grid: Grid, limits: Limits) -> Spans:
             place, row = np.unravel_index(int(rows.rest.argmax()), rows.rest.shape)
             raise Infeasible(rows.names[row], float(rows.rest[place, row]), float(at[place]))
     cap = np.minimum(np.append(left.cap, np.inf), np.append(np.inf, right.cap))
-    return Spans(np.diff(every), left, right, np.where(grid.rests, 0.0, cap))
+    return Spans(np.diff(every), left, right, np.where(grid.rests & rests, 0.0, cap))
 
 
 def fastest(grid: Grid, limits: Limits) -> Law:

@@ -25,8 +25,9 @@ class Law(Brief):
 
     @cached_property
     def time(self) -> Array:
-        """When it is at each place [s], shape ``(n,)``."""
-        step = 2 * np.diff(self.place) / (self.rate[1:] + self.rate[:-1])
+        """When it is at each place [s], shape ``(n,)``; never beyond two in a row at rest."""
+        with np.errstate(divide="ignore"):
+            step = 2 * np.diff(self.place) / (self.rate[1:] + self.rate[:-1])
         return np.concatenate([[0.0], np.cumsum(step)])
 
     @property

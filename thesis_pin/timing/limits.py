@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,6 +35,22 @@ class Limits(Brief):
     force: float | None = None
     tool_speed: float | None = None
     tool_acceleration: float | None = None
+
+    def tightened(self, share: float) -> Limits:
+        """All limits less a share of themselves."""
+        left = 1.0 - share
+
+        def less(value: float | None) -> float | None:
+            return None if value is None else left * value
+
+        return replace(
+            self,
+            effort=left * self.effort,
+            speed=left * self.speed,
+            force=less(self.force),
+            tool_speed=less(self.tool_speed),
+            tool_acceleration=less(self.tool_acceleration),
+        )
 
     def rows(self, values: Values) -> Rows:
         """The limits at some places of a path."""

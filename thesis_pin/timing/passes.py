@@ -138,3 +138,14 @@ def _forth(p: Array, r: Array, h: Array, most: Array, cap: Array) -> Array:
         x = max(min(tops[k + 1], float((at[k] - by[k] * x).min())), 0.0)
         found[k + 1] = x
     return found
+
+
+def ceiling(spans: Spans, near: Array) -> Array:
+    """The largest ṡ² that the limits leave in each interval by itself, shape ``(n,)``.
+
+    Args:
+        spans: The intervals.
+        near: See :func:`largest`.
+    """
+    p, r, h = _sides(spans, near)
+    return _apex(p, r, h, _finite(spans, r, h))[0]

@@ -21,10 +21,13 @@ INTERVALS = 400
 GAIN = 4e-3
 """Share of the duration that a grid half as fine may cost and needn't be halved again for."""
 
+SPARE = 1e-3
+"""Share of all limits that laws leave, so that what lies between places keeps them too."""
+
 POINTS = 20
 """Between two places, at which limits are looked at."""
 
-_MOST = 100_000  # places, beyond which nothing is refined
+_MOST = 25_000  # places, beyond which nothing is refined
 _ROUNDS = 8
 
 
@@ -100,7 +103,7 @@ def solve(
         progress(step, _ROUNDS)
         law = make(grid)
         judged = use(law, grid, limits, POINTS)
-        beyond = judged.worst > 1.0 + TOLERANCES.law_share / 2
+        beyond = judged.worst > 1.0
         if not beyond.any() or len(law.place) > _MOST or step == _ROUNDS - 1:
             break
         grid = grid.finer([1 + 3 * one.astype(int) for one in grid.split(beyond)])

@@ -23,6 +23,7 @@ from thesis_pin.pages.scene import (
     Arc,
     Arrow,
     Ball,
+    Bars,
     Group,
     Item,
     Readout,
@@ -154,10 +155,9 @@ def _tool(
         Trace("trace", "trace", tip, 2e-3, PURPLE),
         Arrow("spray", "spray", tip, along, 0.08, 3e-3, PURPLE),
     ]
-    for k in thinned(keep, _HAIRS):
-        where, there = np.tile(tip[k], (len(keep), 1)), np.tile(along[k], (len(keep), 1))
-        items.append(Arrow(f"spray {k}", "spray", where, there, 0.03, 8e-4, PURPLE, head=False))
-    return items
+    hairs = thinned(keep, _HAIRS)
+    ends = np.stack([tip[hairs], tip[hairs] + 0.03 * along[hairs]], axis=1)
+    return [*items, Bars("spray along the trace", "spray", ends, 8e-4, PURPLE)]
 
 
 def _motors(

@@ -14,9 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pollard_pin.kinematics.geometry import Geometry
 from pollard_pin.specification import Specification
-from pollard_pin.study.accuracy.parameters import PLACE
+from pollard_pin.study.accuracy.parameters import PLACE, Numbers
 from thesis_pin.tolerances import TOLERANCES
 
 _Vector = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -24,52 +23,6 @@ _Vector = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 _STEPS = 20
 _MOST = 0.3  # rad that one step turns a joint at most
-
-
-class Numbers(NamedTuple):
-    """What the closed form needs of a specification beyond its :class:`Geometry`.
-
-    Attributes:
-        z_10, x_32, x_65, x_1514, x_1918: Lengths of chain 0 [m].
-        sign: Side on which each side chain stands.
-        y_10, z_32, x_43, x_87, x_1211, z_1312: Lengths of the side chains [m].
-        beta: Angles β1413 [rad].
-    """
-
-    z_10: float
-    x_32: float
-    x_65: float
-    x_1514: float
-    x_1918: float
-    sign: tuple[int, int]
-    y_10: tuple[float, float]
-    z_32: tuple[float, float]
-    x_43: tuple[float, float]
-    x_87: tuple[float, float]
-    x_1211: tuple[float, float]
-    z_1312: tuple[float, float]
-    beta: tuple[float, float]
-
-    @classmethod
-    def of(cls, specification: Specification) -> Numbers:
-        """Of a specification."""
-        chain, (one, two) = specification.chain_0, specification.side_chains
-        beta = Geometry.of(specification).beta_1413.tolist()
-        return cls(
-            z_10=chain.z_10,
-            x_32=chain.x_32,
-            x_65=chain.x_65,
-            x_1514=chain.x_1514,
-            x_1918=chain.x_1918,
-            sign=specification.assumptions.signs.value,
-            y_10=(one.y_10, two.y_10),
-            z_32=(one.z_32, two.z_32),
-            x_43=(one.x_43, two.x_43),
-            x_87=(one.x_87, two.x_87),
-            x_1211=(one.x_1211, two.x_1211),
-            z_1312=(one.z_1312, two.z_1312),
-            beta=(beta[0], beta[1]),
-        )
 
 
 class Reached(NamedTuple):

@@ -14,7 +14,8 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, get_args
 
-from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
+from pollard_pin.kinematics.geometry import Geometry
+from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, Specification
 
 Kind = Literal[
     "lengths", "angles", "axes", "offsets", "motors", "play", "backlash", "encoder", "zero"
@@ -149,3 +150,49 @@ def _parameters() -> tuple[Parameter, ...]:
 
 PARAMETERS = _parameters()
 """Everything a tolerance can be given for; play and gears stand for errors that others are too."""
+
+
+class Numbers(NamedTuple):
+    """The planned numbers, one by one, as :class:`Geometry` hasn't them.
+
+    Attributes:
+        z_10, x_32, x_65, x_1514, x_1918: Lengths of chain 0 [m].
+        sign: Side on which each side chain stands.
+        y_10, z_32, x_43, x_87, x_1211, z_1312: Lengths of the side chains [m].
+        beta: Angles β1413 [rad].
+    """
+
+    z_10: float
+    x_32: float
+    x_65: float
+    x_1514: float
+    x_1918: float
+    sign: tuple[int, int]
+    y_10: tuple[float, float]
+    z_32: tuple[float, float]
+    x_43: tuple[float, float]
+    x_87: tuple[float, float]
+    x_1211: tuple[float, float]
+    z_1312: tuple[float, float]
+    beta: tuple[float, float]
+
+    @classmethod
+    def of(cls, specification: Specification) -> Numbers:
+        """Of a specification."""
+        chain, (one, two) = specification.chain_0, specification.side_chains
+        beta = Geometry.of(specification).beta_1413.tolist()
+        return cls(
+            z_10=chain.z_10,
+            x_32=chain.x_32,
+            x_65=chain.x_65,
+            x_1514=chain.x_1514,
+            x_1918=chain.x_1918,
+            sign=specification.assumptions.signs.value,
+            y_10=(one.y_10, two.y_10),
+            z_32=(one.z_32, two.z_32),
+            x_43=(one.x_43, two.x_43),
+            x_87=(one.x_87, two.x_87),
+            x_1211=(one.x_1211, two.x_1211),
+            z_1312=(one.z_1312, two.z_1312),
+            beta=(beta[0], beta[1]),
+        )

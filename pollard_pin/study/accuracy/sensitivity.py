@@ -21,8 +21,7 @@ import numpy as np
 from pollard_pin.kinematics.screws import Posture
 from pollard_pin.model import Pollard
 from pollard_pin.specification import ACTUATOR_NAMES
-from pollard_pin.study.accuracy.exact import Numbers
-from pollard_pin.study.accuracy.parameters import COLUMNS, PLACE
+from pollard_pin.study.accuracy.parameters import COLUMNS, PLACE, Numbers
 from thesis_pin.numeric.vectors import Vector, cross, dot
 
 Sensitivity = np.ndarray

@@ -15,7 +15,10 @@ from thesis_pin.display.brief import Brief
 _LOOKED = 64
 """Poses, those with the largest errors, at which exact kinematics confirm a tolerance."""
 
-_TRIED = 3
+_TRIED = 10
+
+_CLOSE = 1e-4
+"""Share of the distance that a tolerance needn't use, and may pass."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +89,10 @@ def within(robot: Pollard, angles: np.ndarray, allowed: Tolerances, limit: float
 def _factors(
     robot: Pollard, angles: np.ndarray, allowed: Tolerances, limit: float
 ) -> tuple[float, float]:
-    """Factors of tolerances at which worst case and root of squares are as asked for."""
+    """Factors of tolerances at which worst case and root of squares are as asked for.
+
+    That of the worst case is confirmed by exact kinematics; 0 where none of those tried is.
+    """
     stack = stacked(robot, angles, allowed)
     with np.errstate(divide="ignore"):
         root = float(limit / stack.root.max())
@@ -94,7 +100,12 @@ def _factors(
     if not np.isfinite(factor):
         return factor, root
     worst = angles[np.argsort(-stack.worst, kind="stable")[:_LOOKED]]
+    found = 0.0
     for _ in range(_TRIED):
-        exact = stacked(robot, worst, allowed.times(factor)).farthest.max()
+        exact = float(stacked(robot, worst, allowed.times(factor)).farthest.max())
+        if exact <= limit * (1.0 + _CLOSE):
+            found = max(found, factor)
+            if exact >= limit * (1.0 - _CLOSE):
+                break
         factor *= limit / exact if np.isfinite(exact) else 0.5
-    return factor, root
+    return found, root

@@ -40,6 +40,7 @@ def found_document(space: Placements, found: Found) -> dict[str, object]:
         "clearance": _known(found.clearance),
         "nearest_singularity": found.nearest if math.isfinite(found.clearance) else None,
         "fastest": _known(found.fastest),
+        "fastest_by_law": None if found.law is None else found.law.duration,
         "flags": flags(space, found),
     }
 

@@ -95,7 +95,7 @@ def placements_figure(space: Placements) -> Figure:
     slices = _slices(space, normal)
     columns = min(len(slices), _ROW)
     rows = -(-len(slices) // columns)
-    figure, axes = new_figure(4.4 * columns + 1.2, 3.9 * rows + 1.0, rows, columns)
+    figure, axes = new_figure(max(4.4 * columns + 1.2, 6.8), 3.9 * rows + 1.4, rows, columns)
     finite = values[np.isfinite(values)]
     ends = (0.0, 1.0)
     if finite.size:
@@ -112,7 +112,7 @@ def placements_figure(space: Placements) -> Figure:
         Line2D([], [], marker=mark, color="none", mec="black", mfc=fill, ms=size, label=word)
         for mark, fill, size, word in ((("*", "white", 13, "best"), ("o", GREEN, 7, "now")))
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=9)
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(columns, 2), fontsize=9)
     beyond = "max" if finite.size and finite.max() > ends[1] else "neither"
     figure.colorbar(image, ax=list(axes.ravel()), label=label, extend=beyond)
     figure.suptitle(f"{space.path.name}: {label}{_over(space)}", size=10)
@@ -191,23 +191,40 @@ def _half(axis: np.ndarray) -> float:
 def _line(space: Placements, wide: int | None) -> Figure:
     """The objective over one coordinate, or over the turn."""
     value, label = shown(space)
+    shape, numbers = space.choices.shape, np.arange(space.choices.count)
+    axis = 2 if wide is None else 3 + wide
     if wide is None:
         over, name = np.degrees(space.choices.turn), "turn [°]"
     else:
         over, name = space.choices.ranges[wide], f"{'xyz'[wide]} [m]"
-    lines = value.reshape(-1, len(over))
+    every = np.moveaxis(numbers.reshape(shape), axis, -1).reshape(-1, len(over))
+    groups = [group for group in every if np.isfinite(value[group]).any()]
     figure, axes = new_figure(7.5, 4.2)
     ax = axes[0, 0]
-    groups = [line for line in lines if np.isfinite(line).any()]
-    for line in groups:
-        ax.plot(over, line, "o-" if len(over) < _MARKED else "-", ms=4)
+    for group in groups:
+        named = _named(space, int(group[0]), turns=wide is not None)
+        ax.plot(over, value[group], "o-" if len(over) < _MARKED else "-", ms=4, label=named)
     if not groups:
         ax.text(0.5, 0.5, "the path can't be followed", transform=ax.transAxes, ha="center")
+    if 1 < len(groups) <= _LABELLED:
+        ax.legend(fontsize=8)
     ax.set(xlabel=name, ylabel=label, title=f"{space.path.name}: {label}")
     ax.grid(alpha=0.3)
     return figure
 
 
+def _named(space: Placements, number: int, *, turns: bool) -> str:
+    """What a line is of that others aren't."""
+    placement, branch = space.choices.at(number)
+    words = [str(branch)] * (len(space.choices.branches) > 1)
+    if len(space.choices.mirrored) > 1:
+        words.append("mirror image" if placement.mirrored else "as it is")
+    if turns and len(space.choices.turn) > 1:
+        words.append(f"turned by {np.degrees(placement.turn):z.4g}°")
+    return ", ".join(words)
+
+
+_LABELLED = 16  # lines up to which each is named
 _MARKED = 60  # values of a line below which each is marked
 
 

@@ -22,7 +22,7 @@ def flags(space: Placements, found: Found) -> str:
     words += [f"--turn {turn:.10g}"] if turn else []
     words += ["--mirror"] if place.mirrored else []
     words += [f"--branch={found.branch}"] if found.branch != DEFAULT_BRANCH else []
-    if space.objective == "time" and space.path.name == "appendix B":
+    if space.objective == "time" and space.path.name == "appendix B" and found.law is None:
         words += [f"--duration {found.fastest:.10g}"] if math.isfinite(found.fastest) else []
     return " ".join(words)
 
@@ -54,6 +54,9 @@ def best_table(space: Placements) -> Table:
     table["cond."] = [_told(one.condition, ".2f") for one in rows]
     if space.objective == "time":
         table["time s"] = [_told(one.fastest, ".3f") for one in rows]
+        if any(one.law is not None for one in rows):
+            laws = ["–" if one.law is None else f"{one.law.duration:.3f}" for one in rows]
+            table["by law s"] = laws
     else:
         table["clear"] = [_told(one.clearance, ".3f") for one in rows]
     title = f"{space.path.name} on {space.robot.specification.name}: {WORDS[space.objective]}"
@@ -63,7 +66,7 @@ def best_table(space: Placements) -> Table:
     )
     if space.objective == "time":
         note += " N·m is that of the path as it is timed, time s is what it takes as fast as the "
-        note += "motors' limits let it be played."
+        note += "motors' limits let it be played so, by law s with the fastest law of motion."
     return Table.of(title, table, note)
 
 
@@ -91,6 +94,10 @@ def sentences(space: Placements) -> Iterator[str]:
             f"The best lies at the end of {', '.join(ends)}: beyond there may be a better one, "
             "which wider ranges find."
         )
+    if space.best[0].law is not None:
+        yield (
+            "Its law of motion is the one that pollard-pin time finds there within these limits."
+        )
     yield (
         f"The grid was judged at {space.samples} samples, the table as finely as a report. To put "
         f"the path there: {flags(space, space.best[0])}"
@@ -107,17 +114,18 @@ def _gain(space: Placements) -> Iterator[str]:
             yield why
         return
     best = space.best[0]
-    value, unit, words = _value(space, best)
+    by_law = best.law is not None and (start.law is not None or bool(start.reason))
+    value, unit, words = _value(space, best, by_law)
     place = ", ".join(f"{one:z.4g}" for one in best.placement.position)
     text = f"Best at ({place}) m: {words} {value:.4g}{unit}"
-    before = _value(space, start)[0]
+    before = _value(space, start, by_law)[0]
     if start.reason:
         yield from (f"{text}.", why)
     else:
         yield f"{text}, now {before:.4g}{unit} ({value / before - 1.0:+.0%})."
 
 
-def _value(space: Placements, found: Found) -> tuple[float, str, str]:
+def _value(space: Placements, found: Found, by_law: bool) -> tuple[float, str, str]:
     """What the objective is about: its value, unit and words."""
     effort, _ = space.robot.specification.assumptions.joint_limits.of_motors()
     if space.objective == "conditioning":
@@ -125,6 +133,8 @@ def _value(space: Placements, found: Found) -> tuple[float, str, str]:
     if space.objective == "clearance":
         return found.clearance, "", f"clearance (nearest: {found.nearest})"
     if space.objective == "time":
+        if by_law and found.law is not None:
+            return found.law.duration, " s", "with the fastest law that the motors keep it takes"
         return found.fastest, " s", "as fast as the motors' limits let the path be played, it takes"
     share = found.torque / effort
     motor = int(np.argmax(share)) if np.isfinite(share).all() else 0

@@ -16,7 +16,7 @@ from pollard_pin.study.timing.course import Course
 from pollard_pin.study.timing.limits import motor_limits
 from thesis_pin.display.brief import Brief
 from thesis_pin.display.cell import Cell
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, Infeasible
 from thesis_pin.numeric.checks import choice, function, instance, real
 from thesis_pin.numeric.workers import silent
 from thesis_pin.timing.fastest import fastest
@@ -24,7 +24,7 @@ from thesis_pin.timing.gentle import gentlest
 from thesis_pin.timing.law import Law
 from thesis_pin.timing.limits import Limits
 from thesis_pin.timing.rows import Array
-from thesis_pin.timing.solving import Solved, refined, solve
+from thesis_pin.timing.solving import SPARE, Solved, refined, solve
 from thesis_pin.timing.steady import even, steady, windowed
 from thesis_pin.timing.track import Grid
 
@@ -148,25 +148,48 @@ def time_path(
         limits = motor_limits(course.robot.specification)
     instance("limits", limits, Limits, "pollard_pin.motor_limits()")
     _belong(law, duration=duration, window=window, share=share)
+    given = (duration, window, share)
+    try:
+        return _timed(course, limits, law, given, progress)
+    except Infeasible as error:
+        x, y, z = course.track.chain(np.array([error.place]))[0].position[0]
+        raise Infeasible(
+            error.limit,
+            error.share,
+            error.place,
+            where=f"with the spray tip at ({x:z.4g}, {y:z.4g}, {z:z.4g}) m",
+        ) from None
+
+
+def _timed(
+    course: Course,
+    limits: Limits,
+    law: Aim,
+    given: tuple[float | None, float | None, float | None],
+    progress: Callable[[int, int], None],
+) -> TimedPath:
+    """The law of checked arguments; ``given`` is a duration, a window and a share of the way."""
+    duration, window, share = given
+    tight = limits.tightened(SPARE)
     if law == "constant-speed":
-        solved = solve(even(course.grid), limits, partial(_steady, limits), progress=progress)
+        solved = solve(even(course.grid), limits, partial(_steady, tight), progress=progress)
         made = TimedPath(course, limits, law, solved)
         return replace(made, speed=float(made.tool_speed.max()))
-    grid, _, gain = refined(course.grid, partial(_fastest, limits), progress)
+    grid, _, gain = refined(course.grid, partial(_fastest, tight), progress)
     if law == "window":
         wide = WINDOW if window is None else real("the window", window, low=1e-3, high=0.9)
         most = SHARE if share is None else real("the share of the way", share, low=0.01, high=0.999)
-        _, speed = windowed(grid, limits, wide, most)
-        kept = replace(limits, tool_speed=speed)
-        solved = solve(grid, kept, partial(_fastest, kept), gain, progress)
-        return TimedPath(course, kept, law, solved, wide, most, speed)
+        _, speed = windowed(grid, tight, wide, most)
+        kept = partial(_fastest, replace(tight, tool_speed=speed))
+        solved = solve(grid, limits, kept, gain, progress)
+        return TimedPath(course, limits, law, solved, wide, most, speed)
     if law == "least-load":
         if duration is None:
             raise BadInput("the law of least load needs a duration", remedy="Give one, in seconds")
         seconds = real("the duration", duration, low=1e-3, high=1e6, unit="s")
-        solved = solve(grid, limits, partial(_gentlest, limits, seconds), gain, progress)
+        solved = solve(grid, limits, partial(_gentlest, tight, seconds), gain, progress)
     else:
-        solved = solve(grid, limits, partial(_fastest, limits), gain, progress)
+        solved = solve(grid, limits, partial(_fastest, tight), gain, progress)
     return TimedPath(course, limits, law, solved)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from scout_pin.report.document import GaitReport, gait_report
 from scout_pin.specification import JOINT_NAMES
@@ -153,7 +152,7 @@ def _free(
     )
     loads = loads_of(slow)
     timing = f"Its time left free, {_time(slow)}"
-    return replace(smallest(loads, family, alike, factor=factor, timing=timing), notes=())
+    return smallest(loads, family, alike, factor=factor, law="free", timing=timing)
 
 
 def _ticked(

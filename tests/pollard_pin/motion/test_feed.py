@@ -108,7 +108,7 @@ def test_what_has_neither_time_nor_one_speed_is_refused(tmp_path):
     [
         (["400,0,100", "400,0,100", "400,50,100"], r"csv:3: the spray tip stays where it was"),
         (["400,0,100", "400,50,100", "400,0,100"], r"csv:3: the path turns back on itself"),
-        (["400,0,100"], "1 poses"),
+        (["400,0,100"], "1 pose;"),
     ],
 )
 def test_positions_a_speed_gives_no_time_are_refused_with_the_line(tmp_path, rows, says):

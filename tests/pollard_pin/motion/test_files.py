@@ -37,7 +37,7 @@ def test_csv_without_a_header_is_seven_columns_in_radians(tmp_path):
         (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,0,0,0\n", "csv:3: 6 cells"),
         (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,nan,0,0,0\n", "csv:3, column 4: z is 'nan'"),
         (HEADER + "0,.4,0,0,0,0,0\n1,.4,0,zero,0,0,0\n", "z is 'zero'; allowed: a finite number"),
-        (HEADER + "0,.4,0,0,0,0,0\n", "1 poses"),
+        (HEADER + "0,.4,0,0,0,0,0\n", "1 pose;"),
         (HEADER, "0 poses"),
         ("", "the path is empty"),
         (

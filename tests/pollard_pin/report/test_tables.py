@@ -101,6 +101,11 @@ def test_printed_branches_are_degrees_by_their_labels(pollard):
     assert f"{int(found.valid.sum())} of {len(ALL_BRANCHES)} branches are valid" in text
 
 
+def test_one_branch_is_valid_and_several_are(pollard):
+    found = pollard.inverse_kinematics(POSE, [pollard_pin.DEFAULT_BRANCH])
+    assert "1 of 1 branches is valid. " in said(solutions_table(found))[1]
+
+
 def test_each_mode_is_closed_and_its_pose_has_its_angles(pollard):
     """Each pose, asked for again on the mode's branch, gives the mode's angles."""
     angles = pollard.inverse_kinematics(POSE, pollard_pin.DEFAULT_BRANCH).angles

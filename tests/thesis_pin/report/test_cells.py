@@ -22,7 +22,7 @@ def test_one_pose_has_its_branches_in_degrees_the_valid_ones_first():
         ("out", "out of reach", "–", "–"),
     ]
     assert cell.good is True
-    assert cell.said == ["1 of 3 branches reach the pose within the joints' limits."]
+    assert cell.said == ["1 of 3 branches reaches the pose within the joints' limits."]
 
 
 def test_several_poses_are_counted_branch_by_branch():

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from thesis_pin.errors import WrongShape
@@ -56,6 +56,10 @@ def test_a_limit_of_size_stands_on_both_sides_once():
     assert [limit.value for limit in limits] == [1.0, -1.0, 2.0, -2.0]
 
 
+unhurried = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+"""A machine under load draws hundreds of numbers slowly; the law is none the worse."""
+
+
 @st.composite
 def sampled(draw):
     """Times, values with gaps, and a number of stretches."""
@@ -66,6 +70,7 @@ def sampled(draw):
     return np.cumsum(steps), np.array(values), draw(st.integers(1, 30))
 
 
+@unhurried
 @given(sampled())
 def test_each_stretch_shows_its_least_and_greatest_value_both_ends_and_its_gaps(given_):
     time, values, stretches = given_
@@ -87,6 +92,7 @@ def test_each_stretch_shows_its_least_and_greatest_value_both_ends_and_its_gaps(
             assert np.nanmax(here) >= np.nanmax(values[inside])
 
 
+@unhurried
 @given(sampled())
 def test_no_line_crosses_a_gap_that_reaches_beyond_one_stretch(given_):
     time, values, stretches = given_

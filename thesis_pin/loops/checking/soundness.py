@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.errors import Undecidable
+from thesis_pin.errors import ModelError, Undecidable
 from thesis_pin.loops.checking.assembly import Assembly, assembly
 from thesis_pin.loops.checking.undecided import Undecided, undecided
 from thesis_pin.loops.closures import ClosedRobot
@@ -229,8 +229,13 @@ def check(
 
     Raises:
         UnknownName: There is no such pose.
-        ModelError: yourdfpy can't read the URDF.
+        ModelError: yourdfpy can't read the URDF, or nothing of the robot moves.
     """
+    if not robot.model.nq:
+        raise ModelError(
+            f"no joint of {robot.model.name!r} moves, so nothing of it has to close or be held",
+            allowed="at least one joint that moves, or a root that flies freely (--free-flyer)",
+        )
     differences = tuple(second_reading(robot.description))
     try:
         found = assembly(robot, pose, precision=precision)

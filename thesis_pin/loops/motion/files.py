@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from thesis_pin.display.counted import counted
 from thesis_pin.errors import BadInput, TrajectoryError
 from thesis_pin.files import name_as_text
 from thesis_pin.loops.closures import ClosedRobot
@@ -85,7 +86,7 @@ def read_motion(
     table = read_table("motion", file)
     columns = columns_of(robot, table, lead, beside)
     if len(table) < 2:
-        raise TrajectoryError(f"{len(table)} samples", where=table.file, allowed="at least 2")
+        raise TrajectoryError(counted(len(table), "sample"), where=table.file, allowed="at least 2")
     time = time_column(table, columns)
     values = {
         key: table.column(*place, key[0] + ORDERS[key[1]][0])
@@ -220,7 +221,8 @@ def _splined(
         given = _given(values, joint)
         if given[1] is None and len(time) < 4:
             raise TrajectoryError(
-                f"{len(time)} samples of {joint!r} without {joint}_rate and {joint}_acceleration",
+                f"{counted(len(time), 'sample')} of {joint!r} without {joint}_rate "
+                f"and {joint}_acceleration",
                 where=table.file,
                 allowed="at least 4",
             )
@@ -232,7 +234,7 @@ def _splined(
         moving = "the base" if flight.place == BASE_PLACE else "the frame"
         if len(time) < 4:
             raise TrajectoryError(
-                f"{len(time)} samples of {moving} without its rates and accelerations",
+                f"{counted(len(time), 'sample')} of {moving} without its rates and accelerations",
                 where=table.file,
                 allowed="at least 4",
             )

@@ -10,6 +10,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from thesis_pin.display.brief import Brief
+from thesis_pin.display.counted import counted
 from thesis_pin.errors import SingularPose, TrajectoryError
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.configurations.closing import close, motor_positions
@@ -218,7 +219,9 @@ def base_motion(robot: ClosedRobot, time: Array, base: Array) -> tuple[Array, Ar
 def _splined(time: Array, base: Array) -> tuple[Array, Array, Array]:
     """Places and quaternions through samples, and their derivatives, each ``(n, 7)``."""
     if len(time) < 4:
-        raise TrajectoryError(f"{len(time)} samples of a placement", allowed="at least 4")
+        raise TrajectoryError(
+            f"{counted(len(time), 'sample')} of a placement", allowed="at least 4"
+        )
     size = np.linalg.norm(base[:, 3:], axis=1, keepdims=True)
     places = np.column_stack([base[:, :3], quaternions.unbroken(base[:, 3:] / size)])
     courses = [with_derivatives(time, column, None, None) for column in places.T]

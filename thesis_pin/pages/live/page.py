@@ -170,7 +170,10 @@ class LivePage:
         if asked == {}:
             return self.rig.start()
         request = cast("dict[str, object]", asked)
-        state = np.array(request["state"], dtype=float)
+        told = cast("list[object]", request["state"])
+        if not all(map(_is_number, told)):
+            raise ValueError
+        state = np.array(told, dtype=float)
         # Pinocchio's squares of larger numbers overflow, and NaN is no JSON.
         within = np.abs(state) <= LIMITS.magnitude
         if state.shape != (len(self.rig.start().state),) or not within.all():
@@ -179,9 +182,14 @@ class LivePage:
             return self.rig.chosen(state, _index(request["choice"], len(self.rig.choices)))
         number = _index(request["slider"], len(self.rig.sliders))
         slider, value = self.rig.sliders[number], request["value"]
-        if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
+        if not _is_number(value):
             raise ValueError
+        value = float(cast("float", value))
         return self.rig.moved(state, number, float(np.clip(value, slider.low, slider.high)))
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and value == value
 
 
 def _origin(address: str) -> str:

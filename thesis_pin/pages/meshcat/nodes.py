@@ -11,18 +11,20 @@ from meshcat import geometry as meshcat
 from numpy.typing import NDArray
 
 from thesis_pin.errors import BadInput
+from thesis_pin.pages.meshcat.lines import Begun, bundle, moving, tube
 from thesis_pin.pages.meshcat.shapes import (
     UPRIGHT,
-    Begun,
+    Globe,
     Placed,
+    cylinder,
     flat_paint,
-    moving,
     paint,
+    rod,
     shares,
+    solid,
     surface,
-    tube,
 )
-from thesis_pin.pages.scene import AXES, Arc, Arrow, Ball, Item, Polygon, Shape, Trace, Triad
+from thesis_pin.pages.scene import AXES, Arc, Arrow, Ball, Bars, Item, Polygon, Shape, Trace, Triad
 
 Array = NDArray[np.float64]
 
@@ -88,7 +90,7 @@ def nodes(item: Item) -> Iterator[Node]:
     raise BadInput(
         f"can't draw a {type(item).__name__} in meshcat",
         where=f"item {item.name!r}",
-        allowed="Shape, Ball, Arrow, Trace, Polygon, Arc and Triad",
+        allowed="Shape, Ball, Arrow, Bars, Trace, Polygon, Arc and Triad",
     )
 
 
@@ -98,7 +100,8 @@ def _shape(item: Shape) -> Iterator[Node]:
     more: dict[str, object] = {"flatShading": True, "shininess": 5} if mesh else {}
     if item.ghost:  # it lies behind what it coincides with, or the two would flicker
         more |= {"polygonOffset": True, "polygonOffsetFactor": 1, "polygonOffsetUnits": 4}
-    body = surface(item.geometry, paint(item.colour, item.opacity, **more), item.local)
+    look = (paint if mesh else solid)(item.colour, item.opacity, **more)
+    body = surface(item.geometry, look, item.local)
     position, quaternion, visible = _placed(item.placement)
     yield Node("", body, position, quaternion, visible=visible)
 
@@ -113,13 +116,13 @@ def _triad(item: Triad) -> Iterator[Node]:
         bar = np.eye(4)
         bar[:3, :3] = np.roll(np.eye(3), 1 - axis, axis=1)  # meshcat's cylinders lie along y
         bar[axis, 3] = length / 2
-        solid = Placed(meshcat.Cylinder(length, 0.035 * length), paint(colour), item.local @ bar)
-        yield Node("xyz"[axis], solid)
+        bar[:3, :3] *= (1.0, length, 1.0)
+        yield Node("xyz"[axis], Placed(rod(0.035 * length, 6), solid(colour), item.local @ bar))
 
 
 @nodes.register
 def _ball(item: Ball) -> Iterator[Node]:
-    ball = Placed(meshcat.Sphere(float(item.radius)), paint(item.colours[0]))
+    ball = Placed(Globe(item.radius, 18), solid(item.colours[0]))
     position, visible = held(item.position)
     yield Node("", ball, position, visible=visible, colour=_levels(item.colours, item.level))
 
@@ -134,10 +137,10 @@ def _arrow(item: Arrow) -> Iterator[Node]:
     shown = here & there & (np.maximum(length, np.append(length[1:], 0.0)) > SHORTEST)
     length = np.maximum(length, SHORTEST)
     room = np.minimum(7 * item.radius, 0.5 * length) if item.head else np.zeros(len(length))
-    shaft = meshcat.Cylinder(1.0, float(item.radius))
+    shaft = rod(item.radius, 14 if item.head else 6)
     raised = UPRIGHT.copy()
     raised[2, 3] = 0.5
-    body = Placed(shaft, paint(item.colour), raised)
+    body = Placed(shaft, solid(item.colour), raised)
     stretch = np.column_stack([np.ones((len(length), 2)), length - room])
     if not item.head:
         yield Node("", body, position, turn, stretch, shown)
@@ -145,12 +148,18 @@ def _arrow(item: Arrow) -> Iterator[Node]:
     yield Node("", None, position, turn, visible=shown)
     yield Node("shaft", body, scale=stretch)
     high = float(7 * item.radius)
-    cone = meshcat.Cylinder(high, radiusTop=0.0, radiusBottom=2.6 * float(item.radius))
+    cone = cylinder(high, 2.6 * item.radius, 0.0)
     lowered = UPRIGHT.copy()
     lowered[2, 3] = -high / 2
     ahead = np.column_stack([np.zeros((len(length), 2)), length])
     size = np.repeat(room[:, None] / high, 3, axis=1)
-    yield Node("head", Placed(cone, paint(item.colour), lowered), ahead, scale=size)
+    yield Node("head", Placed(cone, solid(item.colour), lowered), ahead, scale=size)
+
+
+@nodes.register
+def _bars(item: Bars) -> Iterator[Node]:
+    if len(item.ends):
+        yield Node("", Placed(bundle(item.ends, item.radius, 6), solid(item.colour)))
 
 
 @nodes.register
@@ -162,7 +171,7 @@ def _trace(item: Trace) -> Iterator[Node]:
     whole = tube(line, 0.45 * item.radius, 3)
     yield Node("", Placed(whole, flat_paint(item.colour, 0.3)))
     bold = tube(line, item.radius, _SIDES)
-    way = Begun(bold, _SIDES, partial(flat_paint, item.colour))
+    way = Begun(bold, _SIDES, partial(flat_paint, item.colour, side=0))
     yield Node("done", way, share=done / (len(line) - 1))
 
 
@@ -195,14 +204,14 @@ def _arc(item: Arc) -> Iterator[Node]:
     around = 2 * np.pi * np.arange(_PIECES + 1) / _PIECES
     circle = radius * np.column_stack([np.cos(around), np.sin(around), np.zeros_like(around)])
     whole = tube(circle, 0.07 * radius, _SIDES)
-    ring = Begun(whole, _SIDES, partial(paint, item.colours[0]))
+    ring = Begun(whole, _SIDES, partial(solid, item.colours[0]))
     yield Node("ring", ring, colour=colour, share=size / (2 * np.pi))
-    tip = meshcat.Cylinder(0.5 * radius, radiusTop=0.0, radiusBottom=0.2 * radius)
+    tip = cylinder(0.5 * radius, 0.2 * radius, 0.0)
     out = np.eye(4)
     out[0, 3] = radius  # a cone along y: forwards on the circle
     half, none = size / 2, np.zeros(len(size))
     spin = np.column_stack([none, none, np.sin(half), np.cos(half)])
-    yield Node("head", Placed(tip, paint(item.colours[0]), out), quaternion=spin, colour=colour)
+    yield Node("head", Placed(tip, solid(item.colours[0]), out), quaternion=spin, colour=colour)
 
 
 def held(values: Array) -> tuple[Array, NDArray[np.bool_]]:

@@ -2,8 +2,8 @@
 
 meshcat's own listens on every address of the machine and answers whoever asks. This one is
 run as a process of its own (``python -m thesis_pin.pages.meshcat.server PORT``), says in one
-line of JSON where it is, and ends when its standard input does: with the program that
-started it, however that ends.
+line of JSON where it is, and ends with the program that started it, however that ends: when
+its standard input does, which a child that the program forked may hold open, or its parent.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import select
 import signal
 import sys
 import threading
@@ -28,6 +29,9 @@ from thesis_pin.pages.serving import DEFAULT_PORT, HOST, TRIED
 
 OWN = (HOST, "localhost")
 """Names of this machine that a browser may ask for."""
+
+PARENT = 1.0
+"""Seconds between two looks at who is this process's parent."""
 
 
 def is_ours(host: str, origin: str | None) -> bool:
@@ -139,7 +143,7 @@ def main(words: Sequence[str]) -> int:
         words: The port to listen on, 0 for any; without one the first free one.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for who started it
-    said = sys.stdout
+    said, parent = sys.stdout, os.getppid()
     # What meshcat and tornado say of requests is a stranger's.
     sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115 # for good
     ports = [int(word) for word in words] or list(range(DEFAULT_PORT, DEFAULT_PORT + TRIED))
@@ -151,7 +155,7 @@ def main(words: Sequence[str]) -> int:
             continue
         told = {"zmq": bridge.zmq_url, "web": bridge.web_url, "port": bridge.app.port}
         _say(told, said)
-        threading.Thread(target=_end_with_parent, daemon=True).start()
+        threading.Thread(target=_end_with_parent, args=(parent,), daemon=True).start()
         bridge.run()
     _say({"refused": refusal.errno, "why": str(refusal)}, said)
     return 1
@@ -162,8 +166,11 @@ def _say(told: dict[str, object], where: TextIO) -> None:
     where.flush()
 
 
-def _end_with_parent() -> None:
-    sys.stdin.buffer.read()
+def _end_with_parent(parent: int) -> None:
+    while os.getppid() == parent:
+        ended, _, _ = select.select([sys.stdin], [], [], PARENT)
+        if ended and not os.read(sys.stdin.fileno(), 1):
+            break
     os._exit(0)
 
 

@@ -1,8 +1,8 @@
-"""Surfaces and lines as meshcat's objects; all that is drawn in meshcat is one of these."""
+"""Surfaces as meshcat's objects: solids, their looks, their places."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import cast
 
 import numpy as np
@@ -18,7 +18,7 @@ UPRIGHT = np.array(
 """Turns three.js's cylinders and cones, which lie along y, to z."""
 
 _ROUND, _CAP = 24, 8
-_FADING, _ROUNDING = 1 / 64, 1e-4  # too little to be seen, and enough for 32 bits
+_OUTSIDE = 0  # three.js's word for surfaces that are drawn from outside alone
 
 
 class Placed(meshcat.Mesh):  # type: ignore[misc] # meshcat has no types
@@ -41,6 +41,51 @@ class Placed(meshcat.Mesh):  # type: ignore[misc] # meshcat has no types
         data = cast(dict[str, dict[str, object]], super().lower())
         data["object"]["matrix"] = self.place.T.ravel().tolist()
         return cast(dict[str, object], data)
+
+
+def cylinder(length: float, bottom: float, top: float | None = None) -> meshcat.Cylinder:
+    """A cylinder or cone along y, round enough for its size: meshcat's has twice the faces.
+
+    Args:
+        length: Along y [m].
+        bottom: Radius at its lower end [m].
+        top: At its upper end; None for the same.
+    """
+    made = meshcat.Cylinder(
+        float(length), radiusBottom=float(bottom), radiusTop=float(bottom if top is None else top)
+    )
+    made.radialSegments = _ROUND
+    return made
+
+
+def rod(radius: float, sides: int) -> meshcat.Cylinder:
+    """A thin cylinder of length one along y."""
+    made = cylinder(1.0, radius)
+    made.radialSegments = sides
+    return made
+
+
+class Globe(meshcat.Sphere):  # type: ignore[misc] # meshcat has no types
+    """A sphere of as many faces as its size asks for.
+
+    Args:
+        radius: Of the sphere [m].
+        around: Faces around it; two thirds of them from pole to pole.
+    """
+
+    def __init__(self, radius: float, around: int) -> None:
+        super().__init__(float(radius))
+        self.around = around
+
+    def lower(self, object_data: object) -> dict[str, object]:
+        """What the page is sent."""
+        sides = {"widthSegments": self.around, "heightSegments": 2 * self.around // 3}
+        return {**super().lower(object_data), **sides}
+
+
+def solid(colour: str, opacity: float = 1.0, **more: object) -> meshcat.Material:
+    """A lit, closed surface: its inside, which nobody sees, isn't drawn."""
+    return paint(colour, opacity, **({"side": _OUTSIDE} if opacity == 1.0 else {}), **more)
 
 
 def paint(colour: str, opacity: float = 1.0, **more: object) -> meshcat.Material:
@@ -82,7 +127,7 @@ def surface(geometry: Mapping[str, object], material: meshcat.Material, place: A
         return Placed(meshcat.Box(_floats(geometry["size"])), material, place)
     if kind == "ellipsoid":
         swollen = np.diag([*_floats(geometry["radii"]), 1.0])
-        return Placed(meshcat.Sphere(1.0), material, place @ swollen)
+        return Placed(Globe(1.0, _ROUND), material, place @ swollen)
     if kind == "mesh":
         points, faces = geometry["vertices"], geometry["faces"]
         return Placed(meshcat.TriangularMeshGeometry(points, faces), material, place)
@@ -90,8 +135,7 @@ def surface(geometry: Mapping[str, object], material: meshcat.Material, place: A
     if kind == "capsule":
         return Placed(_capsule(radius, length), material, place)
     top = 0.0 if kind == "cone" else radius
-    cylinder = meshcat.Cylinder(length, radiusTop=top, radiusBottom=radius)
-    return Placed(cylinder, material, place @ UPRIGHT)
+    return Placed(cylinder(length, radius, top), material, place @ UPRIGHT)
 
 
 def _floats(values: object) -> list[float]:
@@ -113,99 +157,15 @@ def _capsule(radius: float, length: float) -> meshcat.Geometry:
         ],
         axis=-1,
     )
-    return meshcat.TriangularMeshGeometry(points.reshape(-1, 3), _skin(len(rings), _ROUND))
+    return meshcat.TriangularMeshGeometry(points.reshape(-1, 3), skin(len(rings), _ROUND))
 
 
-def tube(points: ArrayLike, radius: float, sides: int, *, closed: bool = False) -> meshcat.Geometry:
-    """A tube along a line.
-
-    Args:
-        points: The line, shape ``(m, 3)`` with m at least 2, without points at rest.
-        radius: Of the tube [m].
-        sides: Of its cross-section.
-        closed: Whether the last point leads to the first.
-    """
-    line = np.asarray(points, dtype=float)
-    around = np.concatenate([line[-1:], line, line[:1]]) if closed else line
-    along = np.gradient(around, axis=0)[1:-1] if closed else np.gradient(line, axis=0)
-    back = np.flatnonzero(~along.any(axis=1))  # where a line turns back on itself
-    along[back] = line[back] - line[back - 1]
-    along /= np.linalg.norm(along, axis=1, keepdims=True)
-    across = np.empty_like(line)
-    last = np.eye(3)[np.argmin(np.abs(along[0]))]
-    for k, way in enumerate(along):  # turned as little as the line asks for
-        last = last - (last @ way) * way
-        size = float(np.linalg.norm(last))
-        last = last / size if size else np.eye(3)[np.argmin(np.abs(way))]
-        across[k] = last
-    other = np.cross(along, across)
-    turn = (2 * np.pi * np.arange(sides) / sides)[:, None]
-    rings = line[:, None] + radius * (
-        np.cos(turn) * across[:, None] + np.sin(turn) * other[:, None]
-    )
-    if closed:
-        rings = np.concatenate([rings, rings[:1]])
-    return meshcat.TriangularMeshGeometry(rings.reshape(-1, 3), _skin(len(rings), sides))
-
-
-def _skin(rings: int, sides: int) -> NDArray[np.int64]:
+def skin(rings: int, sides: int) -> NDArray[np.int64]:
     """Faces between rings of points, ring after ring, shape ``(2 · (rings - 1) · sides, 3)``."""
     ring, side = np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij")
     here, there = ring * sides + side, ring * sides + (side + 1) % sides
     quads = [[here, there, here + sides], [there, there + sides, here + sides]]
     return np.moveaxis(np.array(quads), (2, 3), (0, 1)).reshape(-1, 3)
-
-
-def moving(points: ArrayLike, radius: float) -> tuple[Array, NDArray[np.intp]]:
-    """A line without points at rest, and how many of its pieces lie before each sample.
-
-    Args:
-        points: The line, shape ``(n, 3)``, finite.
-        radius: Of its tube [m]; steps below a tenth of it are none.
-    """
-    line = np.asarray(points, dtype=float)
-    kept, done = [0], np.zeros(len(line), dtype=np.intp)
-    for k in range(1, len(line)):
-        if np.linalg.norm(line[k] - line[kept[-1]]) > 0.1 * radius:
-            kept.append(k)
-        done[k] = len(kept) - 1
-    return line[kept], done
-
-
-class Begun(Placed):
-    """A tube of which only the beginning is drawn: an arc, or the way so far.
-
-    Its corners grow a little more transparent towards its end, and what is more transparent
-    than a threshold isn't drawn: one number that an animation can change.
-
-    Args:
-        whole: The tube, of :func:`tube`.
-        sides: Of its cross-section.
-        material: Makes its look, with the words it is given.
-        share: How much of it is drawn, 0 to 1.
-    """
-
-    def __init__(
-        self,
-        whole: meshcat.Geometry,
-        sides: int,
-        material: Callable[..., meshcat.Material],
-        share: float = 1.0,
-    ) -> None:
-        done = np.repeat(np.linspace(0.0, 1.0, len(whole.vertices) // sides), sides)
-        fading = 1.0 - _FADING * done
-        whole.color = np.column_stack([np.ones((len(done), 3)), fading]).astype(np.float32)
-        super().__init__(whole, material(vertexColors=True, alphaTest=float(threshold(share))))
-        self._makers = sides, material
-
-    def at(self, share: float) -> Begun:
-        """The same tube, drawn so far."""
-        return Begun(self.geometry, *self._makers, share)
-
-
-def threshold(share: ArrayLike) -> Array:
-    """Opacity below which a :class:`Begun` tube isn't drawn."""
-    return np.asarray(1.0 - _FADING * (np.asarray(share, dtype=float) - _ROUNDING))
 
 
 def look(shape: meshcat.Object) -> bytes:
@@ -219,23 +179,3 @@ def look(shape: meshcat.Object) -> bytes:
 
     packed: bytes = umsgpack.packb(plain(shape.lower()))
     return packed
-
-
-def grid(width: float, spacing: float, middle: ArrayLike, height: float) -> meshcat.LineSegments:
-    """Lines on a horizontal floor.
-
-    Args:
-        width: Of the floor [m].
-        spacing: Between lines [m].
-        middle: About where its middle is, shape ``(2,)``; lines stay at multiples of the spacing.
-        height: Of the floor [m].
-    """
-    x0, y0 = np.round(np.asarray(middle, dtype=float) / spacing) * spacing
-    half = np.ceil(width / spacing / 2) * spacing
-    steps = np.arange(-half, half + spacing / 2, spacing)
-    ends = [
-        *((x0 + step, y0 + side, height) for step in steps for side in (-half, half)),
-        *((x0 + side, y0 + step, height) for step in steps for side in (-half, half)),
-    ]
-    lines = meshcat.PointsGeometry(np.array(ends, dtype=np.float32).T)
-    return meshcat.LineSegments(lines, meshcat.LineBasicMaterial(color=0xA9B1B9))

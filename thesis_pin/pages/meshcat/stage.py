@@ -10,8 +10,8 @@ from meshcat.geometry import LineSegments
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
-from thesis_pin.pages.meshcat.shapes import grid
-from thesis_pin.pages.scene import Item, Polygon, Shape
+from thesis_pin.pages.meshcat.lines import grid
+from thesis_pin.pages.scene import Bars, Item, Polygon, Shape
 
 Array = NDArray[np.float64]
 
@@ -39,6 +39,8 @@ def _corners(item: Item) -> Iterator[Array]:
             turned = np.einsum("nij,kj->nki", turns, item.corners())
             yield (where[:, None, :3] + turned).reshape(-1, 3)
         return
+    if isinstance(item, Bars) and len(item.ends):
+        yield np.asarray(item.ends, dtype=float).reshape(-1, 3)
     if isinstance(item, Polygon):
         yield from (np.asarray(outline, dtype=float) for outline in item.outlines)
     for name, values in item.arrays().items():

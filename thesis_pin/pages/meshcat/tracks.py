@@ -13,8 +13,8 @@ from meshcat.path import Path
 from numpy.typing import NDArray
 
 from thesis_pin.numeric.arrays import thinned
+from thesis_pin.pages.meshcat.lines import threshold
 from thesis_pin.pages.meshcat.nodes import Node
-from thesis_pin.pages.meshcat.shapes import threshold
 from thesis_pin.pages.scene import frames
 
 Array = NDArray[np.float64]

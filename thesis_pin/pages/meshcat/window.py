@@ -177,10 +177,11 @@ def _start(port: int | None) -> tuple[subprocess.Popen[bytes], dict[str, object]
 
 
 def _stop(process: subprocess.Popen[bytes]) -> None:
-    """End a server of ours: it goes when its standard input does."""
+    """End a server of ours; a forked child may hold its standard input open."""
     for pipe in (process.stdin, process.stdout, process.stderr):
         if pipe is not None:
             pipe.close()
+    process.terminate()
     try:
         process.wait(ANSWER)
     except subprocess.TimeoutExpired:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from thesis_pin.display.counted import counted
 from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
 from thesis_pin.pages.reports.balance_scene import scene
 from thesis_pin.pages.reports.torque import motors_tables, peak_tiles, without_folder
@@ -24,7 +25,8 @@ def balance_page(report: BalanceReport) -> bytes:
     return html(
         Page(
             title=f"{report.robot.model.name}: {report.motors.motion.name}",
-            subtitle=f"{span}, {len(report.names)} feet, {len(report.motors.names)} motors",
+            subtitle=f"{span}, {counted(len(report.names), 'foot', 'feet')}, "
+            f"{counted(len(report.motors.names), 'motor')}",
             good=report.within_limits,
             verdict=[
                 *report.doubts(),

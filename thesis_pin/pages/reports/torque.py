@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 
+from thesis_pin.display.counted import counted
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.pages.page import Page, Tile, html, parameters_table, software
 from thesis_pin.pages.reports.torque_scene import scene
@@ -31,11 +32,13 @@ def page_of(report: TorqueReport) -> Page:
     time = report.joints.time
     return Page(
         title=f"{report.robot.model.name}: {report.motion.name}",
-        subtitle=f"{time[-1] - time[0]:.4g} s, {len(time)} samples, {len(report.names)} motors",
+        subtitle=f"{time[-1] - time[0]:.4g} s, {len(time)} samples, "
+        f"{counted(len(report.names), 'motor')}",
         good=report.within_limits,
         verdict=[
             *report.doubts(),
             *report.verdict(),
+            *(f"{note}." for note in report.notes()),
             *without_folder(report.robot, report.warnings()),
         ],
         tiles=tiles(report),

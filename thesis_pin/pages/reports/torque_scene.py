@@ -8,6 +8,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from thesis_pin.display.counted import counted
 from thesis_pin.loops.joints import singles
 from thesis_pin.pages.drawing import (
     axis_placements,
@@ -36,12 +37,13 @@ def scene(report: TorqueReport) -> Scene:
     q = report.joints.q[keep]
     moves = joint_placements(robot.model, q)
     size = size_of(moves)
+    movers = counted(len(report.names), "motor moves", "motors move")
     drawn, notes = items_of(robot, q)
     force = 0.3 * size / max(float(report.loop_force_size.max(initial=0.0)), 1e-12)
     largest = max(float(np.abs(report.dynamics.torque).max(initial=0.0)), 1e-12)
     return Scene(
         title=f"{robot.model.name}, {report.motion.name}",
-        description=f"Animation of {robot.model.name}: {len(report.names)} motors move it for "
+        description=f"Animation of {robot.model.name}: {movers} it for "
         f"{report.joints.time[-1] - report.joints.time[0]:.3g} seconds.",
         time=report.joints.time[keep],
         groups=(

@@ -142,14 +142,54 @@ function makers(THREE) {
     getTangentAt(u, out) { return this.getTangent(u, out); }
   }
 
-  function trace(item) {
-    // Points at rest are left out; place[k] is where sample k stands among those that move.
-    const all = points(item.samples.points), list = [all[0]], SIDES = 5;
-    const place = all.map((point) => {
-      if (point.distanceTo(list[list.length - 1]) > 0.1 * item.radius) list.push(point);
-      return list.length - 1;
+  function bars(item) {
+    const position = [], normal = [], index = [];
+    for (let i = 0; i < item.ends.length; i += 6) {
+      const [start, end] = points(item.ends.slice(i, i + 6));
+      const one = new THREE.TubeGeometry(new THREE.LineCurve3(start, end), 1, item.radius, 6);
+      const first = position.length / 3;
+      position.push(...one.attributes.position.array);
+      normal.push(...one.attributes.normal.array);
+      for (const corner of one.index.array) index.push(first + corner);
+    }
+    const all = new THREE.BufferGeometry().setIndex(index);
+    all.setAttribute("position", new THREE.Float32BufferAttribute(position, 3));
+    all.setAttribute("normal", new THREE.Float32BufferAttribute(normal, 3));
+    return { object: new THREE.Mesh(all, paint(item.colour)), update: () => true };
+  }
+
+  // A line's points by which it looks as with all of them, and how many pieces lie before each of
+  // all: pieces are straight to within a quarter of the radius, and no longer than a 200th of all.
+  function simplified(all, radius) {
+    const length = all.slice(1).reduce((sum, point, k) => sum + point.distanceTo(all[k]), 0);
+    const chord = new THREE.Line3(), near = new THREE.Vector3(), kept = [0];
+    const bends = (a, b) => {
+      chord.set(all[a], all[b]);
+      for (let k = a + 1; k < b; k++) {
+        chord.closestPointToPoint(all[k], true, near);
+        if (near.distanceTo(all[k]) > 0.25 * radius) return true;
+      }
+      return false;
+    };
+    for (let k = 1; k < all.length; k++) {
+      const last = kept[kept.length - 1], away = all[k - 1].distanceTo(all[last]);
+      if (away > 0.1 * radius && (all[k].distanceTo(all[last]) > length / 200 || bends(last, k))) {
+        kept.push(k - 1);
+      }
+    }
+    const end = all.length - 1, last = kept[kept.length - 1];
+    if (all[end].distanceTo(all[last]) > 0.1 * radius || kept.length < 2) kept.push(end);
+    let piece = 0;
+    const place = all.map((point, k) => {
+      while (piece + 2 < kept.length && k >= kept[piece + 1]) piece += 1;
+      const [from, to] = [all[kept[piece]], all[kept[piece + 1]]];
+      return piece + Math.min(1, point.distanceTo(from) / (to.distanceTo(from) || 1));
     });
-    if (list.length < 2) list.push(list[0].clone());
+    return { list: kept.map((k) => all[k]), place };
+  }
+
+  function trace(item) {
+    const { list, place } = simplified(points(item.samples.points), item.radius), SIDES = 5;
     const tube = (material, radius, sides) => new THREE.Mesh(
       new THREE.TubeGeometry(new Polyline(list), list.length - 1, radius, sides), material);
     const whole = tube(flatPaint(item.colour, { transparent: true, opacity: 0.3 }),
@@ -157,7 +197,7 @@ function makers(THREE) {
     const done = tube(flatPaint(item.colour), item.radius, SIDES);
     return {
       object: new THREE.Group().add(whole, done),
-      update: (at) => done.geometry.setDrawRange(0, 6 * SIDES * place[at.nearest]),
+      update: (at) => done.geometry.setDrawRange(0, 6 * SIDES * Math.round(place[at.nearest])),
     };
   }
 
@@ -251,5 +291,5 @@ function makers(THREE) {
     return { object, update: (at) => place(item.samples.placement, at, object) };
   }
 
-  return { shape, ball, arrow, trace, polygon, arc, triad };
+  return { shape, ball, arrow, bars, trace, polygon, arc, triad };
 }

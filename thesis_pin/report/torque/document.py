@@ -23,6 +23,7 @@ from thesis_pin.report import pace
 from thesis_pin.report.cells import report_cell
 from thesis_pin.report.torque import decision
 from thesis_pin.report.torque.drawn import drawn
+from thesis_pin.report.torque.held import held_note
 from thesis_pin.report.torque.numbers import TorqueNumbers
 from thesis_pin.report.torque.uncertainty import uncertainty
 from thesis_pin.tolerances import TOLERANCES
@@ -91,6 +92,11 @@ class TorqueReport(TorqueNumbers):
             said.append(f"No column moves {', '.join(self.whole.still)}: {stay} at the pose.")
         return said + list(self.robot.description.warnings)
 
+    def notes(self) -> list[str]:
+        """How the motion was read, and what of the robot the world holds."""
+        held = held_note(self.robot)
+        return [*self.motion.notes, *([] if held is None else [held])]
+
     @property
     def parameters(self) -> dict[str, object]:
         """What was asked for."""
@@ -139,7 +145,7 @@ class TorqueReport(TorqueNumbers):
             ],
             "parameters": self.parameters,
             "summary": self.summary(),
-            "notes": list(self.motion.notes),
+            "notes": self.notes(),
             "uncertainty": uncertainty(self.headlines, self.drawn, self.motion.variants),
         }
 

@@ -55,5 +55,5 @@ def summary(report: TorqueReport) -> Iterator[Part]:
         yield open_table(report.headlines, report.names)
     yield from (f"Warning: {one}." for one in report.doubts())
     yield from report.verdict()
-    yield from (f"Note: {note}." for note in report.motion.notes)
+    yield from (f"Note: {note}." for note in report.notes())
     yield from (f"Warning: {one}" for one in report.warnings())

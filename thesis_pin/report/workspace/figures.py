@@ -59,7 +59,15 @@ def workspace_figure(space: Workspace) -> Figure:
         handles.append(Line2D([], [], color=BORDER, label="determinant changes sign"))
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=9)
-    figure.colorbar(drawn[-1][0], ax=list(axes[0]), label="log10 of the condition number")
+    below = len(normals) > 1  # beside three planes the bar would cover a title
+    figure.colorbar(
+        drawn[-1][0],
+        ax=list(axes[0]),
+        label="log10 of the condition number",
+        location="bottom" if below else "right",
+        aspect=40 if below else 20,
+        shrink=0.6 if below else 1.0,
+    )
     figure.suptitle(
         "\n".join(
             wrap(

@@ -28,6 +28,7 @@ class Smallest(Brief):
     """The smallest motors of one kind with which a motion is done, in one timing of it.
 
     Attributes:
+        law: ``"given"``, ``"free"``, or what the motion's time was chosen for.
         timing: How the motion is timed, in words.
         duration: How long it takes [s].
         loads: What the joints need so.
@@ -40,6 +41,7 @@ class Smallest(Brief):
         notes: What else has to be said, whole sentences.
     """
 
+    law: str
     timing: str
     duration: float
     loads: Loads
@@ -95,6 +97,7 @@ class Smallest(Brief):
         """JSON-ready; docs/sizing.md describes it."""
         loads = self.loads
         return {
+            "law": self.law,
             "timing": self.timing,
             "duration": self.duration,
             "load": {
@@ -117,6 +120,7 @@ def smallest(
     groups: Groups | None = None,
     *,
     factor: float = 1.0,
+    law: str = "given",
     timing: str = "As it is timed",
 ) -> Smallest:
     """The smallest motors of one kind that carry loads.
@@ -126,7 +130,8 @@ def smallest(
         family: Which motors there are, one for each joint.
         groups: Name → numbers of the joints whose motors are alike; None for each its own.
         factor: Least safety factor.
-        timing: How the motion is timed, in words.
+        law: See :class:`Smallest`.
+        timing: The same.
 
     Raises:
         BadInput: The factor isn't positive, or family or groups are of other joints.
@@ -146,7 +151,7 @@ def smallest(
         )
     once, long = smallest_torques(loads, family, list(groups.values()), factor)
     duration = float(loads.time[-1] - loads.time[0])
-    return Smallest(timing, duration, loads, family, groups, factor, once, long)
+    return Smallest(law, timing, duration, loads, family, groups, factor, once, long)
 
 
 def up(value: float) -> str:

@@ -152,11 +152,16 @@ def _summary(study: AccuracyNumbers) -> dict[str, object]:
         "worst": {
             "largest": _number(stack.farthest[k]),
             "linear": float(stack.worst[k]),
+            "mean": _number(stack.farthest.mean()),
             "median": _number(float(median(stack.farthest))),
             "position": study.pose[k, :3],
             "time": None if study.time is None else float(study.time[k]),
         },
-        "root": {"largest": float(stack.root.max()), "median": float(median(stack.root))},
+        "root": {
+            "largest": float(stack.root.max()),
+            "mean": float(stack.root.mean()),
+            "median": float(median(stack.root)),
+        },
         "worst_turn": float(stack.worst_turn.max()),
         "root_turn": float(stack.root_turn.max()),
         "kinds": {

@@ -39,6 +39,7 @@ def sentences(study: AccuracyNumbers) -> list[str]:
     found = [*_answer(study), *_main(study)]
     if study.draws is not None:
         found += _drawn(study, study.draws)
+    found += [f"Warning: {one}." for one in doubts(study)]
     found += _linear(study)
     if study.within is not None:
         found += _within(study)
@@ -53,11 +54,21 @@ def sentences(study: AccuracyNumbers) -> list[str]:
 
 
 def doubts(study: AccuracyNumbers) -> list[str]:
+    """What is to be known before the numbers are believed."""
+    sizes = [one.size for one in study.allowed.each if one.parameter.unit == "mm"]
+    widest = max(sizes, default=1.0)
+    fine = (
+        f"the widest tolerance of a length is {widest * 1e6:.2g} µm, which nobody makes: are they "
+        "in metres?"
+    )
+    return [fine] * (widest < TOLERANCES.finest_length) + _bent(study)
+
+
+def _bent(study: AccuracyNumbers) -> list[str]:
     """Where exact kinematics differ from linear ones."""
-    bent = study.bent
+    bent, stack = study.bent, study.stack
     if not bent.any():
         return []
-    stack = study.stack
     lost = int((~np.isfinite(stack.exact)).sum())
     rest = f"; at {lost} of them the worst robot can't be assembled" if lost else ""
     where = f" (first at {study.place(int(np.argmax(bent)))})" if study.space is None else ""
@@ -87,9 +98,11 @@ def _answer(study: AccuracyNumbers) -> Iterator[str]:
             )
     if study.space is None:
         yield (
-            f"At worst the spray tip is {mm(farthest[k])} off ({study.place(k)}), and its "
-            f"direction {deg(stack.worst_turn.max())}; by the root of the sum of squares "
-            f"{mm(stack.root.max())} and {deg(stack.root_turn.max())}."
+            f"At worst the spray tip is {mm(farthest[k])} off ({study.place(k)}), "
+            f"{mm(farthest.mean())} in the mean of the path; by the root of the sum of squares "
+            f"{mm(stack.root.max())}, in the mean {mm(stack.root.mean())}. Its direction is "
+            f"{deg(stack.worst_turn.max())} off at worst, {deg(stack.root_turn.max())} by the root "
+            "of the sum of squares."
         )
     else:
         least = int(np.argmin(farthest))
@@ -137,7 +150,6 @@ def _drawn(study: AccuracyNumbers, draws: Draws) -> Iterator[str]:
 
 def _linear(study: AccuracyNumbers) -> Iterator[str]:
     if study.bent.any():
-        yield from (f"Warning: {one}." for one in doubts(study))
         return
     bent = study.stack.bent.max()
     yield (

@@ -97,6 +97,16 @@ def test_equal_tolerances_put_the_exact_worst_case_at_the_limit(pollard, curve):
     assert by_name["lengths"].root == pytest.approx(0.1 / 0.6142911, rel=1e-5)
 
 
+def test_a_tolerance_that_keeps_a_wide_limit_is_confirmed_by_exact_kinematics(pollard, curve):
+    """60 mm are far from linear: the linear factor leads to robots beyond the limit."""
+    allowed = tolerances([Rule("x_87", 0.1, "mm")])
+    found = within(pollard, curve[::20], allowed, 0.06)
+    linear = 0.06 / stacked(pollard, curve[::20], allowed).worst.max()
+    assert abs(found.factor / linear - 1.0) > 0.02
+    exact = stacked(pollard, curve[::20], allowed.times(found.factor)).farthest.max()
+    assert exact == pytest.approx(0.06, rel=2e-4)
+
+
 def test_a_study_says_what_moves_the_tip_most(study):
     first = study.contributions[0]
     assert first.parameter.name == "motor.chain1_shoulder"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thesis_pin.errors import SingularPose, Undecidable
+from thesis_pin.errors import ModelError, SingularPose, Undecidable
 from thesis_pin.loops.checking import soundness
 from thesis_pin.loops.dynamics import inverse_dynamics
 from thesis_pin.loops.kinematics import close, residual
@@ -31,6 +31,13 @@ def test_mechanisms_of_known_freedom_are_sound_and_found_closed(name, freedom, h
     assert found.mobility.held == held
     assert abs(residual(one, found.closed)).max() < 1e-6
     assert ("by itself" in " ".join(found.sentences())) == (held < freedom)
+
+
+def test_a_description_of_which_nothing_moves_is_refused_by_its_name(tmp_path):
+    still = tmp_path / "still.urdf"
+    still.write_text('<robot name="table"><link name="top"/></robot>')
+    with pytest.raises(ModelError, match="no joint of 'table' moves"):
+        soundness.check(load(still))
 
 
 def test_bars_that_cannot_meet_are_not_sound(tmp_path):

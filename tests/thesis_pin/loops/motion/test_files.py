@@ -151,7 +151,7 @@ def test_rates_in_another_unit_than_they_say_are_doubted(arm, tmp_path):
         ({"t": TIME, "slide_deg": TIME}, UnknownName, "slide_deg"),
         ({"t": TIME[::-1], "turn": TIME}, TrajectoryError, "time goes from"),
         ({"t": TIME[:3], "turn": TIME[:3]}, TrajectoryError, "3 samples of 'turn'"),
-        ({"t": TIME[:1], "turn": TIME[:1]}, TrajectoryError, "1 samples"),
+        ({"t": TIME[:1], "turn": TIME[:1]}, TrajectoryError, "1 sample"),
         ({"t": TIME, "turn": TIME, "base_x": TIME}, UnknownName, "base_x"),
     ],
 )

@@ -130,7 +130,8 @@ def test_questions_that_make_no_sense_are_none(page, more):
 def test_a_state_that_is_no_configuration_is_none(page):
     state = first(page)["state"]
     huge = [[value, *state[1:]] for value in (float("inf"), 1e308, -1e160, 10**400)]
-    for wrong in (state[:-1], [*state, 0.0], *huge, [[0.0]] * len(state)):
+    texts = [list(map(str, state)), [True] * len(state), "0" * len(state)]
+    for wrong in (state[:-1], [*state, 0.0], *huge, *texts, [[0.0]] * len(state)):
         body = json.dumps({"state": wrong, "slider": 0, "value": 0.0})
         assert page.answer(body.encode()) is None
 

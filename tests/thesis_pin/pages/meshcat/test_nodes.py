@@ -9,10 +9,11 @@ from scipy.spatial.transform import Rotation
 
 from thesis_pin.errors import BadInput
 from thesis_pin.pages.meshcat.drawing import Drawing, _matrix, word
+from thesis_pin.pages.meshcat.lines import bundle, moving, threshold, tube
 from thesis_pin.pages.meshcat.nodes import held, nodes
-from thesis_pin.pages.meshcat.shapes import look, surface, threshold, tube
+from thesis_pin.pages.meshcat.shapes import look, surface
 from thesis_pin.pages.meshcat.tracks import MOST_BYTES, animation, samples
-from thesis_pin.pages.scene import Arc, Arrow, Ball, Item, Polygon, Shape, Trace, Triad
+from thesis_pin.pages.scene import Arc, Arrow, Ball, Bars, Item, Polygon, Shape, Trace, Triad
 
 NONE = np.full(3, np.nan)
 
@@ -239,6 +240,54 @@ def test_two_names_never_share_a_node():
     ball = Ball("a/b", "g", np.zeros((2, 3)), 0.1, ("#000000",))
     paths = [drawing.place(replace(ball, name=name)).path.entries for name in ("a/b", "a-b", "a/b")]
     assert paths == [("g", "a-b"), ("g", "a-b (2)"), ("g", "a-b")]
+
+
+def test_a_line_keeps_the_points_that_show_and_how_far_it_has_come():
+    turn = np.linspace(0, np.pi, 2001)
+    line = np.column_stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)])
+    line = np.concatenate([line[:1000], np.repeat(line[1000:1001], 500, axis=0), line[1000:]])
+    radius = 0.004
+    kept, done = moving(line, radius)
+    assert 150 < len(kept) < 420
+    assert (done >= 0).all()
+    assert (np.diff(done) >= 0).all()
+    assert done[-1] == len(kept) - 1
+    assert done[1400] == done[1000]  # it rests there
+    # Each sample is where its share of the pieces ends, to a quarter of the radius.
+    piece = np.minimum(done.astype(int), len(kept) - 2)
+    share = (done - piece)[:, None]
+    there = (1 - share) * kept[piece] + share * kept[piece + 1]
+    assert np.linalg.norm(there - line, axis=1).max() < 0.26 * radius
+    corner = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0.2, 1, 0], [1, 1, 0.0]])
+    np.testing.assert_array_equal(moving(corner, 0.01)[0], corner)  # also where it turns back
+    still, none = moving(np.repeat(corner[:1], 5, axis=0), 0.01)
+    assert (len(still), none.max()) == (1, 0.0)
+
+
+def test_bars_go_from_end_to_end_as_one_body():
+    ends = np.random.default_rng(4).normal(size=(3, 2, 3))
+    (node,) = nodes(Bars("b", "g", ends, 0.01, "#000000"))
+    points = node.shape.geometry.vertices.reshape(3, 2, 6, 3)
+    np.testing.assert_allclose(points.mean(axis=2), ends, atol=1e-6)  # of 32 bits
+    radii = np.linalg.norm(points - ends[:, :, None], axis=-1)
+    np.testing.assert_allclose(radii, 0.01, atol=1e-6)
+    faces = bundle(ends, 0.01, 6).faces
+    assert set(faces.ravel() // 12) == {0, 1, 2}
+    assert (np.ptp(faces // 12, axis=-1) == 0).all()  # none of them joins two bars
+    assert list(nodes(Bars("b", "g", np.empty((0, 2, 3)), 0.01, "#000000"))) == []
+
+
+def outward(vertices, faces):
+    """Share of faces whose corners go round as seen from outside, from the middle line z."""
+    a, b, c = (vertices[np.asarray(faces)[:, k]] for k in range(3))
+    middle = (a + b + c) / 3 * (1, 1, 0)
+    return float((np.einsum("ij,ij->i", np.cross(b - a, c - a), middle) > 0).mean())
+
+
+def test_tubes_are_seen_from_outside():
+    line = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 2.0]])
+    made = tube(line, 0.1, 7)
+    assert outward(made.vertices, made.faces) == 1.0
 
 
 def test_equal_shapes_look_alike_and_others_dont():

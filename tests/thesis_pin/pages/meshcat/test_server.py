@@ -179,6 +179,36 @@ def test_it_ends_with_its_program_however_that_ends(number):
         time.sleep(0.05)
 
 
+@needs_proc
+@pytest.mark.parametrize("closed", [False, True])
+def test_a_forked_child_of_the_program_keeps_no_server_alive(closed):
+    code = (
+        "import os, sys, time\n"
+        "from thesis_pin.pages.meshcat.window import Window\n"
+        "kept = Window(port=0)\n"
+        "child = os.fork()\n"
+        "if not child:\n"
+        "    os.close(1)\n"
+        "    time.sleep(600)\n"
+        "    os._exit(0)\n"
+        "print(child, kept.server_proc.pid, flush=True)\n"
+        f"{'kept.close()' if closed else ''}\n"
+        "time.sleep(0 if kept.server_proc.poll() is None else 600)\n"
+        "os._exit(0)\n"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as program:
+        child, pid = map(int, program.stdout.readline().split())
+        try:
+            deadline = time.monotonic() + 15
+            while alive(pid):
+                assert time.monotonic() < deadline
+                time.sleep(0.05)
+            assert alive(child)
+        finally:
+            os.kill(child, signal.SIGKILL)
+            program.kill()
+
+
 def test_a_server_that_has_died_is_an_error_and_no_hang(monkeypatch):
     monkeypatch.setattr(window, "ANSWER", 0.5)
     drawn = visualizer(port=0)

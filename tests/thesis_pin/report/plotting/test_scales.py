@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pictured import said
 
@@ -10,7 +10,11 @@ from thesis_pin.report.plotting.scales import shown, ticks
 
 finite = st.floats(-1e12, 1e12)
 
+unhurried = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+"""The first example imports Matplotlib, and a machine under load draws all of them slowly."""
 
+
+@unhurried
 @given(st.lists(finite, min_size=1, max_size=6))
 def test_every_value_is_shown_with_room_beside_it(values):
     low, high = shown([np.array(values)])
@@ -29,7 +33,7 @@ def test_gaps_and_infinity_have_no_place_in_the_range(nothing):
     assert shown([np.array([nothing, 2.0, 4.0]), 3.0]) == pytest.approx((1.9, 4.1))
 
 
-@settings(deadline=None)  # the first imports Matplotlib
+@unhurried
 @given(finite, st.floats(1e-6, 1e12), st.integers(1, 12))
 def test_labels_say_the_marked_values(start, length, most):
     low, high = start, start + max(length, 1e-6 * abs(start))

@@ -18,6 +18,7 @@ from thesis_pin.model.mechanism.supplement import Motor
 from thesis_pin.report.torque.curves import unexplained
 from thesis_pin.report.torque.document import torque_report
 from thesis_pin.report.torque.figures import figures
+from thesis_pin.report.torque.held import held_note
 from thesis_pin.report.writers import csv_bytes, json_bytes
 
 ROOT = Path(__file__).parents[4]
@@ -48,6 +49,28 @@ def swing(joint, start=0.0, size=0.4, speed=3.0):
         size * speed * np.sin(phase),
         size * speed**2 * np.cos(phase),
     )
+
+
+def test_limbs_on_a_body_that_the_world_holds_are_told():
+    """Legs of a robot that hangs by its body bear none of its weight: no walk is like that."""
+    body = '<link name="body"><inertial><mass value="5"/><inertia ixx="1" iyy="1" izz="1" '
+    body += 'ixy="0" ixz="0" iyz="0"/></inertial></link>'
+    leg = ARM.format(kind="revolute", axis="-1 0", effort=20, velocity=10)
+    leg = leg.replace('<robot name="arm"><link name="base"/>', "").replace("</robot>", "")
+    right = leg.replace("rod", "rod2").replace("hip", "hip2").replace("base", "body")
+    left = leg.replace("base", "body")
+    walker = f'<robot name="walker">{body}{left}{{}}</robot>'
+    motion = swing("hip")
+    two = torque_report(ClosedRobot(walker.format(right)), motion)
+    (note,) = two.notes()
+    assert "The world holds body" in note
+    assert "none of the 2 limbs" in note
+    assert two.document()["notes"] == [note]
+    flying = ClosedRobot(walker.format(right), root_joint=pin.JointModelFreeFlyer())
+    for other in (ClosedRobot(walker.format("")), arm()):
+        assert torque_report(other, motion).notes() == []
+    assert held_note(flying) is None
+    assert held_note(load(DATA / "five_bar.urdf", DATA / "five_bar.yaml")) is None
 
 
 def test_a_pendulum_s_torque_is_weight_and_inertia():

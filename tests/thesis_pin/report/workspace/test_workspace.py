@@ -11,6 +11,8 @@ from thesis_pin.loops.workspace.mapped import WORDS, evaluate_workspace
 from thesis_pin.pages.drawing import frame_placements
 from thesis_pin.pages.reports.workspace import scene, workspace_page
 from thesis_pin.pages.scene import Arrow, Trace
+from thesis_pin.report.figures import figure_files
+from thesis_pin.report.plotting.wanted import Wanted, written_as
 from thesis_pin.report.workspace.document import columns, document, sentences, summary, told
 from thesis_pin.report.workspace.figures import workspace_figure, workspace_files
 from thesis_pin.report.writers import csv_bytes, json_bytes
@@ -73,7 +75,17 @@ def test_planes_lines_and_volumes_are_drawn(space):
     cube = {name: np.linspace(low, low + 0.1, 3) for name, low in (("x", 0), ("y", -0.05))}
     cube["z"] = np.linspace(-0.4, -0.3, 3)
     volume = evaluate_workspace(two[0], cube, frame="tool", pose=close(*two))
-    assert len(workspace_figure(volume).axes) == 4  # three planes and the colours' bar
+    figure = workspace_figure(volume)
+    *planes, bar = figure.axes
+    assert len(planes) == 3
+    # In the size of a column no title covers a neighbour or the colours' bar.
+    with written_as(Wanted(("png",), 100, (80 / 25.4, 60 / 25.4))):
+        figure_files("small", figure)
+    for plane in planes:
+        title = plane.title.get_window_extent()
+        for other in {*planes, bar} - {plane}:
+            assert not title.overlaps(other.get_window_extent())
+            assert not title.overlaps(other.title.get_window_extent())
 
 
 def test_the_animation_goes_through_reachable_cells_only_with_the_loops_closed(space):
