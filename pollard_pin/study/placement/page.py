@@ -50,7 +50,7 @@ def _picture(space: Placements) -> str:
     with written_as(Wanted(formats=("svg",))):
         content = placements_files(space)["placements.svg"]
     width, height = map(float, _SIZE.findall(content.decode())[0])
-    least, most = min(width, 0.5 * width + 150.0), 1.4 * width  # on phones, and on wide screens
+    least, most = min(width, 0.35 * width + 150.0), 1.4 * width  # on phones, and on wide screens
     data = f"data:image/svg+xml;base64,{base64.b64encode(content).decode()}"
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}"'
