@@ -18,7 +18,6 @@ from pollard_pin.study.placement.choices import Choices
 from pollard_pin.study.placement.judged import FOLLOWED, NEAREST, REASONS, Judged
 from pollard_pin.study.placement.pacing import played
 from thesis_pin.display.brief import Brief
-from thesis_pin.display.cell import Cell
 
 if TYPE_CHECKING:  # only searches for the shortest time need laws of motion
     from pollard_pin.study.timing.timed import TimedPath
@@ -123,19 +122,6 @@ class Placements(Brief):
     cost: Array
     start: Found
     best: tuple[Found, ...]
-
-    def _cell(self) -> Cell:
-        from pollard_pin.study.placement.telling import best_table, sentences
-
-        table = best_table(self)
-        return Cell(
-            table.title,
-            list(sentences(self)),
-            bool(self.best),
-            table.columns,
-            table.rows,
-            note=table.note,
-        )
 
     @property
     def feasible(self) -> int:
