@@ -12,6 +12,8 @@ import shlex
 import tempfile
 from pathlib import Path
 
+from viewer_pictures import lighten
+
 import scout_pin
 from scout_pin.cli import main
 from scout_pin.motion.files import load_gait
@@ -50,7 +52,9 @@ def picture() -> None:
     drawn = figure_files(f"{PICTURED}_stability", figure)
     for name, content in drawn.items():
         if name.endswith(".png"):
-            (ROOT / "docs" / "images" / name).write_bytes(content)
+            file = ROOT / "docs" / "images" / name
+            file.write_bytes(content)
+            lighten(file)
 
 
 if __name__ == "__main__":

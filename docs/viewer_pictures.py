@@ -5,12 +5,15 @@ Run ``python docs/viewer_pictures.py`` to renew them.
 
 from __future__ import annotations
 
-import io
 import sys
 import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+
+DOTS = 100
+"""An inch of Pollard's figures: their many curves take twice as many bytes at 150."""
+
 sys.path.insert(0, str(ROOT / "tests"))
 
 
@@ -45,6 +48,7 @@ def main() -> None:
             browser.run(f"player.pause(); player.time = {moment}")
             browser.run("new Promise((done) => setTimeout(done, 500))")
             browser.picture(ROOT / "docs" / "images" / f"{name}.png")
+            lighten(ROOT / "docs" / "images" / f"{name}.png")
         page = Path(folder, "sliders.html")
         page.write_bytes(slider_page(robot).html(served=True))
         browser.open(page.as_uri(), 1120, 640)
@@ -52,31 +56,40 @@ def main() -> None:
         for layer in ("masses", "inertias"):
             browser.run(f"player.toggle('{layer}')")
         browser.still(ROOT / "docs" / "images" / "sliders.png")
+        lighten(ROOT / "docs" / "images" / "sliders.png")
+
+
+def lighten(file: Path) -> None:
+    """Keep a picture in 256 colours, the fewest bytes in which those that mean something stay."""
+    from PIL import Image
+
+    with Image.open(file) as picture:
+        few = picture.convert("RGB").quantize(256, kmeans=1, dither=Image.Dither.NONE)
+    few.save(file, optimize=True)
 
 
 def thesis_figures() -> None:
     """Figures 5.1 to 5.3 of Scout and 4.1 to 4.4 of Pollard."""
-    from PIL import Image
-
     import pollard_pin
     import scout_pin
     from pollard_pin.report.drawn import figures as pollard
     from scout_pin.report.drawn import figures as scout
+    from thesis_pin.report.plotting.wanted import Wanted, written_as
 
     walk = scout_pin.gait_report(scout_pin.load(), scout_pin.load_gait())
     spray = pollard_pin.trajectory_report(pollard_pin.load(), pollard_pin.appendix_b())
-    for files, numbers in (
-        (scout.figures(walk), scout.NUMBERS),
-        (pollard.figures(spray), pollard.NUMBERS),
-    ):
+    with written_as(Wanted(("png",), DOTS)):
+        many = pollard.figures(spray)
+    drawn = ((scout.figures(walk), scout.NUMBERS), (many, pollard.NUMBERS))
+    for files, numbers in drawn:
         for name, number in numbers.items():
             file = f"thesis_figure_{number.replace('.', '_')}.png"
-            target = "scout_stick_figures.png" if number == "5.3" else file
+            target = (
+                ROOT / "docs" / "images" / ("scout_stick_figures.png" if number == "5.3" else file)
+            )
             if number:
-                # The fewest bytes in which the palette keeps its colours.
-                with Image.open(io.BytesIO(files[f"{name}.png"])) as picture:
-                    few = picture.quantize(256, dither=Image.Dither.NONE)
-                    few.save(ROOT / "docs" / "images" / target, optimize=True)
+                target.write_bytes(files[f"{name}.png"])
+                lighten(target)
 
 
 if __name__ == "__main__":

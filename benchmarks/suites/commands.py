@@ -97,8 +97,8 @@ def _row(
 
 
 def _command(robot: str, *words: str) -> str:
-    code = f"import sys; from {robot}_pin.cli import main; sys.exit(main({list(words)!r}))"
-    return run("-c", code)
+    code = f"import sys; from {robot}_pin.cli import main; sys.exit(main())"
+    return run("-c", code, *words)
 
 
 def _specification(robot: str) -> str:

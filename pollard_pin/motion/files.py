@@ -34,6 +34,7 @@ def load_path(
     feed: float | None = None,
     timing: Timing | None = None,
     smooth: str = "auto",
+    untimed: bool = False,
 ) -> ToolPath:
     """A path from a table or a TOML file; see the head of this module.
 
@@ -46,6 +47,7 @@ def load_path(
         smooth: Of a table with times: ``auto`` takes its samples for as fine as they show
             themselves to be, ``none`` for exact, and a length such as ``0.1mm``, an angle
             such as ``0.05deg`` or both with a comma for no finer than that.
+        untimed: Whether only its geometry counts: a table without times then needs no speed.
 
     Raises:
         BadInput: The file can't be read, or what it says doesn't go together.
@@ -54,7 +56,7 @@ def load_path(
     how = stated(smooth)
     suffix = Path(str(file)).suffix.lower()
     if suffix in TABLES:
-        return read_csv(file, euler=euler, feed=feed, timing=timing, how=how)
+        return read_csv(file, euler=euler, feed=feed, timing=timing, how=how, untimed=untimed)
     if suffix == ".toml":
         for name, value in (("euler", euler), ("speed", feed), ("timing", timing)):
             if value is not None:
@@ -80,6 +82,7 @@ def read_csv(
     feed: float | None = None,
     timing: Timing | None = None,
     how: Stated | None = None,
+    untimed: bool = False,
 ) -> ToolPath:
     """A path from a table of poses; see :func:`load_path` and the head of this module.
 
@@ -91,6 +94,7 @@ def read_csv(
         feed: See there.
         timing: See there.
         how: What the user says of the samples' resolution; None for nothing.
+        untimed: See :func:`load_path`.
 
     Raises:
         BadInput: It can't be read, a column is missing or a cell isn't a number.
@@ -108,7 +112,7 @@ def read_csv(
                 )
         path = timed(poses, poses.time, method, how or Stated(), name)
     else:
-        speed = _speed(poses, feed)
+        speed = 1.0 if untimed and poses.speed is None else _speed(poses, feed)
         path = at_speed(
             np.stack([column.values for column in poses.position], axis=-1),
             poses.rotation,

@@ -77,6 +77,7 @@ def _curve(
         feed=arguments.feed,
         timing=arguments.timing,
         smooth=arguments.smooth,
+        untimed=getattr(arguments, "untimed", False),
     )
     return path, place
 

@@ -15,7 +15,8 @@ from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import Specification
 from pollard_pin.study.placement.document import columns, document
 from pollard_pin.study.placement.limits import with_limits
-from pollard_pin.study.placement.result import Placements
+from pollard_pin.study.placement.placements import Placements
+from pollard_pin.study.placement.result import Found
 from pollard_pin.study.placement.search import evaluate_placements
 from pollard_pin.study.placement.telling import told
 from thesis_pin.command.flags.drawn_as import figure_style
@@ -24,6 +25,8 @@ from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, write_results
 from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
+from thesis_pin.command.warned import warned
 from thesis_pin.report.plotting.wanted import Wanted, written_as
 from thesis_pin.report.writers import csv_bytes, json_bytes
 
@@ -50,7 +53,7 @@ def place(arguments: argparse.Namespace, branch: Branch, curve: Curve) -> ExitCo
     refuse_beside(arguments, "any-branch", ("branch",))
     style = figure_style(arguments)
     page, report = b"", None
-    with Bar("judging placements") as bar:
+    with Bar("judging placements") as bar, warned():
         space = _search(arguments, branch, curve, bar)
         if space.best:
             report = trajectory_report(space.robot, space.best_path, branch=space.best[0].branch)
@@ -64,6 +67,8 @@ def place(arguments: argparse.Namespace, branch: Branch, curve: Curve) -> ExitCo
     write_results(arguments, files, content)
     if arguments.html:
         put(arguments.html, page)
+    for doubt in [] if report is None else report.doubts():
+        say(f"warning: {doubt}")
     if free(arguments):
         print_parts(told(space, report))
     return ExitCode.DONE if space.best else ExitCode.NO
@@ -124,8 +129,17 @@ def _files(
 
     files = {"placements.csv": csv_bytes(columns(space)), "placements.json": content}
     if report is not None:
-        from pollard_pin.motion.writing import path_toml
-
-        files["path.toml"] = path_toml(report.path.name, report.motion).encode()
+        files["path.toml"] = _path_file(space.best[0], report).encode()
     with written_as(style):
         return files | placements_files(space)
+
+
+def _path_file(best: Found, report: TrajectoryReport) -> str:
+    """The path at the best placement: with the law that was found, or through its samples."""
+    if best.law is None:
+        from pollard_pin.motion.writing import path_toml
+
+        return path_toml(report.path.name, report.motion)
+    from pollard_pin.motion.law_file import law_toml
+
+    return law_toml(report.path.name, best.law.course.track.chain, best.law.law)

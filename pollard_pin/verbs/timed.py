@@ -63,9 +63,9 @@ def time(
             arguments,
             "finding the law of motion",
             make,
-            figures="pollard_pin.study.timing.words:figures",
-            page="pollard_pin.study.timing.words:page",
-            table="pollard_pin.study.timing.words:summary",
+            figures="pollard_pin.study.timing.drawn:figures",
+            page="pollard_pin.study.timing.drawn:page",
+            table="pollard_pin.study.timing.tables:summary",
         )
     except Infeasible as error:
         no = f"No law of motion keeps these limits: {error}."

@@ -92,14 +92,23 @@ def test_a_workspace_has_a_map_and_its_doubts(accuracy, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "y"), [(["--y", 0.1, "--z", 0.1], 0.1), (["--x", 0.4, "--y", -0.1, 0.1], -0.1)]
+    ("words", "count"),
+    [
+        (["--x", 0.4, 0.6, "--y", 0.1, "--z", 0.1], 5),
+        (["--x", 0.4, "--y", -0.1, 0.1, "--z", 0.0, 0.1], 25),
+        (["--x", 0.4, 0.6, "--y", -0.1, 0.1, "--z", 0.0, 0.1], 125),
+        (["--x", 0.4, "--z", 0.1], 1),
+    ],
 )
-def test_lines_and_volumes_are_mapped_too(accuracy, tmp_path, words, y):
-    out = tmp_path / "out"
-    code, said, _ = accuracy("--workspace", "--points", 5, *words, "--json", "-", "--out", out)
+def test_points_lines_slices_and_volumes_are_studied(accuracy, tmp_path, words, count):
+    out, page = tmp_path / "out", tmp_path / "page.html"
+    words = ["--workspace", "--points", 5, *words, "--json", "-", "--out", out, "--html", page]
+    code, said, _ = accuracy(*words)
     assert code == 0
-    assert min(pose[1] for pose in json.loads(said)["pose"]) == pytest.approx(y)
-    assert (out / "map.svg").exists()
+    assert len(json.loads(said)["pose"]) == count
+    assert (out / "map.svg").exists() == (count > 1)
+    if count > 1:  # something is drawn: Matplotlib's meshes are images, curves are paths
+        assert len((out / "map.png").read_bytes()) > 8000
 
 
 def test_the_same_seed_gives_the_same_bytes(accuracy):

@@ -52,16 +52,18 @@ def test_flags_and_file_of_the_best_give_the_report_that_was_told(capfd, tmp_pat
     )
 
 
-def test_appendix_b_is_placed_from_the_print_and_as_fast_as_it_was_found(capfd):
-    words = ["--for", "time", "--z", "0:0.1:0.05", "--samples", "101", "--torque", 2, "--speed", 5]
-    code, out, err = place(capfd, *words, "--json", "-")
+def test_appendix_b_is_placed_from_the_print_and_its_law_is_written(capfd, tmp_path):
+    words = ["--for", "time", "--z", "0,0.1", "--samples", "101", "--torque", 2, "--speed", 5]
+    code, out, err = place(capfd, *words, "--json", "-", "--out", tmp_path, "--grid-only")
     assert code == 0, err
     document = json.loads(out)
     assert document["start"]["position"] == [0.45, 0.0, 0.0]
     best = document["best"][0]
-    report = told(capfd, *shlex.split(best["flags"]))
-    assert report["parameters"]["duration"] == pytest.approx(best["fastest"])
-    assert max(report["summary"]["peak_torque"]) == pytest.approx(2.0, rel=2e-3)
+    assert best["fastest_by_law"] < best["fastest"]
+    assert best["fastest_by_law"] < document["start"]["fastest_by_law"]
+    report = told(capfd, "--path", str(tmp_path / "path.toml"))
+    assert report["parameters"]["duration"] == pytest.approx(best["fastest_by_law"])
+    assert max(report["summary"]["peak_torque"]) == pytest.approx(2.0, rel=1e-2)
     assert document["report"]["motor_limits"]["within"]
 
 

@@ -30,6 +30,25 @@ def test_the_report_page_is_complete_quiet_and_fits_a_phone(browser, report_file
     assert report_file.stat().st_size < 3e6
 
 
+LEGENDS = """[...document.querySelectorAll(".plot .canvas")].map((plot) => {
+  const box = (name) => plot.querySelector(name).getBoundingClientRect();
+  const whole = plot.getBoundingClientRect(), legend = box(".legend");
+  const bar = plot.querySelector(".legend .scrollbar")?.getBoundingClientRect().height || 0;
+  return [legend.top - box(".xtitle").bottom, whole.bottom - legend.bottom,
+    box(".ytitle").left - whole.left, -bar];
+})"""
+"""How far a legend is from what is above and below, a y axis's title from the edge; no bar."""
+
+
+def test_legends_are_whole_and_cover_nothing(browser, report_file):
+    for width in (1280, 390):
+        browser.open(report_file.as_uri(), width, 844)
+        browser.until("window.ready")
+        rooms = browser.run(LEGENDS)
+        assert len(rooms) > 8
+        assert min(min(room) for room in rooms) >= 0, rooms
+
+
 def test_a_page_without_animation_or_plots_needs_neither_library(browser, folder):
     bare = page.Page(
         title="Audit",

@@ -10,10 +10,12 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
+from studied import swept
 
 import pollard_pin
 import scout_pin
 import thesis_pin
+from pollard_pin.study.timing.report import time_report
 from scout_pin.report.drawn.view import gait_scene
 from scout_pin.report.verdict import sentences
 from thesis_pin import errors
@@ -104,6 +106,13 @@ MAKERS = {
     "GaitReport": gait_report,
     "Plan": lambda: scout_pin.plan_gait(scout_pin.load(), steps=1),
     "PlanRequest": lambda: scout_pin.PlanRequest(speed=0.05, margin=0.004),
+    "GaitStudy": lambda: scout_pin.gait_study(samples=41),
+    "PlanStudy": scout_pin.plan_study,
+    "PathStudy": lambda: pollard_pin.path_study(path=ROOT / "examples" / "spray_arch.toml"),
+    "TimeStudy": pollard_pin.time_study,
+    "Designs": lambda: swept("x=1,2", "kind=round,flat").designs,
+    "Sweep": lambda: swept("x=1,2"),
+    "Choice": lambda: thesis_pin.Choice.of(swept("x=1,2"), None, "x<2"),
     "Simulation": simulation,
     "Simulation of a path": replay,
     "ToolPath": pollard_pin.appendix_b,
@@ -114,6 +123,7 @@ MAKERS = {
     "Branch": lambda: pollard_pin.DEFAULT_BRANCH,
     "TrajectoryReport": trajectory_report,
     "TimedPath": timed_path,
+    "TimeReport": lambda: time_report(timed_path(), samples=21),
     "TorqueBlock of Scout": lambda: torque_block(scout_pin),
     "TorqueBlock of Pollard": lambda: torque_block(pollard_pin),
     "ClosureFile": lambda: thesis_pin.ClosureFile.read(FIVE_BAR),

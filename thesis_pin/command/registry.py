@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, NamedTuple, NoReturn
 
-from thesis_pin.command.running import ExitCode, run
+from thesis_pin.command.running import ExitCode, collect_seldom, run
 from thesis_pin.command.text import clean, say
 from thesis_pin.version import __version__
 
@@ -157,6 +157,8 @@ class Command:
 
     def main(self, arguments: Sequence[str] | None = None) -> int:
         """Run a command line; returns the exit code."""
+        if arguments is None:  # the process ends with the command
+            collect_seldom()
         words = sys.argv[1:] if arguments is None else list(arguments)
         if words and words[0] in self.moved:
             say(f"{self.name}: error: {words[0]} has moved; use: {self.moved[words[0]]}")

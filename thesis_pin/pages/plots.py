@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from thesis_pin.report.curves import BLACK, STROKES, Area, Band, Curve, Limit, Plot, condensed
 
-MARGINS = {"l": 58, "r": 14, "t": 12, "b": 44}
-"""Fixed, so that the page can place its time cursor over a plot."""
+MARGINS = {"l": 74, "r": 14, "t": 12, "b": 44}
+"""Fixed, so that the page can place its time cursor over a plot; room for ticks as −0.0015."""
 
 STRETCHES = 600
 """Of a plot's x axis: about as many as it has columns of pixels."""
@@ -24,6 +24,7 @@ def figure(plot: Plot) -> dict[str, object]:
     """A plot as ``{"data": […], "layout": {…}}``, JSON-ready."""
     plot = condensed(plot, STRETCHES)
     axis = {"gridcolor": "#e3e7eb", "zerolinecolor": "#9aa0a6", "automargin": False}
+    axis |= {"exponentformat": "e"}  # a micro of nothing is no unit
     x: dict[str, object] = axis | {"title": {"text": plot.across, "standoff": 6}}
     y: dict[str, object] = axis | {"title": {"text": plot.label, "standoff": 4}}
     ends: list[float] = []

@@ -136,6 +136,12 @@ def windowed(grid: Grid, limits: Limits, window: float, share: float) -> tuple[L
             for one, rate in zip(sides, (law.rate[:-1], law.rate[1:]), strict=True)
         )
 
+    if not top > 0:
+        raise TrajectoryError(
+            "the tool turns on the spot, where a tool speed gives no time",
+            remedy="Ask for another law",
+        )
+
     def at(speed: float) -> tuple[Law, bool]:
         law = fastest(grid, replace(limits, tool_speed=speed))
         return law, kept(grid, law, speed, window) >= share

@@ -1,4 +1,4 @@
-"""Placements as a picture: the objective over positions, and why others can't be followed."""
+"""PlacementNumbers as a picture: the objective over positions, and why others can't be followed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from pollard_pin.study.placement.judged import (
     TORQUE,
     WEIGHT,
 )
-from pollard_pin.study.placement.result import Placements
+from pollard_pin.study.placement.result import PlacementNumbers
 from thesis_pin.report.curves import GREEN, ORANGE, PURPLE, SKY, VERMILLION
 from thesis_pin.report.figures import default_style, figure_files, new_figure
 
@@ -46,7 +46,7 @@ _ROW = 4  # of them beside each other
 _HIGHEST = 0.9  # quantile of what is to be small at which colours end
 
 
-def shown(space: Placements) -> tuple[np.ndarray, str]:
+def shown(space: PlacementNumbers) -> tuple[np.ndarray, str]:
     """What is drawn of each placement of the grid, and what it is called; NaN for nothing."""
     judged, fine = space.judged, space.judged.reason == FOLLOWED
     effort, _ = space.robot.specification.assumptions.joint_limits.of_motors()
@@ -67,7 +67,7 @@ def shown(space: Placements) -> tuple[np.ndarray, str]:
     return np.where(fine, value, np.nan), label
 
 
-def flattened(space: Placements) -> tuple[np.ndarray, np.ndarray]:
+def flattened(space: PlacementNumbers) -> tuple[np.ndarray, np.ndarray]:
     """Values and reasons over x, y, z, the best of all turns, images and branches."""
     value, _ = shown(space)
     shape = (-1, *space.choices.shape[3:])
@@ -80,7 +80,7 @@ def flattened(space: Placements) -> tuple[np.ndarray, np.ndarray]:
 
 
 @default_style()
-def placements_figure(space: Placements) -> Figure:
+def placements_figure(space: PlacementNumbers) -> Figure:
     """The objective over a line, a plane, or slices of a volume at equal heights."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
@@ -95,7 +95,7 @@ def placements_figure(space: Placements) -> Figure:
     slices = _slices(space, normal)
     columns = min(len(slices), _ROW)
     rows = -(-len(slices) // columns)
-    figure, axes = new_figure(4.4 * columns + 1.2, 3.9 * rows + 1.0, rows, columns)
+    figure, axes = new_figure(max(4.4 * columns + 1.2, 6.8), 3.9 * rows + 1.4, rows, columns)
     finite = values[np.isfinite(values)]
     ends = (0.0, 1.0)
     if finite.size:
@@ -112,14 +112,14 @@ def placements_figure(space: Placements) -> Figure:
         Line2D([], [], marker=mark, color="none", mec="black", mfc=fill, ms=size, label=word)
         for mark, fill, size, word in ((("*", "white", 13, "best"), ("o", GREEN, 7, "now")))
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=9)
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(columns, 2), fontsize=9)
     beyond = "max" if finite.size and finite.max() > ends[1] else "neither"
     figure.colorbar(image, ax=list(axes.ravel()), label=label, extend=beyond)
     figure.suptitle(f"{space.path.name}: {label}{_over(space)}", size=10)
     return figure
 
 
-def _over(space: Placements) -> str:
+def _over(space: PlacementNumbers) -> str:
     """Over what the best is taken that isn't drawn."""
     _, branches, turns = space.choices.shape[:3]
     what = [f"{turns} turns"] * (turns > 1) + [f"{branches} branches"] * (branches > 1)
@@ -127,7 +127,7 @@ def _over(space: Placements) -> str:
     return f", best of {' and '.join(what)}" if what else ""
 
 
-def _slices(space: Placements, normal: int) -> list[int]:
+def _slices(space: PlacementNumbers, normal: int) -> list[int]:
     """Which slices are drawn: evenly spread ones, among them that of the best."""
     axis = space.choices.ranges[normal]
     numbers = np.linspace(0, len(axis) - 1, min(len(axis), _MOST)).round().astype(int)
@@ -139,7 +139,7 @@ def _slices(space: Placements, normal: int) -> list[int]:
 
 def _plane(
     ax: Axes,
-    space: Placements,
+    space: PlacementNumbers,
     cut: tuple[int, int],
     values: np.ndarray,
     reasons: np.ndarray,
@@ -188,29 +188,46 @@ def _half(axis: np.ndarray) -> float:
     return float(np.diff(axis).min()) / 2 if len(axis) > 1 else 1e-9
 
 
-def _line(space: Placements, wide: int | None) -> Figure:
+def _line(space: PlacementNumbers, wide: int | None) -> Figure:
     """The objective over one coordinate, or over the turn."""
     value, label = shown(space)
+    shape, numbers = space.choices.shape, np.arange(space.choices.count)
+    axis = 2 if wide is None else 3 + wide
     if wide is None:
         over, name = np.degrees(space.choices.turn), "turn [°]"
     else:
         over, name = space.choices.ranges[wide], f"{'xyz'[wide]} [m]"
-    lines = value.reshape(-1, len(over))
+    every = np.moveaxis(numbers.reshape(shape), axis, -1).reshape(-1, len(over))
+    groups = [group for group in every if np.isfinite(value[group]).any()]
     figure, axes = new_figure(7.5, 4.2)
     ax = axes[0, 0]
-    groups = [line for line in lines if np.isfinite(line).any()]
-    for line in groups:
-        ax.plot(over, line, "o-" if len(over) < _MARKED else "-", ms=4)
+    for group in groups:
+        named = _named(space, int(group[0]), turns=wide is not None)
+        ax.plot(over, value[group], "o-" if len(over) < _MARKED else "-", ms=4, label=named)
     if not groups:
         ax.text(0.5, 0.5, "the path can't be followed", transform=ax.transAxes, ha="center")
+    if 1 < len(groups) <= _LABELLED:
+        ax.legend(fontsize=8)
     ax.set(xlabel=name, ylabel=label, title=f"{space.path.name}: {label}")
     ax.grid(alpha=0.3)
     return figure
 
 
+def _named(space: PlacementNumbers, number: int, *, turns: bool) -> str:
+    """What a line is of that others aren't."""
+    placement, branch = space.choices.at(number)
+    words = [str(branch)] * (len(space.choices.branches) > 1)
+    if len(space.choices.mirrored) > 1:
+        words.append("mirror image" if placement.mirrored else "as it is")
+    if turns and len(space.choices.turn) > 1:
+        words.append(f"turned by {np.degrees(placement.turn):z.4g}°")
+    return ", ".join(words)
+
+
+_LABELLED = 16  # lines up to which each is named
 _MARKED = 60  # values of a line below which each is marked
 
 
-def placements_files(space: Placements) -> dict[str, bytes]:
+def placements_files(space: PlacementNumbers) -> dict[str, bytes]:
     """The map as PNG and SVG: file name → content."""
     return figure_files("placements", placements_figure(space))

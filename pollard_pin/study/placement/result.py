@@ -1,10 +1,11 @@
-"""What a search for placements answers."""
+"""The numbers of a search for placements."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,9 @@ from pollard_pin.study.placement.choices import Choices
 from pollard_pin.study.placement.judged import FOLLOWED, NEAREST, REASONS, Judged
 from pollard_pin.study.placement.pacing import played
 from thesis_pin.display.brief import Brief
+
+if TYPE_CHECKING:  # only searches for the shortest time need laws of motion
+    from pollard_pin.study.timing.timed import TimedPath
 
 Array = NDArray[np.float64]
 
@@ -31,6 +35,7 @@ class Found(Brief):
         judged: What it asks for, of one placement.
         duration: Of the path as it is written [s].
         refined: Whether it lies between the grid's values.
+        law: The path with the fastest law there; None where it wasn't looked for.
     """
 
     placement: Placement
@@ -38,6 +43,7 @@ class Found(Brief):
     judged: Judged
     duration: float
     refined: bool
+    law: TimedPath | None = None
 
     @property
     def reason(self) -> str:
@@ -84,10 +90,15 @@ class Found(Brief):
         pace = float(self.judged.pace[0])
         return math.ceil(1e3 * self.duration / pace) / 1e3 if pace > 0 else math.nan
 
+    @property
+    def duration_by_law(self) -> float:
+        """Duration of the fastest law [s], or where there is none :attr:`fastest`."""
+        return self.fastest if self.law is None else self.law.duration
+
 
 @dataclass(frozen=True)
-class Placements(Brief):
-    """Placements of a path, judged.
+class PlacementNumbers(Brief):
+    """PlacementNumbers of a path, judged.
 
     Attributes:
         robot, path, objective: What was asked about.
@@ -137,6 +148,8 @@ class Placements(Brief):
         """The path as it stands at the best placement; for the time, as fast as it can be."""
         best = self.best[0]
         placed = place_path(self.path, best.placement)
+        if best.law is not None:
+            return best.law.path
         if self.objective != "time":
             return placed
         return played(placed, self.path.duration / best.fastest)

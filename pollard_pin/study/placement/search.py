@@ -23,8 +23,9 @@ from pollard_pin.study.placement.choices import Choices, values_of
 from pollard_pin.study.placement.judged import Judged
 from pollard_pin.study.placement.judging import Judge
 from pollard_pin.study.placement.objectives import OBJECTIVES, Objective, cost, rounded
+from pollard_pin.study.placement.placements import Placements
 from pollard_pin.study.placement.refining import STARTS, TRIES, refine_from, starts
-from pollard_pin.study.placement.result import Found, Placements
+from pollard_pin.study.placement.result import Found
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import choice, function, instance, real, shown, whole
 from thesis_pin.numeric.workers import silent
@@ -70,8 +71,9 @@ def evaluate_placements(
             of several those are left out on which the arms of the side chains cross.
         objective: What is to be best: ``"torque"``, the largest share of a motor's torque limit;
             ``"conditioning"``, the largest condition number of the six motors; ``"time"``, the
-            duration when the path is played as fast as the motors' limits let it;
-            ``"clearance"``, the least sine of the singular sets.
+            duration when the path is played as fast as the motors' limits let it, and of the
+            three best with the fastest law of motion; ``"clearance"``, the least sine of the
+            singular sets.
         condition: Largest condition number of the six motors that is allowed; None for any.
         samples: Evenly spaced samples of the path.
         refine: Whether to go on between the grid's values from the best.
@@ -84,7 +86,8 @@ def evaluate_placements(
         Every placement of the grid, and the best of all.
 
     Raises:
-        BadInput: An axis is empty or descends, or there are too many placements.
+        BadInput: An axis is empty or descends, there are too many placements, or the shortest
+            time is asked for of a path that doesn't move.
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
     instance("path", path, ToolPath, "load_path() or appendix_b()")
@@ -104,6 +107,11 @@ def evaluate_placements(
     judge = Judge.of(
         robot, path, samples, paces=objective == "time", apart=len(branches) > 1, worst=worst
     )
+    if objective == "time" and _rests(judge):
+        raise BadInput(
+            f"the path {path.name!r} stays where it is, and takes no time",
+            allowed="a path that moves, where the shortest time is asked for",
+        )
     wide = [k for k, axis in enumerate(choices.lines) if len(axis) > 1]
     more = STARTS * TRIES * len(wide) if refine else 0
     total = choices.count + more
@@ -124,7 +132,7 @@ def evaluate_placements(
     last = itertools.chain(tried, ((*choices.at(int(k)), False) for k in order))
     found = _best(fine, choices, objective, last, best, len(tried))
     progress(total, total)
-    return Placements(
+    space = Placements(
         robot,
         path,
         objective,
@@ -136,6 +144,17 @@ def evaluate_placements(
         Found(start, start_branch, fine.placements([start], start_branch), path.duration, False),
         tuple(found),
     )
+    if objective != "time":
+        return space
+    from pollard_pin.study.placement.laws import with_laws
+
+    return with_laws(space)
+
+
+def _rests(judge: Judge) -> bool:
+    """Whether the tool moves at no sample."""
+    tool = judge.motion.tool
+    return not (tool.velocity.any() or tool.omega.any())
 
 
 def _grid(judge: Judge, choices: Choices, progress: Callable[[int], None]) -> Judged:

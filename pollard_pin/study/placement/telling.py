@@ -1,4 +1,4 @@
-"""Placements in words, and in a table of the best."""
+"""PlacementNumbers in words, and in a table of the best."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from pollard_pin.study.placement.objectives import WORDS
-from pollard_pin.study.placement.result import Found, Placements
+from pollard_pin.study.placement.result import Found, PlacementNumbers
 from thesis_pin.report.tables import Part, Table
 
 
-def flags(space: Placements, found: Found) -> str:
+def flags(space: PlacementNumbers, found: Found) -> str:
     """What has other verbs put the path there, appendix B's curve as fast as it was found."""
     place, turn = found.placement, round(math.degrees(found.placement.turn), 9)
     words = ["--placement", *(f"{value + 0.0:.10g}" for value in place.position)]
     words += [f"--turn {turn:.10g}"] if turn else []
     words += ["--mirror"] if place.mirrored else []
     words += [f"--branch={found.branch}"] if found.branch != DEFAULT_BRANCH else []
-    if space.objective == "time" and space.path.name == "appendix B":
+    if space.objective == "time" and space.path.name == "appendix B" and found.law is None:
         words += [f"--duration {found.fastest:.10g}"] if math.isfinite(found.fastest) else []
     return " ".join(words)
 
 
-def told(space: Placements, report: TrajectoryReport | None) -> Iterator[Part]:
+def told(space: PlacementNumbers, report: TrajectoryReport | None) -> Iterator[Part]:
     """A search in a table and paragraphs."""
     if space.best:
         yield best_table(space)
@@ -37,7 +37,7 @@ def told(space: Placements, report: TrajectoryReport | None) -> Iterator[Part]:
         yield from (f"Note: {note}." for note in report.path.notes)
 
 
-def best_table(space: Placements) -> Table:
+def best_table(space: PlacementNumbers) -> Table:
     """Where the path stands now, and the best placements."""
     rows = (space.start, *space.best)
     names = ["now", *(str(k) for k in range(1, len(rows)))]
@@ -54,6 +54,9 @@ def best_table(space: Placements) -> Table:
     table["cond."] = [_told(one.condition, ".2f") for one in rows]
     if space.objective == "time":
         table["time s"] = [_told(one.fastest, ".3f") for one in rows]
+        if any(one.law is not None for one in rows):
+            laws = ["–" if one.law is None else f"{one.law.duration:.3f}" for one in rows]
+            table["by law s"] = laws
     else:
         table["clear"] = [_told(one.clearance, ".3f") for one in rows]
     title = f"{space.path.name} on {space.robot.specification.name}: {WORDS[space.objective]}"
@@ -63,7 +66,7 @@ def best_table(space: Placements) -> Table:
     )
     if space.objective == "time":
         note += " N·m is that of the path as it is timed, time s is what it takes as fast as the "
-        note += "motors' limits let it be played."
+        note += "motors' limits let it be played so, by law s with the fastest law of motion."
     return Table.of(title, table, note)
 
 
@@ -71,7 +74,7 @@ def _told(value: float, how: str) -> str:
     return format(float(value), how) if math.isfinite(value) else "–"
 
 
-def sentences(space: Placements) -> Iterator[str]:
+def sentences(space: PlacementNumbers) -> Iterator[str]:
     """What came out, the most important first."""
     yield from _gain(space)
     count, fine = space.choices.count, space.feasible
@@ -91,13 +94,17 @@ def sentences(space: Placements) -> Iterator[str]:
             f"The best lies at the end of {', '.join(ends)}: beyond there may be a better one, "
             "which wider ranges find."
         )
+    if space.best[0].law is not None:
+        yield (
+            "Its law of motion is the one that pollard-pin time finds there within these limits."
+        )
     yield (
         f"The grid was judged at {space.samples} samples, the table as finely as a report. To put "
         f"the path there: {flags(space, space.best[0])}"
     )
 
 
-def _gain(space: Placements) -> Iterator[str]:
+def _gain(space: PlacementNumbers) -> Iterator[str]:
     """The best beside where the path stands now."""
     start = space.start
     why = f"Where the path stands now it can't be followed: {start.reason}."
@@ -107,17 +114,18 @@ def _gain(space: Placements) -> Iterator[str]:
             yield why
         return
     best = space.best[0]
-    value, unit, words = _value(space, best)
+    by_law = best.law is not None and (start.law is not None or bool(start.reason))
+    value, unit, words = _value(space, best, by_law)
     place = ", ".join(f"{one:z.4g}" for one in best.placement.position)
     text = f"Best at ({place}) m: {words} {value:.4g}{unit}"
-    before = _value(space, start)[0]
+    before = _value(space, start, by_law)[0]
     if start.reason:
         yield from (f"{text}.", why)
     else:
         yield f"{text}, now {before:.4g}{unit} ({value / before - 1.0:+.0%})."
 
 
-def _value(space: Placements, found: Found) -> tuple[float, str, str]:
+def _value(space: PlacementNumbers, found: Found, by_law: bool) -> tuple[float, str, str]:
     """What the objective is about: its value, unit and words."""
     effort, _ = space.robot.specification.assumptions.joint_limits.of_motors()
     if space.objective == "conditioning":
@@ -125,6 +133,8 @@ def _value(space: Placements, found: Found) -> tuple[float, str, str]:
     if space.objective == "clearance":
         return found.clearance, "", f"clearance (nearest: {found.nearest})"
     if space.objective == "time":
+        if by_law and found.law is not None:
+            return found.law.duration, " s", "with the fastest law that the motors keep it takes"
         return found.fastest, " s", "as fast as the motors' limits let the path be played, it takes"
     share = found.torque / effort
     motor = int(np.argmax(share)) if np.isfinite(share).all() else 0

@@ -57,7 +57,12 @@ class Course(Brief):
         _try(robot, path, chosen)
         curves, told = untimed(path)
         chain = Chain.of(curves)
-        notes = [*path.notes, *told]
+        notes = [*(_of_geometry(note) for note in path.notes), *told]
+        if path.variants is not None:
+            notes.append(
+                "the table's samples are smoothed within their resolution; what that leaves open "
+                "of the path isn't judged here"
+            )
         if chain.corners:
             some = f"{chain.corners} corner" + "s" * (chain.corners > 1)
             notes.append(f"the path has {some}, where the tool stops")
@@ -85,6 +90,16 @@ class Course(Brief):
             Infeasible: At rest a limit is exceeded somewhere.
         """
         return fastest(self.grid, limits).duration
+
+
+def _of_geometry(note: str) -> str:
+    """A note on a path without what it says of its timing."""
+    if note.startswith("times are made from a tool speed") and "; " in note:
+        return note.partition("; ")[2]
+    if "at this speed" in note:
+        start = note.partition(", doesn't resolve")[0]
+        return f"{start}, may be bent by rounding; where it is, laws are slow"
+    return note
 
 
 def _try(robot: Pollard, path: ToolPath, branch: Branch) -> None:

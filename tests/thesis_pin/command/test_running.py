@@ -55,6 +55,25 @@ def test_an_error_becomes_one_line_and_its_code(error, code, says, capsys):
     assert says in err
 
 
+def test_garbage_is_looked_for_as_before_where_the_process_is_the_caller_s():
+    text = """
+import gc, sys
+from scout_pin.cli import main
+def after(*words):
+    try:
+        main(*words)
+    except SystemExit:
+        pass
+    return gc.get_threshold()
+usual = gc.get_threshold()
+assert after(["--version"]) == usual
+sys.argv[1:] = ["--version"]
+assert after()[0] > 10 * usual[0]
+assert gc.isenabled()
+"""
+    subprocess.run([sys.executable, "-c", text], check=True, timeout=60, cwd=ROOT)
+
+
 @pytest.mark.parametrize("code", [ExitCode.DONE, ExitCode.NO])
 def test_a_verb_s_own_code_is_the_command_s(code):
     assert run(doing(lambda _: code), []) == code

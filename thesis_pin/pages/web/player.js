@@ -224,7 +224,7 @@ function makePlayer(root, scene, options = {}) {
   });
 
   const player = {
-    title: scene.title, start: scene.start, duration: end - start, frameRate: null, stage, items, groups,
+    title: scene.title, notes: scene.notes, start: scene.start, duration: end - start, frameRate: null, stage, items, groups,
     get time() { return now - start; },
     set time(t) { set(start + t); },
     get playing() { return playing; },

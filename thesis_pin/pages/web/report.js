@@ -1,11 +1,22 @@
 "use strict";
 // Draws the report's plots and ties them to the animation's clock.
 
+const HIGH = 380, ROW = 20, USUAL = 2;  // of a plot, of a legend's row, and rows there is room for
+
+// Height that a legend takes besides: it has as many columns as its longest name lets.
+function legendRoom(data, width) {
+  const names = [...new Set(data.filter((one) => one.showlegend !== false).map((one) => one.name))];
+  const longest = Math.max(...names.map((name) => name.length), 1);
+  const columns = Math.max(1, Math.floor((width - 90) / (48 + 6.5 * longest)));
+  return ROW * Math.max(0, Math.ceil(names.length / columns) - USUAL);
+}
+
 async function drawPlots(figures) {
   // A finger on a plot scrolls the page; a mouse draws a box to zoom, a double click resets.
   const dragmode = window.matchMedia("(pointer: coarse)").matches ? false : "zoom";
   const elements = [...document.querySelectorAll(".plot .canvas")];
   for (const [k, element] of elements.entries()) {
+    element.parentElement.style.height = `${HIGH + legendRoom(figures[k].data, element.clientWidth)}px`;
     await Plotly.newPlot(element, figures[k].data, { ...figures[k].layout, dragmode },
       { responsive: true, displayModeBar: false });
   }
@@ -77,7 +88,8 @@ function drawMoments(player) {
     copy.querySelectorAll("input, kbd").forEach((element) => element.remove());
     legend.append(copy);
   }
-  document.getElementById("moments").replaceChildren(pictures, legend);
+  const notes = player.notes.map((textContent) => make("p", { textContent, className: "note" }));
+  document.getElementById("moments").replaceChildren(pictures, legend, ...notes);
 }
 
 // Before it goes to paper: the robot as pictures, and what is wider than a page made to fit.

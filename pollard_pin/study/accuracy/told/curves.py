@@ -20,8 +20,38 @@ BARS = 16
 
 
 def plots(study: AccuracyNumbers) -> list[Plot]:
-    """Errors along a path; none of a workspace."""
-    return [] if study.time is None else [distances(study), axes(study), directions(study)]
+    """Errors along a path, or along a workspace's only axis; none of other workspaces."""
+    if study.time is not None:
+        return [distances(study), axes(study), directions(study)]
+    return [along_axis(study)] if len(wide_axes(study)) == 1 else []
+
+
+def wide_axes(study: AccuracyNumbers) -> list[int]:
+    """Axes of a workspace that have more than one value."""
+    assert study.space is not None
+    return [k for k, axis in enumerate(study.space.axes) if len(axis) > 1]
+
+
+def along_axis(study: AccuracyNumbers) -> Plot:
+    """How far off the tip may be along a line of positions; gaps where it can't be."""
+    space, (axis,) = study.space, wide_axes(study)
+    assert space is not None
+    stack = study.stack
+    worst, root = (_on_grid(study, x).ravel() * 1e3 for x in (stack.farthest, _sound_root(study)))
+    limits = [] if study.limit is None else [Limit("allowed", study.limit * 1e3)]
+    return Plot(
+        "Distance of the spray tip from its place",
+        "At the worst signs of all errors, and by the root of the sum of squares; gaps where there "
+        "is no bound, and where what is linear in the errors means little.",
+        "distance [mm]",
+        [
+            Curve("at worst", worst, VERMILLION),
+            Curve("root of the sum of squares", root, BLUE, "dash"),
+        ],
+        space.axes[axis],
+        across=f"{'xyz'[axis]} [m]",
+        limits=limits,
+    )
 
 
 def distances(study: AccuracyNumbers) -> Plot:
@@ -29,7 +59,7 @@ def distances(study: AccuracyNumbers) -> Plot:
     stack, draws = study.stack, study.draws
     curves = [
         Curve("at worst", _drawable(stack.farthest) * 1e3, VERMILLION),
-        Curve("root of the sum of squares", stack.root * 1e3, BLUE, "dash"),
+        Curve("root of the sum of squares", _sound_root(study) * 1e3, BLUE, "dash"),
     ]
     if draws is not None and draws.assembled.any():
         level = np.quantile(draws.distance[draws.assembled], LEVEL, axis=0) * 1e3
@@ -112,10 +142,8 @@ def map_figure(study: AccuracyNumbers) -> Figure:
 
     space = study.space
     assert space is not None
-    there = space.reachable & np.isfinite(space.condition)
-    value = np.full(there.shape, np.nan)
-    value[there] = _drawable(study.stack.farthest) * 1e3
-    lost = there & np.isnan(value)
+    value = _on_grid(study, study.stack.farthest) * 1e3
+    lost = space.reachable & np.isfinite(space.condition) & np.isnan(value)
     sizes = [len(axis) for axis in space.axes]
     thin = [k for k in range(3) if sizes[k] == 1]
     normals = thin[:1] if thin else [0, 1, 2]
@@ -163,7 +191,10 @@ def figures(study: AccuracyNumbers) -> dict[str, bytes]:
     files = {"sensitivities.csv": sensitivities_csv(study)}
     files |= figure_files("contributions", bars_figure(study))
     if study.space is not None:
-        return files | figure_files("map", map_figure(study))
+        wide = len(wide_axes(study))
+        if wide == 1:
+            files |= figure_files("map", panels([plots(study)], 8, 4))
+        return files | (figure_files("map", map_figure(study)) if wide > 1 else {})
     return files | figure_files("errors", panels([[plot] for plot in plots(study)], 8, 8))
 
 
@@ -172,6 +203,21 @@ def _round_numbers(low: float, high: float) -> list[float]:
     powers = range(int(np.floor(np.log10(low))), int(np.ceil(np.log10(high))) + 1)
     every = [float(f"{one}e{power}") for power in powers for one in (1, 2, 5)]
     return [one for one in every if low <= one <= high]
+
+
+def _sound_root(study: AccuracyNumbers) -> np.ndarray:
+    """Root of the sum of squares, with gaps where what is linear means little."""
+    return np.where(study.bent, np.nan, study.stack.root)
+
+
+def _on_grid(study: AccuracyNumbers, values: np.ndarray) -> np.ndarray:
+    """Values of the poses on the workspace's grid; NaN where there are none, or no bound."""
+    space = study.space
+    assert space is not None
+    there = space.reachable & np.isfinite(space.condition)
+    found = np.full(there.shape, np.nan)
+    found[there] = _drawable(values)
+    return found
 
 
 def _drawable(values: np.ndarray) -> np.ndarray:

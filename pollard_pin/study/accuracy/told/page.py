@@ -9,7 +9,7 @@ import numpy as np
 from pollard_pin.report.drawn.view import CHAINS, colour_of_part
 from pollard_pin.study.accuracy.result import AccuracyNumbers
 from pollard_pin.study.accuracy.sensitivity import sensitivity
-from pollard_pin.study.accuracy.told.curves import bars_figure, map_figure, plots
+from pollard_pin.study.accuracy.told.curves import bars_figure, map_figure, plots, wide_axes
 from pollard_pin.study.accuracy.told.document import document
 from pollard_pin.study.accuracy.told.tables import (
     contributions_table,
@@ -38,7 +38,7 @@ def accuracy_page(study: AccuracyNumbers) -> bytes:
     name, stack = study.robot.specification.name.capitalize(), study.stack
     where = "over a workspace" if study.path is None else f"on {study.path.name}"
     drawings = [Drawing("What matters most", _svg("contributions", study), _bars_said(study))]
-    if study.space is not None:
+    if study.space is not None and len(wide_axes(study)) > 1:
         text = "How far off the spray tip may be at worst, over slices of the workspace."
         drawings.insert(0, Drawing("Map", _svg("map", study), text))
     asked = document(study)["parameters"]

@@ -15,6 +15,7 @@ from pollard_pin.report.document import trajectory_report
 from pollard_pin.study.placement.document import columns, document
 from pollard_pin.study.placement.judged import ARMS, FOLLOWED, REASONS, arms_cross
 from pollard_pin.study.placement.limits import with_limits
+from pollard_pin.study.placement.pacing import played
 from pollard_pin.study.placement.search import evaluate_placements
 from pollard_pin.study.placement.telling import best_table, flags, told
 from thesis_pin.errors import BadInput, ThesisPinError
@@ -133,14 +134,40 @@ def test_a_condition_number_that_is_allowed_bounds_the_best(pollard):
     assert held.failures["the condition number exceeds what is allowed"] == 2
 
 
-def test_the_shortest_time_is_one_that_the_motors_keep(pollard):
+def test_the_shortest_time_is_one_that_the_motors_keep_and_no_law_there_is_shorter(pollard):
     robot = with_limits(pollard, [2.0, 2.0, 2.0, 0.05, 0.05, 0.05], 10.0)
-    space = evaluate_placements(robot, nodding(), z=[0.0, 0.05, 0.1], objective="time", samples=51)
+    space = evaluate_placements(
+        robot, nodding(), z=[0.0, 0.05, 0.1], objective="time", samples=51, refine=False
+    )
+    best = space.best[0]
+    times = {
+        one.placement: pollard_pin.time_path(robot, place_path(nodding(), one.placement)).duration
+        for one in space.best
+    }
+    assert best.law.duration == pytest.approx(min(times.values()), rel=1e-9)
+    assert best.law.duration < best.fastest <= 1.5
     report = trajectory_report(robot, space.best_path)
+    assert report.path.duration == pytest.approx(best.law.duration, rel=1e-9)
     assert report.within_limits
-    assert report.path.duration == pytest.approx(space.best[0].fastest)
+    assert max(report.motor_use.torque.max(), report.motor_use.speed.max()) > 0.98
+
+
+def test_played_as_fast_as_it_is_told_no_motor_exceeds_its_limits(pollard):
+    robot = with_limits(pollard, [2.0, 2.0, 2.0, 0.05, 0.05, 0.05], 10.0)
+    space = evaluate_placements(robot, nodding(), objective="time", samples=51)
+    best = space.best[0]
+    path = played(place_path(nodding(), best.placement), nodding().duration / best.fastest)
+    report = trajectory_report(robot, path)
+    assert report.within_limits
+    assert path.duration == pytest.approx(best.fastest)
     assert max(report.motor_use.torque.max(), report.motor_use.speed.max()) > 0.99
-    assert space.best[0].fastest <= space.start.fastest
+
+
+def test_a_path_that_rests_has_no_shortest_time(pollard):
+    rest = line([0.45, 0.02, 0.05, 0.1, 0, 0], [0.45, 0.02, 0.05, 0.1, 0, 0], 1.0)
+    with pytest.raises(BadInput, match="stays where it is"):
+        evaluate_placements(pollard, rest, objective="time", samples=11)
+    assert evaluate_placements(pollard, rest, z=[0.0, 0.1], samples=11, refine=False).best
 
 
 def test_nothing_that_can_be_followed_is_answered_with_reasons(pollard):
@@ -170,6 +197,12 @@ def test_documents_and_tables_say_the_same(found):
     rows = best_table(found).rows
     assert rows[0][0] == "now"
     assert f"{found.best[0].torque.max():.3f}" in rows[1]
+
+
+def test_a_notebook_shows_the_answer_and_the_best(found):
+    cell = found._repr_html_()
+    assert "now 1.549 N·m (-40%)" in cell
+    assert cell.count("<tr") == len(found.best) + 2
 
 
 def test_flags_say_every_part_of_a_placement(pollard):
