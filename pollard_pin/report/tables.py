@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -81,12 +81,15 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         *report.verdict(),
         *(f"Note: {note}." for note in report.path.notes),
         "",
-        "These numbers rest on assumptions:",
-        *(
-            f"- {str(one['name']).replace('_', ' ')}{_values(one)}: {one['why']}"
-            for one in report.assumptions()
-        ),
+        *resting_on(report.assumptions()),
     )
+
+
+def resting_on(assumptions: Sequence[dict[str, object]]) -> Iterator[str]:
+    """What numbers rest on, a line each."""
+    yield "These numbers rest on assumptions:"
+    for one in assumptions:
+        yield f"- {str(one['name']).replace('_', ' ')}{_values(one)}: {one['why']}"
 
 
 def _values(assumption: dict[str, object]) -> str:

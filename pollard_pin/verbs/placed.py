@@ -15,7 +15,8 @@ from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import Specification
 from pollard_pin.study.placement.document import columns, document
 from pollard_pin.study.placement.limits import with_limits
-from pollard_pin.study.placement.result import Found, Placements
+from pollard_pin.study.placement.placements import Placements
+from pollard_pin.study.placement.result import Found
 from pollard_pin.study.placement.search import evaluate_placements
 from pollard_pin.study.placement.telling import told
 from thesis_pin.command.flags.drawn_as import figure_style

@@ -187,6 +187,7 @@ CONTRADICTIONS = {
         ["--json", "-", "--html", "-"],
         ["--branch=+-"],
         ["--figure", "4.1"],
+        ["--align", "phase"],
     ],
     "scout-pin view": [
         ["--port", "0"],
@@ -195,6 +196,7 @@ CONTRADICTIONS = {
         ["--meshcat"],
         ["--branch=+-"],
         ["--sliders"],
+        ["--align", "time"],
     ],
     "scout-pin sweep": [
         *SWEEPING,
@@ -259,6 +261,7 @@ CONTRADICTIONS = {
         ["--timing", "constant-rate"],
         ["--branch=+-"],
         ["--figure", "5.2"],
+        ["--align", "phase"],
     ],
     "pollard-pin sweep": [
         *SWEEPING,
@@ -289,6 +292,7 @@ CONTRADICTIONS = {
         ["--meshcat"],
         ["--duration", "3"],
         ["--sliders"],
+        ["--align", "phase"],
     ],
     "pollard-pin size": [
         ["--duration", "3"],

@@ -73,6 +73,9 @@ def test_the_command_and_its_page_say_it(verb, files, tmp_path, capfd, browser, 
         assert str(tmp_path) not in note
         assert browser.run("document.documentElement.scrollWidth") <= width
         browser.still(artefacts / f"missing_{verb}_{width}.png")
+    if verb == "torque":  # on paper too, where there is no player
+        browser.run("dispatchEvent(new Event('beforeprint'))")
+        assert "thing.stl" in browser.run("document.getElementById('moments').textContent")
     assert browser.complaints() == []
 
 

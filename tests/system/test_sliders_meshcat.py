@@ -161,7 +161,7 @@ def test_the_command_tells_both_addresses_and_ends_both_servers(tmp_path, capfd)
     assert document["meshcat"].startswith("tcp://127.0.0.1:")
     assert len(document["sliders"]) == 12
     err = capfd.readouterr().err
-    assert "its robot is in meshcat at http://127.0.0.1:" in err
+    assert "the robot stands in meshcat at http://127.0.0.1:" in err
     assert f"at {document['address']} (Ctrl-C ends)" in err
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
+from studied import swept
 
 import pollard_pin
 import scout_pin
@@ -105,6 +106,13 @@ MAKERS = {
     "GaitReport": gait_report,
     "Plan": lambda: scout_pin.plan_gait(scout_pin.load(), steps=1),
     "PlanRequest": lambda: scout_pin.PlanRequest(speed=0.05, margin=0.004),
+    "GaitStudy": lambda: scout_pin.gait_study(samples=41),
+    "PlanStudy": scout_pin.plan_study,
+    "PathStudy": lambda: pollard_pin.path_study(path=ROOT / "examples" / "spray_arch.toml"),
+    "TimeStudy": pollard_pin.time_study,
+    "Designs": lambda: swept("x=1,2", "kind=round,flat").designs,
+    "Sweep": lambda: swept("x=1,2"),
+    "Choice": lambda: thesis_pin.Choice.of(swept("x=1,2"), None, "x<2"),
     "Simulation": simulation,
     "Simulation of a path": replay,
     "ToolPath": pollard_pin.appendix_b,

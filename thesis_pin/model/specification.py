@@ -36,6 +36,12 @@ _PART = r"""(?:"[^"\n]*+"|'[^'\n]*+'|[\w\-]++)[ \t]*+\.[ \t]*+"""
 _DOTTED = re.compile(rf"""(?<![\w\-"'.])(?:{_PART}){{{LIMITS.nesting},}}+""")
 """A key of more parts than :data:`LIMITS` has levels."""
 
+XML = (
+    "It is XML, as a URDF is: thesis-pin reads those as they are, and scout-pin from-urdf makes "
+    "a specification of a biped's"
+)
+"""What mends a robot's description in place of TOML."""
+
 
 def read_toml(kind: str, schema: type[File], path: str | Path) -> File:
     """Read and validate a TOML file.
@@ -63,7 +69,10 @@ def parse_toml(kind: str, schema: type[File], text: str, *, where: str = "<text>
     try:
         data = tomllib.loads(text)
     except ValueError as error:  # also whole numbers of more than 4300 digits
-        raise BadInput(f"the {kind} isn't valid TOML: {error}", where=where) from None
+        remedy = XML if text.lstrip("\ufeff \t\r\n").startswith("<") else ""
+        raise BadInput(
+            f"the {kind} isn't valid TOML: {error}", where=where, remedy=remedy
+        ) from None
     except RecursionError:
         raise BadInput(f"the {kind} is nested too deeply", where=where) from None
     return validate(kind, schema, data, where=where, lines=key_lines(text))

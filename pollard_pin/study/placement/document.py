@@ -1,4 +1,4 @@
-"""Placements as JSON, and as a table of all of them."""
+"""PlacementNumbers as JSON, and as a table of all of them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pollard_pin.kinematics.singularity import LENGTH
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES
 from pollard_pin.study.placement.judged import FOLLOWED, REASONS
-from pollard_pin.study.placement.result import Found, Placements
+from pollard_pin.study.placement.result import Found, PlacementNumbers
 from pollard_pin.study.placement.telling import flags
 from thesis_pin.version import __version__
 
@@ -19,7 +19,7 @@ SCHEMA = "pollard-pin/placements"
 VERSION = 1
 
 
-def found_document(space: Placements, found: Found) -> dict[str, object]:
+def found_document(space: PlacementNumbers, found: Found) -> dict[str, object]:
     """One placement, JSON-ready; null for what isn't known."""
     effort, velocity = space.robot.specification.assumptions.joint_limits.of_motors()
     return {
@@ -51,7 +51,7 @@ def _known(value: float | np.ndarray) -> object:
     return value if math.isfinite(value) else None
 
 
-def document(space: Placements, report: TrajectoryReport | None) -> dict[str, object]:
+def document(space: PlacementNumbers, report: TrajectoryReport | None) -> dict[str, object]:
     """A search as JSON-ready data; the format is in docs/placing.md.
 
     Args:
@@ -102,12 +102,12 @@ def document(space: Placements, report: TrajectoryReport | None) -> dict[str, ob
     }
 
 
-def _share(space: Placements) -> np.ndarray:
+def _share(space: PlacementNumbers) -> np.ndarray:
     effort, _ = space.robot.specification.assumptions.joint_limits.of_motors()
     return np.asarray((space.judged.torque / effort).max(axis=1))
 
 
-def columns(space: Placements) -> dict[str, np.ndarray | Sequence[str]]:
+def columns(space: PlacementNumbers) -> dict[str, np.ndarray | Sequence[str]]:
     """Every placement of the grid as columns of a table; empty where nothing is known."""
     choices, judged = space.choices, space.judged
     placed = [choices.at(k) for k in range(choices.count)]

@@ -1,4 +1,4 @@
-"""Placements as a picture: the objective over positions, and why others can't be followed."""
+"""PlacementNumbers as a picture: the objective over positions, and why others can't be followed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from pollard_pin.study.placement.judged import (
     TORQUE,
     WEIGHT,
 )
-from pollard_pin.study.placement.result import Placements
+from pollard_pin.study.placement.result import PlacementNumbers
 from thesis_pin.report.curves import GREEN, ORANGE, PURPLE, SKY, VERMILLION
 from thesis_pin.report.figures import default_style, figure_files, new_figure
 
@@ -46,7 +46,7 @@ _ROW = 4  # of them beside each other
 _HIGHEST = 0.9  # quantile of what is to be small at which colours end
 
 
-def shown(space: Placements) -> tuple[np.ndarray, str]:
+def shown(space: PlacementNumbers) -> tuple[np.ndarray, str]:
     """What is drawn of each placement of the grid, and what it is called; NaN for nothing."""
     judged, fine = space.judged, space.judged.reason == FOLLOWED
     effort, _ = space.robot.specification.assumptions.joint_limits.of_motors()
@@ -67,7 +67,7 @@ def shown(space: Placements) -> tuple[np.ndarray, str]:
     return np.where(fine, value, np.nan), label
 
 
-def flattened(space: Placements) -> tuple[np.ndarray, np.ndarray]:
+def flattened(space: PlacementNumbers) -> tuple[np.ndarray, np.ndarray]:
     """Values and reasons over x, y, z, the best of all turns, images and branches."""
     value, _ = shown(space)
     shape = (-1, *space.choices.shape[3:])
@@ -80,7 +80,7 @@ def flattened(space: Placements) -> tuple[np.ndarray, np.ndarray]:
 
 
 @default_style()
-def placements_figure(space: Placements) -> Figure:
+def placements_figure(space: PlacementNumbers) -> Figure:
     """The objective over a line, a plane, or slices of a volume at equal heights."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
@@ -119,7 +119,7 @@ def placements_figure(space: Placements) -> Figure:
     return figure
 
 
-def _over(space: Placements) -> str:
+def _over(space: PlacementNumbers) -> str:
     """Over what the best is taken that isn't drawn."""
     _, branches, turns = space.choices.shape[:3]
     what = [f"{turns} turns"] * (turns > 1) + [f"{branches} branches"] * (branches > 1)
@@ -127,7 +127,7 @@ def _over(space: Placements) -> str:
     return f", best of {' and '.join(what)}" if what else ""
 
 
-def _slices(space: Placements, normal: int) -> list[int]:
+def _slices(space: PlacementNumbers, normal: int) -> list[int]:
     """Which slices are drawn: evenly spread ones, among them that of the best."""
     axis = space.choices.ranges[normal]
     numbers = np.linspace(0, len(axis) - 1, min(len(axis), _MOST)).round().astype(int)
@@ -139,7 +139,7 @@ def _slices(space: Placements, normal: int) -> list[int]:
 
 def _plane(
     ax: Axes,
-    space: Placements,
+    space: PlacementNumbers,
     cut: tuple[int, int],
     values: np.ndarray,
     reasons: np.ndarray,
@@ -188,7 +188,7 @@ def _half(axis: np.ndarray) -> float:
     return float(np.diff(axis).min()) / 2 if len(axis) > 1 else 1e-9
 
 
-def _line(space: Placements, wide: int | None) -> Figure:
+def _line(space: PlacementNumbers, wide: int | None) -> Figure:
     """The objective over one coordinate, or over the turn."""
     value, label = shown(space)
     shape, numbers = space.choices.shape, np.arange(space.choices.count)
@@ -213,7 +213,7 @@ def _line(space: Placements, wide: int | None) -> Figure:
     return figure
 
 
-def _named(space: Placements, number: int, *, turns: bool) -> str:
+def _named(space: PlacementNumbers, number: int, *, turns: bool) -> str:
     """What a line is of that others aren't."""
     placement, branch = space.choices.at(number)
     words = [str(branch)] * (len(space.choices.branches) > 1)
@@ -228,6 +228,6 @@ _LABELLED = 16  # lines up to which each is named
 _MARKED = 60  # values of a line below which each is marked
 
 
-def placements_files(space: Placements) -> dict[str, bytes]:
+def placements_files(space: PlacementNumbers) -> dict[str, bytes]:
     """The map as PNG and SVG: file name → content."""
     return figure_files("placements", placements_figure(space))

@@ -10,7 +10,8 @@ import math
 from dataclasses import replace
 
 from pollard_pin.motion.placing import place_path
-from pollard_pin.study.placement.result import Found, Placements
+from pollard_pin.study.placement.placements import Placements
+from pollard_pin.study.placement.result import Found
 from thesis_pin.errors import ThesisPinError
 
 COUNT = 3

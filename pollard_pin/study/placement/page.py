@@ -1,4 +1,4 @@
-"""Placements as a page: the robot at the best, the map, the table."""
+"""PlacementNumbers as a page: the robot at the best, the map, the table."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.report.drawn.page import page_of
 from pollard_pin.study.placement.figures import placements_files, shown
 from pollard_pin.study.placement.objectives import WORDS
-from pollard_pin.study.placement.result import Placements
+from pollard_pin.study.placement.result import PlacementNumbers
 from pollard_pin.study.placement.telling import best_table, sentences
 from thesis_pin.pages.page import Drawing, Page, html
 from thesis_pin.report.plotting.wanted import Wanted, written_as
@@ -18,7 +18,7 @@ from thesis_pin.report.plotting.wanted import Wanted, written_as
 _SIZE = re.compile(r'viewBox="0 0 ([\d.]+) ([\d.]+)"')
 
 
-def placements_page(space: Placements, report: TrajectoryReport | None) -> bytes:
+def placements_page(space: PlacementNumbers, report: TrajectoryReport | None) -> bytes:
     """A search as one self-contained HTML file.
 
     Args:
@@ -45,7 +45,7 @@ def placements_page(space: Placements, report: TrajectoryReport | None) -> bytes
     )
 
 
-def _picture(space: Placements) -> str:
+def _picture(space: PlacementNumbers) -> str:
     """The figure as an image inside an SVG: its style stays its own."""
     with written_as(Wanted(formats=("svg",))):
         content = placements_files(space)["placements.svg"]
@@ -59,7 +59,7 @@ def _picture(space: Placements) -> str:
     )
 
 
-def _said(space: Placements) -> str:
+def _said(space: PlacementNumbers) -> str:
     """What the picture shows, in a sentence."""
     _, label = shown(space)
     return (

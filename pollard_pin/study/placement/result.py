@@ -1,4 +1,4 @@
-"""What a search for placements answers."""
+"""The numbers of a search for placements."""
 
 from __future__ import annotations
 
@@ -97,8 +97,8 @@ class Found(Brief):
 
 
 @dataclass(frozen=True)
-class Placements(Brief):
-    """Placements of a path, judged.
+class PlacementNumbers(Brief):
+    """PlacementNumbers of a path, judged.
 
     Attributes:
         robot, path, objective: What was asked about.

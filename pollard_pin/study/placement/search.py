@@ -23,8 +23,9 @@ from pollard_pin.study.placement.choices import Choices, values_of
 from pollard_pin.study.placement.judged import Judged
 from pollard_pin.study.placement.judging import Judge
 from pollard_pin.study.placement.objectives import OBJECTIVES, Objective, cost, rounded
+from pollard_pin.study.placement.placements import Placements
 from pollard_pin.study.placement.refining import STARTS, TRIES, refine_from, starts
-from pollard_pin.study.placement.result import Found, Placements
+from pollard_pin.study.placement.result import Found
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.checks import choice, function, instance, real, shown, whole
 from thesis_pin.numeric.workers import silent

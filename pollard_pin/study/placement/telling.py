@@ -1,4 +1,4 @@
-"""Placements in words, and in a table of the best."""
+"""PlacementNumbers in words, and in a table of the best."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from pollard_pin.study.placement.objectives import WORDS
-from pollard_pin.study.placement.result import Found, Placements
+from pollard_pin.study.placement.result import Found, PlacementNumbers
 from thesis_pin.report.tables import Part, Table
 
 
-def flags(space: Placements, found: Found) -> str:
+def flags(space: PlacementNumbers, found: Found) -> str:
     """What has other verbs put the path there, appendix B's curve as fast as it was found."""
     place, turn = found.placement, round(math.degrees(found.placement.turn), 9)
     words = ["--placement", *(f"{value + 0.0:.10g}" for value in place.position)]
@@ -27,7 +27,7 @@ def flags(space: Placements, found: Found) -> str:
     return " ".join(words)
 
 
-def told(space: Placements, report: TrajectoryReport | None) -> Iterator[Part]:
+def told(space: PlacementNumbers, report: TrajectoryReport | None) -> Iterator[Part]:
     """A search in a table and paragraphs."""
     if space.best:
         yield best_table(space)
@@ -37,7 +37,7 @@ def told(space: Placements, report: TrajectoryReport | None) -> Iterator[Part]:
         yield from (f"Note: {note}." for note in report.path.notes)
 
 
-def best_table(space: Placements) -> Table:
+def best_table(space: PlacementNumbers) -> Table:
     """Where the path stands now, and the best placements."""
     rows = (space.start, *space.best)
     names = ["now", *(str(k) for k in range(1, len(rows)))]
@@ -74,7 +74,7 @@ def _told(value: float, how: str) -> str:
     return format(float(value), how) if math.isfinite(value) else "–"
 
 
-def sentences(space: Placements) -> Iterator[str]:
+def sentences(space: PlacementNumbers) -> Iterator[str]:
     """What came out, the most important first."""
     yield from _gain(space)
     count, fine = space.choices.count, space.feasible
@@ -104,7 +104,7 @@ def sentences(space: Placements) -> Iterator[str]:
     )
 
 
-def _gain(space: Placements) -> Iterator[str]:
+def _gain(space: PlacementNumbers) -> Iterator[str]:
     """The best beside where the path stands now."""
     start = space.start
     why = f"Where the path stands now it can't be followed: {start.reason}."
@@ -125,7 +125,7 @@ def _gain(space: Placements) -> Iterator[str]:
         yield f"{text}, now {before:.4g}{unit} ({value / before - 1.0:+.0%})."
 
 
-def _value(space: Placements, found: Found, by_law: bool) -> tuple[float, str, str]:
+def _value(space: PlacementNumbers, found: Found, by_law: bool) -> tuple[float, str, str]:
     """What the objective is about: its value, unit and words."""
     effort, _ = space.robot.specification.assumptions.joint_limits.of_motors()
     if space.objective == "conditioning":

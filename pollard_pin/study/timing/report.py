@@ -19,6 +19,7 @@ from thesis_pin.display.brief import Brief
 from thesis_pin.display.cell import Cell
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.workers import silent
+from thesis_pin.report.info import assumptions
 from thesis_pin.timing.binding import shares, stretches
 from thesis_pin.timing.fastest import spans
 from thesis_pin.timing.limits import Limits
@@ -92,6 +93,15 @@ class TimeReport(Brief):
         """The answer in sentences, the most important first."""
         return verdict(self.timed, self.shares)
 
+    def assumptions(self) -> list[dict[str, object]]:
+        """What the thesis leaves open and this rests on; no duration is among it."""
+        found = self.report.assumptions()
+        path, own = self.timed.course.path, self.report.robot.specification.assumptions
+        placed = path.parameters.get("placement") == list(own.placement.position)
+        if path.name != "appendix B" or not placed:
+            return found
+        return [*found, *(one for one in assumptions(own) if one["name"] == "placement")]
+
     def _cell(self) -> Cell:
         rows = [(name, f"{share:.0%}") for name, share in self.shares.items()]
         heads = ("limit", "binds on this share of the time")
@@ -156,7 +166,7 @@ class TimeReport(Brief):
                 "tool_speed": tool,
             },
             "notes": list(timed.course.notes),
-            "assumptions": self.report.assumptions(),
+            "assumptions": self.assumptions(),
             "report": self.report.summary(),
             "parameters": self.report.parameters | {"thesis_pin": __version__},
         }
@@ -200,8 +210,7 @@ def limited(robot: Pollard, limits: Limits) -> Pollard:
     joints |= {
         "effort": limits.effort.tolist(),
         "velocity": limits.speed.tolist(),
-        "why": "torques and speeds are those that were asked for, the travel is the "
-        "specification's: " + joints["why"],
+        "why": "torques and speeds are those that were given, the travel is the specification's",
     }
     if limits.rotor is not None:
         own = robot.specification.motors.armature() + limits.rotor

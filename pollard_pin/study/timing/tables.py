@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from pollard_pin.report.tables import resting_on
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS
 from pollard_pin.study.timing.report import TimeReport
 from thesis_pin.report.tables import Part, Table
@@ -37,6 +38,8 @@ def summary(found: TimeReport) -> Iterator[Part]:
             "your motors' with --torque and --speed."
         )
     yield from (f"Note: {note}." for note in timed.course.notes)
+    yield ""
+    yield from resting_on(found.assumptions())
 
 
 def motors_table(found: TimeReport) -> Table:

@@ -77,6 +77,13 @@ def test_a_whole_number_of_5000_digits_is_no_toml():
     assert "isn't valid TOML" in refused("size = " + "1" * 5000, BadInput)
 
 
+def test_a_urdf_in_place_of_toml_is_told_what_reads_it():
+    says = refused('\n<?xml version="1.0"?>\n<robot name="a"/>', BadInput)
+    assert "isn't valid TOML" in says
+    assert "scout-pin from-urdf" in says
+    assert "from-urdf" not in refused("size = ", BadInput)
+
+
 def test_no_escape_sequence_of_a_file_is_quoted_raw():
     says = refused('"\\u001b[31m" = "\\u0000\\u009b"')
     assert "\x1b" not in says

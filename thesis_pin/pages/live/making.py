@@ -91,7 +91,7 @@ def show_sliders(
     instance("page", page, LivePage, "slider_page()")
     url = "" if meshcat is None else meshcat.url
     if url:
-        say(f"its robot is in meshcat at {url}")
+        say(f"the robot stands in meshcat at {url}")
 
     def answer(body: bytes) -> bytes | None:
         return page.answer(body, None if meshcat is None else meshcat.move)

@@ -88,7 +88,8 @@ function drawMoments(player) {
     copy.querySelectorAll("input, kbd").forEach((element) => element.remove());
     legend.append(copy);
   }
-  document.getElementById("moments").replaceChildren(pictures, legend);
+  const notes = player.notes.map((textContent) => make("p", { textContent, className: "note" }));
+  document.getElementById("moments").replaceChildren(pictures, legend, ...notes);
 }
 
 // Before it goes to paper: the robot as pictures, and what is wider than a page made to fit.

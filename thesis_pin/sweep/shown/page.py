@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from thesis_pin.pages.page import Drawing, Page, Tile, html, parameters_table, software
 from thesis_pin.report.figures import figure_files
 from thesis_pin.report.plotting.wanted import Wanted, written_as
@@ -86,9 +88,13 @@ def _picture(choice: Choice) -> Drawing:
     with written_as(Wanted(formats=("svg",))):
         svg = figure_files("pareto", pareto_figure(choice))["pareto.svg"].decode()
     said = " and ".join(aim.said for aim in choice.aims)
+    fitting = 'style="width: 100%; min-width: 21rem; max-width: 48rem; height: auto"'
+    drawn = re.sub(
+        r'width="[\d.]+pt" height="[\d.]+pt"', fitting, svg[svg.index("<svg") :], count=1
+    )
     return Drawing(
         "What could be had",
-        svg[svg.index("<svg") :],
+        drawn,
         f"Every design as a point; the line joins the {choice.front.size} that no other one beats "
         f"in {said}.",
     )

@@ -199,6 +199,12 @@ def test_documents_and_tables_say_the_same(found):
     assert f"{found.best[0].torque.max():.3f}" in rows[1]
 
 
+def test_a_notebook_shows_the_answer_and_the_best(found):
+    cell = found._repr_html_()
+    assert "now 1.549 N·m (-40%)" in cell
+    assert cell.count("<tr") == len(found.best) + 2
+
+
 def test_flags_say_every_part_of_a_placement(pollard):
     space = evaluate_placements(
         pollard,
