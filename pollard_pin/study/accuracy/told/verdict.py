@@ -98,8 +98,8 @@ def _answer(study: AccuracyNumbers) -> Iterator[str]:
             )
     if study.space is None:
         yield (
-            f"At worst the spray tip is {mm(farthest[k])} off ({study.place(k)}{_straight(study)}), "
-            f"{mm(farthest.mean())} in the mean of the path; by the root of the sum of squares "
+            f"At worst the spray tip is {mm(farthest[k])} off ({study.place(k)}{_straight(study)})"
+            f", {mm(farthest.mean())} in the mean of the path; by the root of the sum of squares "
             f"{mm(stack.root.max())}, in the mean {mm(stack.root.mean())}. Its direction is "
             f"{deg(stack.worst_turn.max())} off at worst, {deg(stack.root_turn.max())} by the root "
             "of the sum of squares."
