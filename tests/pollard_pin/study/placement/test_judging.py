@@ -201,6 +201,21 @@ def test_what_the_motors_cannot_do_is_named(pollard, curve):
     assert reason(torque=0.1, paces=True) == WEIGHT
 
 
+def test_a_hundredth_beyond_a_limit_is_beyond_it_and_a_hundredth_below_is_not(pollard, nod):
+    """Of each motor's torque and speed, as the report's peaks have them."""
+    report = trajectory_report(pollard, nod, samples=SAMPLES)
+    effort, velocity = pollard.specification.assumptions.joint_limits.of_motors()
+    peaks = np.abs(report.torque).max(axis=0), np.abs(report.speed).max(axis=0)
+    for which, (peak, reason) in enumerate(zip(peaks, (TORQUE, SPEED), strict=True)):
+        for motor in np.flatnonzero(peak > 1e-6):
+            for share, want in ((1.01, FOLLOWED), (0.99, reason)):
+                limits = [effort.copy(), velocity.copy()]
+                limits[which][motor] = share * peak[motor]
+                robot = with_limits(pollard, *(one.tolist() for one in limits))
+                judge = Judge.of(robot, nod, SAMPLES)
+                assert judge.placements([Placement()], DEFAULT).reason[0] == want
+
+
 def test_arms_that_cross_are_seen_from_above(pollard):
     """Segments against each other, with SciPy's nearest points."""
     from scipy.optimize import lsq_linear
