@@ -21,8 +21,11 @@ def which_places(words: argparse.ArgumentParser) -> None:
         "(default: torque)",
     )
     for axis, default in (("x", "7 within ±0.15 m"), ("y", "5 within ±0.1 m"), ("z", "as of x")):
-        text = f"what is added to the path's {axis} [m]: one value, FROM:TO, FROM:TO:STEP or a list"
-        text += f" (default: {default}, about where it stands; nothing else where a range is given)"
+        text = (
+            f"what is added to the path's {axis} [m]: one value, FROM:TO in --points, FROM:TO:STEP "
+            f"or a list (default: {default}, about where it stands; nothing else where a range is "
+            "given)"
+        )
         add_range(words, f"--{axis}", "RANGE", text)
     turn = "turns about the vertical through the path's middle [°], likewise (default: none)"
     add_range(words, "--turn", "RANGE", turn)
@@ -34,7 +37,7 @@ def which_places(words: argparse.ArgumentParser) -> None:
         default="no",
         help="the path's mirror image: not, instead, or as well (default: no)",
     )
-    add_count(words, "--points", "values of a range without a step", least=2, default=7)
+    add_count(words, "--points", "points an axis", least=2, default=7)
     words.add_argument(
         "--any-branch",
         action="store_true",
@@ -46,9 +49,10 @@ def which_places(words: argparse.ArgumentParser) -> None:
     add_number(words, "--speed", "rad/s", speed, positive=True, nargs="+")
     condition = "largest condition number of the six motors that is allowed (default: any)"
     add_number(words, "--condition", "NUMBER", condition, within=(1.0, 1e6))
-    samples = "evenly spaced samples at which the grid is judged; the best are at 2001"
+    samples = "evenly spaced samples; more stand beside abrupt changes"
     add_count(words, "--samples", samples, least=2, default=401)
-    add_count(words, "--best", "placements that are told", least=1, most=1000, default=10)
+    told = "placements that are told, judged at 2001 samples"
+    add_count(words, "--best", told, least=1, most=1000, default=10)
     words.add_argument(
         "--grid-only", action="store_true", help="try nothing between the grid's values"
     )

@@ -73,9 +73,9 @@ def which_law(words: argparse.ArgumentParser) -> None:
     )
     force = "largest force in each ball joint"
     add_number(words, "--loop-force", "N", force, positive=True)
-    add_number(words, "--tool-speed", "M/S", "largest speed of the spray tip", positive=True)
+    add_number(words, "--tool-speed", "m/s", "largest speed of the spray tip", positive=True)
     push = "largest acceleration of the spray tip"
-    add_number(words, "--tool-acceleration", "M/S2", push, positive=True)
+    add_number(words, "--tool-acceleration", "m/s²", push, positive=True)
     add_samples(words, 2001)
     words.add_argument(
         "--to",

@@ -30,6 +30,7 @@ VERBS = {
     "pollard-pin": (
         ["trajectory"],
         ["size", "examples/servos.csv"],
+        ["size", "--path", "examples/spray_arch.toml"],
         ["sweep", "--vary", "chain_0.x_32=0.32,0.33", "--samples", "41"],
         ["simulate"],
         ["view", "--html", "-"],

@@ -110,6 +110,23 @@ def test_the_same_flag_has_the_same_words_in_all_commands():
     assert {form[2][0] for form in law} == {"given", "fastest"}  # of a time, of a path's geometry
     for flag, metavars in (("--speed", {"SPEED", "rad/s"}), ("--duration", {"SECONDS"})):
         assert {form[0] for form in various.pop(flag)} == metavars  # of playing, of motors
+    # What else a flag takes where it is of something else, or of more: a walk's turn, a path's,
+    # several of them to be tried.
+    taken = {
+        "--turn": {"DEG", "DEGREES", "RANGE"},
+        "--x": {"METRES", "RANGE"},
+        "--y": {"METRES", "RANGE"},
+        "--z": {"METRES", "RANGE"},
+        "--armature": {"kg·m²", "kg·m²[,POWER]"},  # of the servos, of motors of any size
+    }
+    for flag, metavars in taken.items():
+        forms = various.pop(flag)
+        assert len(forms) == len({form[0] for form in forms}), flag
+        assert {form[0] for form in forms} == metavars
+    mirror = various.pop("--mirror")
+    assert {form[1:3] for form in mirror} == {("0", None), ("?", ("no", "yes", "both"))}
+    per = various.pop("--per")
+    assert {form[2] for form in per} == {("group", "joint", "robot"), ("joint", "robot")}
     assert various == {}
 
 

@@ -117,8 +117,15 @@ def test_time_against_motor_is_drawn_and_written(tmp_path, capfd):
     assert code == 0
     assert "With the law of least torque, 2 s: base motors need" in " ".join(said.split())
     assert {one.name for one in out.iterdir()} - {"manifest.sha256"} == {
-        *("report.json", "sizes.csv", "curve.csv", "curve.svg")
+        *("report.json", "sizes.csv", "curve.csv", "curve.svg"),
+        *("path-least-torque.toml", "path-least-heat.toml"),
     }
+    once = json.loads((out / "report.json").read_text("utf-8"))["cases"][0]["once"]
+    written = ["--path", str(out / "path-least-torque.toml"), "--samples", "2001", "--json", "-"]
+    report = json.loads(run("pollard-pin trajectory", ["trajectory", *written], capfd)[1])
+    peak = report["summary"]["peak_torque"]
+    assert 0.97 <= max(peak[:3]) / once[0] <= 1.01
+    assert report["time"][-1] == pytest.approx(2.0, abs=1e-4)
     rows = list(csv.DictReader((out / "curve.csv").read_text("utf-8").splitlines()))
     assert float(rows[0]["fastest_s"]) == pytest.approx(2.0, rel=0.02)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pinocchio as pin
 
 from thesis_pin.errors import ThesisPinError
@@ -32,3 +34,15 @@ def seen(robot: LoadedRobot, kind: str, notes: list[str]) -> pin.GeometryModel:
     few = "a shape isn't" if len(missing) == 1 else f"{len(missing)} meshes aren't there and aren't"
     notes.append(f"{kind}: {few} drawn: {missing[0]}" if missing else f"{kind} shapes: {why}")
     return found
+
+
+def bare(robot: LoadedRobot, found: pin.GeometryModel, notes: Sequence[str]) -> bool:
+    """Whether bars have to show where the robot is: it has no shape, or most joints lost theirs.
+
+    Args:
+        robot: The robot.
+        found: Its visual shapes that are there.
+        notes: On those that aren't.
+    """
+    joints = {one.parentJoint for one in found.geometryObjects} - {0}
+    return not found.ngeoms or (bool(notes) and 2 * len(joints) < robot.model.njoints - 1)

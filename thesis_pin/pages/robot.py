@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import NDArray
 
 from thesis_pin.errors import ModelWarning, ThesisPinError
@@ -20,7 +21,7 @@ from thesis_pin.pages.drawing import (
     joint_placements,
     robot_items,
 )
-from thesis_pin.pages.meshes import seen
+from thesis_pin.pages.meshes import bare, seen
 from thesis_pin.pages.scene import Arrow, Ball, Group, Item
 from thesis_pin.report.curves import SKY
 
@@ -53,8 +54,10 @@ def items_of(robot: ClosedRobot, q: Array) -> tuple[tuple[Item, ...], tuple[str,
         The items, and for the page what of the robot isn't drawn, in words.
     """
     notes: list[str] = []
-    bodies = _bodies(robot, q, notes)
-    if notes and not bodies:
+    visual = seen(robot, "visual", notes)
+    bodies = _bodies(robot, visual, q, notes)
+    bars = not bodies or bare(robot, visual, notes)
+    if notes and bars:
         notes.append("bars are drawn from joint to joint instead")
     if notes:
         warnings.warn("; ".join(notes), ModelWarning, stacklevel=2)
@@ -63,7 +66,7 @@ def items_of(robot: ClosedRobot, q: Array) -> tuple[tuple[Item, ...], tuple[str,
     where, here = robot.description.where, _LOOKED
     short = (note.partition(here)[0].replace(where, os.path.basename(where)) for note in notes)
     told = tuple(f"{note[:1].upper()}{note[1:]}." for note in short)
-    return (*bodies, *around(robot, q, size, bars=not bodies)), told
+    return (*bodies, *around(robot, q, size, bars=bars)), told
 
 
 def around(robot: ClosedRobot, q: Array, size: float, *, bars: bool = False) -> Iterator[Item]:
@@ -80,10 +83,12 @@ def around(robot: ClosedRobot, q: Array, size: float, *, bars: bool = False) -> 
     yield from _loops(robot, q, size)
 
 
-def _bodies(robot: ClosedRobot, q: Array, notes: list[str]) -> list[Item]:
-    """The visual shapes that are there; ``notes`` is told of the others."""
+def _bodies(
+    robot: ClosedRobot, visual: pin.GeometryModel, q: Array, notes: list[str]
+) -> list[Item]:
+    """The visual shapes that are there; ``notes`` is told of what can't be drawn."""
     try:
-        shapes = robot_items(robot.model, seen(robot, "visual", notes), q, group="robot")
+        shapes = robot_items(robot.model, visual, q, group="robot")
     except ThesisPinError as error:  # a shape of a kind that can't be drawn
         notes.append(str(error))
         return []

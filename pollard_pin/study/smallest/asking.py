@@ -13,6 +13,7 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES
 from pollard_pin.study.size import loads_of
 from pollard_pin.study.smallest.along import Found, heat_along, loads_along
+from pollard_pin.study.smallest.answer import PathAnswer
 from pollard_pin.study.smallest.free import AnyLaw
 from pollard_pin.study.smallest.motors import Per, groups, motor_family
 from pollard_pin.study.smallest.searching import gentlest_in, smallest_in
@@ -61,7 +62,7 @@ def smallest_motors(
     within: float | None = None,
     curve: bool = False,
     progress: Callable[[int, int], None] = silent,
-) -> Answer:
+) -> PathAnswer:
     """The smallest motors of one kind that carry a path.
 
     Args:
@@ -89,7 +90,8 @@ def smallest_motors(
     timing = f"As it is timed, {report.path.duration:.4g} s"
     given = smallest(loads, family, alike, factor=factor, timing=timing)
     cases = [given] if law != "free" else []
-    found, said, notes = None, list[str](), list[str]()
+    found, said, notes, laws = None, list[str](), list[str](), dict[str, Law]()
+    course = None
     done, total = [0], STEPS + POINTS * curve
 
     def tick() -> None:
@@ -98,6 +100,7 @@ def smallest_motors(
 
     if law != "given" or curve:
         path = AnyLaw(report, factor)
+        course = path.course
         time = report.path.duration if within is None else real("within", within, low=1e-3)
         best = smallest_in(path, family, _shape(given), time, tick)
         notes += path.notes
@@ -111,12 +114,13 @@ def smallest_motors(
 
             cool = gentlest_in(path, family, best, time, heat)
             cases.append(_free(path, family, given, cool, "least-heat"))
+            laws = {"least-torque": best.law, "least-heat": cool.law}
             said += _judged(best)
             notes.append(HEAT)
         if curve:
             found = _curve(path, family, best, loads, tick)
     progress(total, total)
-    return Answer(
+    return PathAnswer(
         loads.robot,
         loads.motion,
         ACTUATOR_NAMES,
@@ -124,6 +128,8 @@ def smallest_motors(
         found,
         said=tuple(said),
         notes=tuple(notes),
+        course=course,
+        laws=laws,
     )
 
 
@@ -196,7 +202,8 @@ def _judged(best: Found) -> list[str]:
     use, places = best.solved.use, len(best.law.place)
     said = (
         f"At {JUDGED} points between any two of the law's {places:,} places at most "
-        f"{use.largest:.1%} of a limit is used; half as many make {best.settled:.1%} of torque."
+        f"{use.largest:.1%} of a limit is used. Halving all intervals changed the torque by "
+        f"{best.settled:.1%}."
     )
     if best.solved.keeps:
         return [said]

@@ -19,6 +19,7 @@ from thesis_pin.sizing.loads import Array, Loads
 from thesis_pin.sizing.smallest.family import Family
 from thesis_pin.timing.fastest import fastest
 from thesis_pin.timing.limits import Limits
+from thesis_pin.timing.solving import SPARE
 from thesis_pin.timing.track import Grid
 
 
@@ -70,7 +71,7 @@ class AnyLaw:
     def fastest(self, limits: Limits, grid: Grid) -> float:
         """Shortest time of the path on a grid [s]; infinite if the motors can't even hold it."""
         try:
-            return fastest(grid, limits).duration
+            return fastest(grid, limits.tightened(SPARE)).duration
         except Infeasible:
             return math.inf
 

@@ -16,7 +16,7 @@ from thesis_pin.sizing.loads import Array
 from thesis_pin.sizing.smallest.family import Family
 from thesis_pin.timing.fastest import fastest
 from thesis_pin.timing.law import Law
-from thesis_pin.timing.solving import solve
+from thesis_pin.timing.solving import SPARE, solve
 from thesis_pin.timing.track import Grid
 from thesis_pin.tolerances import TOLERANCES
 
@@ -56,7 +56,7 @@ def smallest_in(
         return min(math.log(time / within), _FAR)
 
     def make(size: float, grid: Grid) -> Law:
-        return fastest(grid, path.limits(size * shape, family))
+        return fastest(grid, path.limits(size * shape, family).tightened(SPARE))
 
     scale = _least(partial(excess, grid=grid), scale)
     # Near what just holds the robot the time is steep in the torque: the torque has to settle.

@@ -144,6 +144,11 @@ def time_path(
     choice("law", law, AIMS)
     function("progress", progress, "progress(done, total)")
     course = path if isinstance(path, Course) else Course.of(robot, path, branch)
+    if course.robot is not robot or branch not in (None, course.branch):
+        raise BadInput(
+            "the course is another robot's or another branch's",
+            remedy="Make it with Course.of(robot, path, branch)",
+        )
     if limits is None:
         limits = motor_limits(course.robot.specification)
     instance("limits", limits, Limits, "pollard_pin.motor_limits()")

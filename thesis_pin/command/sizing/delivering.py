@@ -55,10 +55,12 @@ def deliver(arguments: argparse.Namespace, command: str, make: Callable[[Bar], F
         content = json_bytes(found.document(command)) if wanted else b""
         if arguments.out:
             files = {"report.json": content, "sizes.csv": csv_bytes(found.columns())}
-            if isinstance(found, Answer) and found.curve is not None:
-                with written_as(style):
+            if isinstance(found, Answer):
+                files |= found.files()
+                if found.curve is not None:
                     files |= {"curve.csv": csv_bytes(found.curve.columns())}
-                    files |= curve_files(found)
+                    with written_as(style):
+                        files |= curve_files(found)
     write_results(arguments, files, content)
     if free(arguments):
         print_parts(found.tables())

@@ -54,14 +54,14 @@ def add_kind(words: Words, *, per: Sequence[str], bounds: str | None) -> None:
             f"(default: {bounds})",
         )
     speed = "without a list: no-load or greatest speed (default: the robot's own)"
-    add_number(words, "--no-load-speed", "RAD/S", speed, positive=True)
+    add_number(words, "--no-load-speed", "rad/s", speed, positive=True)
     power = "without a list: greatest power, instead of a speed: gears of any ratio"
     add_number(words, "--power", "W", power, positive=True)
     rotor = (
         "without a list: inertia of a rotor as its joint feels it, for a motor of 1 N·m, and with "
         "which power of the torque it grows (default: the robot's own, 0)"
     )
-    words.add_argument("--armature", type=_rotor, metavar="KG·M2[,POWER]", help=rotor, default=None)
+    words.add_argument("--armature", type=_rotor, metavar="kg·m²[,POWER]", help=rotor, default=None)
     rating = f"without a list: of the stall torque, borne for long (default: {RATED:g})"
     add_number(words, "--rating", "SHARE", rating, within=(1e-3, 1.0))
 
@@ -106,7 +106,7 @@ def _rotor(text: str) -> tuple[float, float]:
         values = []
     if not 1 <= len(values) <= 2 or not all(0.0 <= one <= MOST for one in values):
         raise argparse.ArgumentTypeError(
-            f"--armature is {text[:80]!r}; allowed: KG·M2 or KG·M2,POWER, neither below zero"
+            f"--armature is {text[:80]!r}; allowed: kg·m² or kg·m²,POWER, neither below zero"
         )
     return values[0], (*values, 0.0)[1]
 

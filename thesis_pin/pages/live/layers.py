@@ -15,7 +15,7 @@ from thesis_pin.model.loading import LoadedRobot
 from thesis_pin.pages.drawing import CLOSED, OPEN, robot_items
 from thesis_pin.pages.live.hung import WHOLE, Hung, Places
 from thesis_pin.pages.live.inertia import ellipsoids
-from thesis_pin.pages.meshes import seen
+from thesis_pin.pages.meshes import bare, seen
 from thesis_pin.pages.scene import AXES, Arrow, Ball, Group, Item, Shape, Triad
 from thesis_pin.report.curves import GREEN, ORANGE, PURPLE, SKY, VERMILLION
 
@@ -85,8 +85,9 @@ def layers(
         for shape, one in zip(shapes, visual.geometryObjects, strict=False)
     ]
     size, low = _extent(model, places, hung)
-    if not hung:
-        hung = list(_bars(robot, size))
+    barred = not hung or bare(robot, visual, notes)
+    if barred:
+        hung += _bars(robot, size)
     collision = seen(robot, "collision", notes)
     blocks = _shapes(model, collision, "collision", notes)
     for shape, one in zip(blocks, collision.geometryObjects, strict=False):
@@ -101,7 +102,7 @@ def layers(
         for number, name in enumerate(model.names)
         if number
     ]
-    own = tuple(groups) or (Group("robot", "robot", ((SKY, ""),) * (not bodies and not shapes)),)
+    own = tuple(groups) or (Group("robot", "robot", ((SKY, ""),) * (not bodies and barred)),)
     if isinstance(robot, ClosedRobot) and robot.loops:
         own = (*own, Group("loops", "loops", ((CLOSED, "closed"), (OPEN, "open"))))
         hung += _loops(robot, size)

@@ -109,6 +109,10 @@ class Answer(Brief):
             "thesis_pin": __version__,
         }
 
+    def files(self) -> dict[str, bytes]:
+        """What else belongs into a folder of results: file name → content."""
+        return {}
+
     def columns(self) -> dict[str, Array | list[str]]:
         """A row for each joint in each timing."""
         cases = self.cases

@@ -15,6 +15,9 @@ from thesis_pin.sweep.study import Column
 FEWEST, MOST = 2, 3
 """Aims that are held against each other at once."""
 
+_DIGITS = 10
+"""Of numbers that designs are compared by."""
+
 _SIGNS = {"min": 1.0, "max": -1.0, "less": 1.0, "more": -1.0}
 
 
@@ -86,9 +89,15 @@ def front(sweep: Sweep, aims: tuple[Aim, ...]) -> NDArray[np.intp]:
         sweep: The sweep.
         aims: By what.
     """
-    values = np.stack([aim.sign * sweep.numbers(aim.column.name) for aim in aims], axis=1)
+    values = np.stack([compared(sweep, aim) for aim in aims], axis=1)
     numbers = np.flatnonzero(sweep.considered & np.isfinite(values).all(axis=1))
     return numbers[undominated(values[numbers])]
+
+
+def compared(sweep: Sweep, aim: Aim) -> NDArray[np.float64]:
+    """What designs are compared by, less being better: without digits that are but rounding."""
+    numbers = aim.sign * sweep.numbers(aim.column.name)
+    return np.array([float(f"{one:.{_DIGITS}g}") for one in numbers])
 
 
 def undominated(values: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
-from thesis_pin.sweep.chosen.pareto import Aim, front
+from thesis_pin.sweep.chosen.pareto import Aim, compared, front
 from thesis_pin.sweep.designs.values import read_value
 from thesis_pin.sweep.result import Sweep
 from thesis_pin.sweep.study import Column
@@ -106,7 +106,7 @@ def ranked(sweep: Sweep, terms: tuple[Term, ...], aims: tuple[Aim, ...]) -> NDAr
         ahead = np.ones(len(sweep.rows))
         ahead[front(sweep, aims)] = 0.0
         keys.append(ahead)
-    keys += [aim.sign * sweep.numbers(aim.column.name) for aim in aims]
+    keys += [compared(sweep, aim) for aim in aims]
     order = np.lexsort([np.where(np.isfinite(key), key, np.inf) for key in reversed(keys)])
     return np.asarray(order[sweep.done[order]], dtype=np.intp)
 

@@ -18,6 +18,9 @@ from thesis_pin.sweep.designs.keys import Value
 MOST_VALUES = 1_000_000
 """Values that one key may take."""
 
+_DIGITS = 12
+"""Of values between two ends: 0.33, not 0.32999999999999996."""
+
 _WHOLE_RANGE = 2  # FROM:TO, which draws take their values from
 
 
@@ -87,7 +90,8 @@ def _range(text: str, parts: list[str], where: str) -> Values:
     low, high = (float(end) for end in ends if end is not None)
     if len(parts) == _WHOLE_RANGE:
         return Values((low, high), relative.pop(), open=True)
-    return Values(tuple(np.linspace(low, high, count).tolist()), relative.pop())
+    between = [float(f"{value:.{_DIGITS}g}") for value in np.linspace(low, high, count)[1:-1]]
+    return Values((low, *between, high), relative.pop())
 
 
 def listed_values(parts: Sequence[str], where: str) -> Values:

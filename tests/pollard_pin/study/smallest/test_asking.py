@@ -7,7 +7,7 @@ import pytest
 
 import pollard_pin
 from pollard_pin.dynamics.inverse import inverse_dynamics_at
-from pollard_pin.specification import ACTUATOR_NAMES, Specification
+from pollard_pin.specification import ACTUATOR_NAMES, ACTUATORS, Specification
 from pollard_pin.study.size import loads_of
 from pollard_pin.study.smallest.along import heat_along, loads_along
 from pollard_pin.study.smallest.asking import _shape, smallest_motors, time_with_motors
@@ -120,7 +120,9 @@ def test_loads_along_a_law_are_the_report_s(found, report):
     timed = path.course.track.chain.timed(best.law, "found", {})
     dense = pollard_pin.trajectory_report(path.report.robot, timed, samples=20001)
     some = np.linspace(50, len(loads.time) - 50, 40).astype(int)
-    for values, own in ((loads.speed, dense.speed), (loads.torque, dense.torque)):
+    bend = dense.joints.a[:, ACTUATORS]
+    pairs = (loads.speed, dense.speed), (loads.torque, dense.torque), (loads.acceleration, bend)
+    for values, own in pairs:
         columns = [np.interp(loads.time[some], dense.joints.time, one) for one in own.T]
         # Torque jumps where acceleration switches: most instants are apart from that.
         off = np.abs(np.stack(columns, axis=1) - values[some]).max(axis=1) / np.abs(own).max()

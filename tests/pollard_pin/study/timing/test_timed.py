@@ -271,6 +271,16 @@ def test_a_path_out_of_reach_says_where_by_its_own_time(pollard):
         pollard_pin.time_path(pollard, far)
 
 
+def test_a_course_of_another_robot_or_branch_is_refused(pollard, printed, arch):
+    course = Course.of(pollard, arch)
+    with pytest.raises(BadInput, match="another robot's"):
+        pollard_pin.time_path(printed, course)
+    other = next(one for one in pollard_pin.USEFUL_BRANCHES if one != course.branch)
+    with pytest.raises(BadInput, match="another branch's"):
+        pollard_pin.time_path(pollard, course, branch=other)
+    assert pollard_pin.time_path(pollard, course).course is course
+
+
 @pytest.mark.parametrize(
     ("options", "told"),
     [

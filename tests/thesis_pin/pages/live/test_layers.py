@@ -5,12 +5,14 @@ import pinocchio as pin
 import pytest
 from mechanisms import built
 
+from thesis_pin.errors import ModelWarning
 from thesis_pin.loops.configurations.closing import close
 from thesis_pin.loops.loading import load
 from thesis_pin.model.mechanism.description import Inertial
 from thesis_pin.pages.live.hung import Places, arrays, items
 from thesis_pin.pages.live.inertia import ellipsoid
 from thesis_pin.pages.live.layers import layers
+from thesis_pin.pages.robot import items_of
 from thesis_pin.pages.scene import Arrow, Ball, Shape, Triad
 
 BOX = '<visual><geometry><box size="0.1 0.2 0.3"/></geometry></visual>'
@@ -124,6 +126,31 @@ def test_a_missing_mesh_is_said_and_the_other_shapes_are_drawn(tmp_path):
     assert len(found.notes) == 1
     assert "thing.stl" in found.notes[0]
     assert "'base'" in found.notes[0]
+
+
+@pytest.mark.parametrize(("there", "barred"), [(1, True), (3, False)])
+def test_a_robot_of_which_most_meshes_are_missing_is_bars_as_well(tmp_path, there, barred):
+    """A lone part that was found shows nobody where the robot is."""
+    inertial = (
+        '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
+    )
+    text = '<robot name="chain"><link name="link0"/>'
+    for k in range(1, 5):
+        text += (
+            f'<link name="link{k}">{inertial}</inertial>{BOX if k <= there else MESH}</link>'
+            f'<joint name="joint{k}" type="continuous"><parent link="link{k - 1}"/>'
+            f'<child link="link{k}"/><origin xyz="0 0 1"/><axis xyz="1 0 0"/></joint>'
+        )
+    (tmp_path / "chain.urdf").write_text(f"{text}</robot>")
+    robot = load(tmp_path / "chain.urdf")
+    _, every = drawn(robot, robot.q0)
+    shown = [one for one in every.values() if one.group == "robot"]
+    assert sum(isinstance(one, Shape) for one in shown) == there
+    assert any(isinstance(one, Arrow) for one in shown) == barred
+    with pytest.warns(ModelWarning, match=r"thing\.stl"):
+        moving, told = items_of(robot, np.zeros((2, robot.model.nq)) + robot.q0)
+    assert any(isinstance(one, Arrow) for one in moving) == barred
+    assert ("bars are drawn" in " ".join(told).lower()) == barred
 
 
 def test_a_mesh_that_cannot_be_read_is_said_and_bars_are_drawn(tmp_path):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from studied import Bowl, swept
@@ -20,6 +20,7 @@ def by_hand(values):
     ]
 
 
+@settings(deadline=None)
 @given(
     values=arrays(
         float,
@@ -41,6 +42,12 @@ def test_designs_that_break_a_limit_or_were_not_judged_are_not_on_the_front():
     # 9 is widest and too deep, 2 isn't judged; 1 is least deep and wider than 0.
     assert front(sweep, aims).tolist() == [1]
     assert front(swept("x=8,9,10"), aims).tolist() == [0, 1, 2]  # none is good: all are taken
+
+
+def test_what_rounding_alone_tells_apart_is_equal():
+    sweep = swept("x=0.1,0.10000000000000002")
+    assert sweep.numbers("width")[0] < sweep.numbers("width")[1]
+    assert front(sweep, read_aims(sweep, "width,min:x")).tolist() == [0, 1]
 
 
 def test_aims_go_the_way_that_is_better_or_that_is_said():

@@ -1,7 +1,7 @@
 """Keys of nested data: patterns, values, errors that name what was meant."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from studied import BASE
 
@@ -76,6 +76,7 @@ DATA = st.recursive(
 )
 
 
+@settings(deadline=None)
 @given(data=st.dictionaries(NAMES.filter(lambda name: "*" not in name), DATA, min_size=1))
 def test_every_key_as_it_is_written_leads_back_to_itself(data):
     for key in leaves(data):

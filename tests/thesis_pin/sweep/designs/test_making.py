@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from studied import BASE
 
@@ -120,6 +120,7 @@ def test_too_many_designs_are_refused_before_they_are_made():
         made("legs.*.length=1,2", "legs.left.length=3,4")
 
 
+@settings(deadline=None)
 @given(counts=st.lists(st.integers(1, 4), min_size=1, max_size=3))
 def test_there_are_as_many_designs_as_combinations_and_all_differ(counts):
     keys = ("x", "count", "legs.left.length")

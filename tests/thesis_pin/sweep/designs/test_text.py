@@ -3,7 +3,7 @@
 import tomllib
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from studied import BASE
 
@@ -20,6 +20,7 @@ DATA = st.recursive(
 )
 
 
+@settings(deadline=None)
 @given(data=st.dictionaries(TEXT, DATA, max_size=5), notes=st.lists(TEXT, max_size=2))
 def test_every_nested_data_read_back_alike(data, notes):
     found = tomllib.loads(toml(data, notes))

@@ -33,7 +33,11 @@ def test_values_are_what_they_say(text, each, relative, open_):
 def test_a_range_has_both_its_ends_to_the_bit():
     found = read_values("0.06:0.09:10", "key").each
     assert (found[0], found[-1], len(found)) == (0.06, 0.09, 10)
-    np.testing.assert_allclose(np.diff(found), 0.03 / 9)
+    np.testing.assert_allclose(np.diff(found), 0.03 / 9, rtol=1e-9)
+
+
+def test_values_between_are_as_one_would_write_them():
+    assert read_values("0.30:0.36:7", "key").each == (0.3, 0.31, 0.32, 0.33, 0.34, 0.35, 0.36)
 
 
 @pytest.mark.parametrize(
