@@ -182,3 +182,22 @@ def test_a_path_across_a_singularity_is_refused(pollard):
     start, end = (np.array([x, 0.0, -0.1, 0.0, 0.0, 0.0]) for x in (0.45, 0.25))
     with pytest.raises(SingularPose):
         path_accuracy(pollard, line(start, end, 2.0))
+
+
+def test_the_sentence_says_both_worst_cases_where_the_tables_have_the_linear_one(study):
+    """A reader finds the table's number in the sentence, and why it isn't the first one."""
+    from pollard_pin.study.accuracy.told.tables import kinds_table
+
+    linear = kinds_table(study).rows[-1][2]
+    said = next(one for one in study.verdict() if one.startswith("At worst"))
+    first = f"{study.stack.farthest.max() * 1e3:.3g} mm off"
+    assert first in said
+    assert f"{float(linear):.3g} mm as far as what is linear goes" in said
+    assert f"{float(linear):.3g} mm off" != first
+
+
+def test_where_both_worst_cases_are_one_number_it_is_said_once(pollard):
+    path = pollard_pin.appendix_b(pollard.specification)
+    little = tolerances([Rule("lengths", 0.001, "mm")])
+    said = path_accuracy(pollard, path, little, draws=0, samples=21).verdict()
+    assert "what is linear goes" not in " ".join(said)
