@@ -96,6 +96,26 @@ def test_parts_that_are_no_parts_are_worked_out_again(folder, harm):
     assert part.read_bytes() == right
 
 
+def test_a_part_of_another_sweep_of_the_same_form_is_worked_out_again(folder, tmp_path):
+    other = Bowl({0.1: "refuse"}, base={**BASE, "legs": {"left": {"length": 9.0}}})
+    sweep_designs(other, designs(), jobs=1, out=tmp_path / "other")
+    name = "rows/part-00000.parquet"
+    (folder / name).write_bytes((tmp_path / "other" / name).read_bytes())
+    found = sweep_designs(STUDY, designs(), jobs=1, out=folder, resume=True)
+    assert found.effort.judged == 1
+    assert found.rows == sweep_designs(STUDY, designs(), jobs=1).rows
+
+
+def test_designs_whose_process_died_are_tried_again(tmp_path):
+    question = designs("x=0,0.5,1")
+    dies = Bowl({0.5: "die"})
+    before = sweep_designs(dies, question, jobs=1, out=tmp_path / "out")
+    assert [row.status for row in before.rows] == ["done", "lost", "done"]
+    found = sweep_designs(Bowl(), question, jobs=1, out=tmp_path / "out", resume=True)
+    assert found.effort.judged == 1
+    assert found.rows == sweep_designs(Bowl(), question, jobs=1).rows
+
+
 def test_a_folder_of_a_damaged_question_is_refused(folder):
     (folder / "designs.json").write_text("{")
     with pytest.raises(BadInput, match="can't read it"):
