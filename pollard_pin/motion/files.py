@@ -23,6 +23,7 @@ from thesis_pin.errors import BadInput
 from thesis_pin.files import name_as_text
 from thesis_pin.smoothing.stated import Stated, stated
 from thesis_pin.tables.reading import TABLES
+from thesis_pin.tables.table import Column
 
 _G_CODE = (".nc", ".ngc", ".gcode", ".tap")
 
@@ -142,13 +143,18 @@ def _once(poses: PoseTable) -> tuple[PoseTable, np.ndarray]:
     kept = np.flatnonzero(np.concatenate([[True], moved | turned]))
     if len(kept) < 2:
         return poses, np.arange(len(place))
-    position, orientation = (
-        tuple(replace(column, values=column.values[kept]) for column in columns)
-        for columns in (poses.position, poses.orientation)
+
+    def of(columns: tuple[Column, ...]) -> tuple[Column, ...]:
+        return tuple(replace(column, values=column.values[kept]) for column in columns)
+
+    once = replace(
+        poses,
+        position=of(poses.position),
+        orientation=of(poses.orientation),
+        rotation=poses.rotation[kept],
+        written=None if poses.written is None else poses.written[kept],
     )
-    written = None if poses.written is None else poses.written[kept]
-    rest = {"position": position, "orientation": orientation, "written": written}
-    return replace(poses, rotation=poses.rotation[kept], **rest), kept
+    return once, kept
 
 
 def _speed(poses: PoseTable, feed: float | None) -> float | np.ndarray:

@@ -148,6 +148,8 @@ def test_the_shortest_time_is_one_that_the_motors_keep_and_no_law_there_is_short
     }
     assert best.law.duration == pytest.approx(min(times.values()), rel=1e-9)
     assert best.law.duration < best.fastest <= 1.5
+    told = sorted(columns(space)["fastest_s"])
+    assert told == pytest.approx(sorted(one.fastest for one in space.best), rel=0.01)
     report = trajectory_report(robot, space.best_path)
     assert report.path.duration == pytest.approx(best.law.duration, rel=1e-9)
     assert report.within_limits
