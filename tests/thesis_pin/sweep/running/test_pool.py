@@ -9,6 +9,7 @@ import time
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 from studied import BASE, Bowl
 
@@ -47,6 +48,18 @@ def test_what_is_wrong_with_a_design_is_its_row():
     assert rows[3].reason == "ZeroDivisionError: a slip"
     assert rows[2].cells == (None,) * 4
     assert rows[0].cells == (True, 1 / 3 + 0.09, 0.0, "blue, 0")
+
+
+@pytest.mark.parametrize("odd", [float("nan"), float("inf"), -float("inf"), np.float64("nan")])
+def test_what_is_no_finite_number_is_a_cell_without_one(odd):
+    class Odd(Bowl):
+        def judge(self, data):
+            return {"good": np.True_, "depth": odd, "width": np.float64(-0.0), "colour": "blue"}
+
+    (row,) = here(Odd(), designs("x=1"))
+    assert row.cells == (True, None, 0.0, "blue")
+    assert type(row.cells[0]) is bool
+    assert str(row.cells[2]) == "0.0"
 
 
 def test_a_process_that_is_killed_once_costs_nothing_but_time(tmp_path):
