@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, CannotWrite
 from thesis_pin.files import Claim
 from thesis_pin.report.writers import json_bytes
 from thesis_pin.sweep.designs.keys import dotted
@@ -69,6 +69,12 @@ class Store:
         ours = self._document
         there = self._folder.path / MANIFEST
         if not there.exists():
+            if any((self._folder.path / PARTS).glob("*")):
+                raise BadInput(
+                    f"rows stand in {PARTS}/ and no {MANIFEST} says of what",
+                    where=str(self._folder),
+                    remedy="Remove them, or name another folder",
+                )
             self._folder.add(MANIFEST, json_bytes(ours))
             return
         if not resume:
@@ -110,7 +116,18 @@ class Store:
         }
 
     def write(self, task: Task, rows: Sequence[Row]) -> None:
-        """Write a chunk's rows."""
+        """Write a chunk's rows.
+
+        Raises:
+            CannotWrite: They can't be written, or the folder was removed meanwhile with those that
+                stood in it.
+        """
+        if not (self._folder.path / MANIFEST).exists():
+            raise CannotWrite(
+                f"{MANIFEST} was removed while the sweep wrote there, and maybe rows with it",
+                where=str(self._folder),
+                remedy="Begin again in another folder",
+            )
         self._folder.add(_part(task.number), _parquet(self._schema, rows))
 
     def rows(self) -> Iterator[tuple[Task, list[Row]]]:
