@@ -27,6 +27,7 @@ SAYS = {
     "pollard_placement": "the motors peak at 0.929 N·m",
     "sweep_arms": "9 of 9 designs keep every limit (within_limits).",
     "sweep_walking_speed": "Nearest to the wish is design 3: servos.*.stall_torque = 0.432",
+    "motors_to_choose": "by the report: 0.851 N·m at the base",
     "pollard_fast_path": "at its fastest: 0.558 s",
     "pollard_spray_path": "the path crosses a singularity of the actuation",
 }

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from thesis_pin.pages.notebook import MOST, UNTRUSTED
-from thesis_pin.pages.scene import Ball, Group, Readout, Scene
+from thesis_pin.pages.player import write_html
+from thesis_pin.pages.scene import Arrow, Ball, Group, Readout, Scene, Shape
 
 EVIL = "</script><script>parent.stolen = 1</script>'\"><b>"
 
@@ -139,3 +140,26 @@ def test_a_frame_that_grows_shows_the_whole_scene_until_a_hand_turns_it(notebook
     becomes(notebook, sliver, "player.stage.camera.aspect > 1")
     assert in_frame(notebook, sliver, AWAY) == pytest.approx(away)
     notebook.run("sliver.remove()")
+
+
+@pytest.mark.browser
+def test_bars_among_bodies_are_in_sight_and_what_is_elsewhere_is_not_looked_for(
+    running_browser, tmp_path
+):
+    time = np.array([0.0, 1.0])
+    place = np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (2, 1))
+    box = Shape("box", "robot", {"type": "box", "size": [0.1, 0.1, 0.1]}, place, np.eye(4))
+    rest = np.zeros((2, 3))
+    bar, far = (np.tile([0.0, 0.0, height], (2, 1)) for height in (2.0, 50.0))
+    items = (
+        box,
+        Arrow("bar", "robot", rest, bar, 1.0, 0.01, "#0072B2", head=False),
+        Arrow("force", "forces", rest, far, 1.0, 0.01, "#D55E00"),
+    )
+    scene = Scene("bars", "", time, (Group("robot", "robot"), Group("forces", "forces")), items)
+    page = tmp_path / "bars.html"
+    write_html(scene, page)
+    running_browser.open(page.as_uri())
+    running_browser.until("window.player && player.framesDrawn > 0")
+    assert running_browser.run("player.stage.box.max.z") == pytest.approx(2.0, abs=0.05)
+    running_browser.leave()

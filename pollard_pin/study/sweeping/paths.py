@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
@@ -19,7 +20,7 @@ from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import ACTUATOR_NAMES, Specification
 from pollard_pin.study.smallest.asking import smallest_motors
 from thesis_pin.display.brief import Brief
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
 from thesis_pin.numeric.checks import real
@@ -179,7 +180,10 @@ class PathStudy(Brief):
 
     def judge(self, data: object) -> Mapping[str, Cell]:
         """The columns of one design: those of its path's report."""
-        return row(self._measures, self.report(data))
+        report = self.report(data)
+        for doubt in report.doubts():
+            warnings.warn(doubt, ModelWarning, stacklevel=2)
+        return row(self._measures, report)
 
     def report(self, data: object) -> TrajectoryReport:
         """The report of one design.

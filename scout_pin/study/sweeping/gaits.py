@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
@@ -16,7 +17,7 @@ from scout_pin.report.document import GaitReport, gait_report
 from scout_pin.specification import JOINT_NAMES, Specification
 from scout_pin.study.smallest.asking import smallest_motors
 from thesis_pin.display.brief import Brief
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
 from thesis_pin.sweep.designs.text import toml
@@ -167,7 +168,10 @@ class GaitStudy(Brief):
 
     def judge(self, data: object) -> Mapping[str, Cell]:
         """The columns of one design: those of its gait's report."""
-        return row(self._measures, self.report(data))
+        report = self.report(data)
+        for doubt in report.doubts():
+            warnings.warn(doubt, ModelWarning, stacklevel=2)
+        return row(self._measures, report)
 
     def report(self, data: object) -> GaitReport:
         """The report of one design.

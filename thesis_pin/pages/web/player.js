@@ -237,13 +237,16 @@ function makePlayer(root, scene, options = {}) {
     onTime: (listener) => listeners.push(listener),
   };
 
-  // The camera has to see the robot all along, so frame it at three times; without one, all there is.
+  // The camera has to see the robot all along, so frame it at three times, bars among its bodies
+  // too; without one, all there is.
   const box = new THREE.Box3(), bodies = items.filter(
     (item) => item.kind === "shape" && groups.get(item.group).visible);
+  const own = new Set(bodies.map((item) => item.group));
+  const framed = bodies.length ? items.filter((item) => own.has(item.group)) : items;
   for (const t of [start, (start + end) / 2, end]) {
     apply(t);
     stage.world.updateMatrixWorld(true);
-    for (const item of bodies.length ? bodies : items) {
+    for (const item of framed) {
       // What is nowhere would put the camera nowhere.
       if (item.object.visible && groups.get(item.group).visible) box.expandByObject(item.object);
     }

@@ -119,6 +119,10 @@ class Choice(Brief):
             )
             if missed := misses(sweep, self.terms, self.best):
                 said.append(f"It misses the wish: {'; '.join(missed)}.")
+            if warned := sweep.rows[self.best].warnings:
+                said.append(f"It is warned of: {short(warned)}.")
+        if odd := sum(bool(row.warnings) for row in sweep.rows):
+            said.append(f"{odd:,} of {count:,} designs have warnings, which stand in their rows.")
         if mistakes := sweep.mistakes():
             said.append(
                 f"A mistake of ours or a process that died is among the reasons: {mistakes[0]}."

@@ -98,8 +98,8 @@ def _answer(study: AccuracyNumbers) -> Iterator[str]:
             )
     if study.space is None:
         yield (
-            f"At worst the spray tip is {mm(farthest[k])} off ({study.place(k)}), "
-            f"{mm(farthest.mean())} in the mean of the path; by the root of the sum of squares "
+            f"At worst the spray tip is {mm(farthest[k])} off ({study.place(k)}{_straight(study)})"
+            f", {mm(farthest.mean())} in the mean of the path; by the root of the sum of squares "
             f"{mm(stack.root.max())}, in the mean {mm(stack.root.mean())}. Its direction is "
             f"{deg(stack.worst_turn.max())} off at worst, {deg(stack.root_turn.max())} by the root "
             "of the sum of squares."
@@ -112,6 +112,14 @@ def _answer(study: AccuracyNumbers) -> Iterator[str]:
             f"median; by the root of the sum of squares {mm(stack.root.min())} and "
             f"{mm(float(median(stack.root)))}."
         )
+
+
+def _straight(study: AccuracyNumbers) -> str:
+    """The linear worst case, which the tables have, where it is another number."""
+    linear = mm(study.stack.worst.max())
+    if linear == mm(study.stack.farthest[study.worst]):
+        return ""
+    return f", by exact kinematics; {linear} as far as what is linear goes, as in the table"
 
 
 def _main(study: AccuracyNumbers) -> Iterator[str]:

@@ -129,6 +129,12 @@ def test_what_nobody_builds_is_warned_of_in_its_row():
     assert "HS-5475HB" in row.warnings
 
 
+def test_a_motion_so_slow_that_its_time_must_be_doubted_is_warned_of_in_its_row():
+    study = scout_pin.gait_study(gait=WALK, samples=41, time_unit=50.0)
+    row, _, _ = row_of(study, "torso.mass=0.16")
+    assert "so slow that inertia plays no part" in row.warnings
+
+
 def test_the_smallest_servo_carries_the_gait_and_a_twentieth_less_doesnt():
     study = scout_pin.gait_study(gait=WALK, samples=201, extra=["smallest_servo"])
     _, cells, _ = row_of(study, "torso.mass=0.16")

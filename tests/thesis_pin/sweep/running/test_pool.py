@@ -77,6 +77,16 @@ def test_the_others_of_a_chunk_that_dies_are_judged_alone(tmp_path):
     assert {row.design: row.status for row in found if row.status != "done"} == {3: "lost"}
 
 
+def test_memory_is_a_process_own_and_not_that_of_who_began_it():
+    script = (
+        "import subprocess, sys; large = bytearray(400_000_000); sys.exit(subprocess.call("
+        "[sys.executable, '-c', 'from thesis_pin.sweep.running.work import peak_memory as p;"
+        " print(p())']))"
+    )
+    said = subprocess.check_output([sys.executable, "-c", script], text=True)
+    assert 10e6 < float(said) < 300e6
+
+
 def test_chunks_depend_on_the_number_of_designs_alone_and_cover_each_once():
     for count in (1, 9, 200, 201, 2000, 40_000, 300_000):
         made = designs(f"x=0:1:{count}") if count > 1 else designs("x=1")

@@ -25,11 +25,16 @@ def choice():
 
 
 def test_the_answer_says_how_many_keep_their_limits_and_which_is_best(choice):
-    first, why, best, *rest = choice.sentences()
+    first, why, best, odd = choice.sentences()
     assert first == "6 of 12 designs keep every limit (good)."
     assert "4 couldn't be judged: 4 impossible, x = 0.25 is no bowl" in why
     assert best.endswith("the one with the least depth is design 6: x = 1, kind = round.")
-    assert rest == []
+    assert odd == "2 of 12 designs have warnings, which stand in their rows."
+
+
+def test_what_the_chosen_design_is_warned_of_is_said_with_it():
+    choice = Choice.of(swept("x=0,1.5,9", study=STUDY), None, "x=1.5")
+    assert "It is warned of: it leaks." in choice.sentences()
 
 
 def test_reasons_that_differ_in_numbers_alone_count_as_one(choice):
