@@ -135,6 +135,15 @@ def test_a_wider_limit_is_kept(pollard):
     assert found.verdict()[0] == "PASS: the spray tip stays within 7 mm of its place at worst."
 
 
+def test_a_limit_that_is_kept_on_half_of_the_path_is_not_kept(pollard):
+    path = pollard_pin.appendix_b(pollard.specification)
+    every = path_accuracy(pollard, path, draws=0, samples=31).stack.farthest
+    middle = float(np.sort(every)[14:16].mean())
+    found = path_accuracy(pollard, path, draws=0, within=middle, samples=31)
+    assert not found.within_limits
+    assert f"on {16 / 31:.1%} of the path" in found.verdict()[0]
+
+
 def test_the_same_seed_draws_the_same_robots(pollard, study):
     path = pollard_pin.appendix_b(pollard.specification)
     again = path_accuracy(pollard, path, draws=60, samples=101)
