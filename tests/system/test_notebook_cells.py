@@ -80,7 +80,7 @@ def drawn(notebook, number):
 
 
 def stopped(notebook, number):
-    """A scene at its start, whether or not its frame was told in time that less motion is wanted."""
+    """A scene at its start, whether or not its frame heard in time that motion is unwanted."""
     drawn(notebook, number)
     in_frame(notebook, number, "player.pause()")
     in_frame(notebook, number, "player.time = 0")
