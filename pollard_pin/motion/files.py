@@ -23,6 +23,7 @@ from thesis_pin.errors import BadInput
 from thesis_pin.files import name_as_text
 from thesis_pin.smoothing.stated import Stated, stated
 from thesis_pin.tables.reading import TABLES
+from thesis_pin.tables.table import Column
 
 _G_CODE = (".nc", ".ngc", ".gcode", ".tap")
 
@@ -113,17 +114,47 @@ def read_csv(
         path = timed(poses, poses.time, method, how or Stated(), name)
     else:
         speed = 1.0 if untimed and poses.speed is None else _speed(poses, feed)
+        count, kept = len(poses.rotation), np.arange(len(poses.rotation))
+        if untimed and poses.speed is None:
+            # Where no timing counts, a pose that is there twice says nothing the second time.
+            poses, kept = _once(poses)
         path = at_speed(
             np.stack([column.values for column in poses.position], axis=-1),
             poses.rotation,
             speed,
             timing or "ramped",
             written=poses.written,
-            where=where,
+            where=lambda k: where(int(kept[k])),
             name=name,
         )
+        if again := count - len(kept):
+            said = "1 row repeats" if again == 1 else f"{again} rows repeat"
+            said += " the row before; without timing that says nothing"
+            path = replace(path, notes=(*path.notes, said))
         path = replace(path, notes=(*path.notes, *coarse(poses, speed)))
     return replace(path, notes=(*path.notes, *poses.notes))
+
+
+def _once(poses: PoseTable) -> tuple[PoseTable, np.ndarray]:
+    """Poses without those of the row before, and the numbers of their rows; all, if one is left."""
+    place = np.stack([column.values for column in poses.position], axis=-1)
+    moved = (place[1:] != place[:-1]).any(axis=1)
+    turned = (poses.rotation[1:] != poses.rotation[:-1]).any(axis=(1, 2))
+    kept = np.flatnonzero(np.concatenate([[True], moved | turned]))
+    if len(kept) < 2:
+        return poses, np.arange(len(place))
+
+    def of(columns: tuple[Column, ...]) -> tuple[Column, ...]:
+        return tuple(replace(column, values=column.values[kept]) for column in columns)
+
+    once = replace(
+        poses,
+        position=of(poses.position),
+        orientation=of(poses.orientation),
+        rotation=poses.rotation[kept],
+        written=None if poses.written is None else poses.written[kept],
+    )
+    return once, kept
 
 
 def _speed(poses: PoseTable, feed: float | None) -> float | np.ndarray:

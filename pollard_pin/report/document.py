@@ -105,14 +105,26 @@ class TrajectoryReport(TrajectoryNumbers):
         """Numbers the thesis leaves open and this report rests on, with their reasons."""
         result = []
         for one in assumptions(self.robot.specification.assumptions):
-            if one["name"] in ("motion", "placement") and self.path.name != "appendix B":
-                continue  # a path of one's own has its own time and place
+            if one["name"] in ("motion", "placement") and not (one := self._used(one)):
+                continue
             if one["name"] == "replaced_inertias":
                 if self.robot.inertia != "physical":
                     continue
                 one["name"] = f"inertia of {one['link']}"
             result.append(one)
         return [*result, *odd_sizes(implausible(self.robot.specification))]
+
+    def _used(self, one: dict[str, object]) -> dict[str, object]:
+        """What of an assumed time or place the path keeps; empty if nothing.
+
+        A path of one's own has both; appendix B's curve has those that weren't asked for.
+        """
+        if self.path.name != "appendix B":
+            return {}
+        if one["name"] == "placement":  # its reason is the position's
+            return one if one["position"] == self.path.parameters["placement"] else {}
+        kept = {k: v for k, v in one.items() if self.path.parameters.get(k, v) == v}
+        return kept if {"duration", "timing"} & kept.keys() else {}
 
     @property
     def parameters(self) -> dict[str, object]:

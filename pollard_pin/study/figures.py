@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pollard_pin.study.workspace import Workspace
-from thesis_pin.report.curves import VERMILLION
+from thesis_pin.report.curves import ORANGE, VERMILLION
 from thesis_pin.report.figures import default_style, figure_files, new_figure
+from thesis_pin.report.workspace.lines import condition_line
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,8 +17,10 @@ if TYPE_CHECKING:
 
 @default_style()
 def workspace_figure(space: Workspace) -> Figure:
-    """Condition over a slice, or over the three middle slices of a volume."""
+    """Condition over a line, over a slice, or over the three middle slices of a volume."""
     sizes = [len(axis) for axis in space.axes]
+    if sizes.count(1) > 1:
+        return _line(space, int(np.argmax(sizes)))
     thin = [k for k in range(3) if sizes[k] == 1]
     normals = thin[:1] if thin else [0, 1, 2]
     figure, axes = new_figure(6 * len(normals), 5, 1, len(normals))
@@ -33,16 +36,32 @@ def workspace_figure(space: Workspace) -> Figure:
         image = ax.pcolormesh(
             *grid, cut.T, shading="nearest", cmap="viridis", vmin=0, vmax=max(top, 0.1)
         )
-        if min(sign.shape) > 1 and (sign < 0).any() and (sign > 0).any():
+        if (sign < 0).any() and (sign > 0).any():
             ax.contour(*grid, np.sign(sign).T, levels=[0.0], colors=VERMILLION)
         names = "xyz"
         ax.set(
             xlabel=f"{names[across]} [m]",
             ylabel=f"{names[up]} [m]",
             title=f"{names[normal]} = {space.axes[normal][middle]:.3g} m",
-            aspect="equal" if min(sizes[across], sizes[up]) > 1 else "auto",
+            aspect="equal",
         )
     figure.colorbar(image, ax=list(axes[0]), label="log10 of the condition number")
+    return figure
+
+
+def _line(space: Workspace, along: int) -> Figure:
+    """Condition over one coordinate, and where there is none."""
+    figure, axes = new_figure(8, 4)
+    ax, condition = axes[0, 0], space.condition.ravel()
+    reached = space.reachable.ravel()
+    missing = [
+        ("out of reach", "silver", ~reached),
+        ("reached, singular", ORANGE, reached & np.isnan(condition)),
+    ]
+    border = ("motors lose the tool", VERMILLION)
+    condition_line(ax, space.axes[along], condition, space.determinant.ravel(), missing, border)
+    fixed = [f"{n} = {space.axes[k][0]:.3g} m" for k, n in enumerate("xyz") if k != along]
+    ax.set(xlabel=f"{'xyz'[along]} [m]", title=", ".join(fixed))
     return figure
 
 

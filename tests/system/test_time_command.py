@@ -117,6 +117,33 @@ def test_a_table_without_times_or_speeds_is_enough(timed, tmp_path):
     assert "tool speed of" not in out
 
 
+def test_points_that_are_there_twice_count_once_and_it_is_said(timed, tmp_path):
+    """As exports have them where two moves meet; what turns on the spot is refused all the same."""
+    y = np.linspace(-100, 100, 41)
+    rows = np.stack([450 + 0 * y, y, 40 * np.cos(y / 80), 0 * y, 0 * y, 0 * y], axis=1)
+    head, times = "x_mm,y_mm,z_mm,psi_deg,theta_deg,phi_deg", []
+    twice = np.insert(rows, 20, rows[20], axis=0)
+    turned = twice.copy()
+    turned[20, 4] = 5.0
+    for name, table in (
+        ("once", rows),
+        ("twice", twice),
+        ("turned", turned),
+        ("still", rows[[0, 0]]),
+    ):
+        file = tmp_path / f"{name}.csv"
+        np.savetxt(file, table, delimiter=",", header=head, comments="", fmt="%.9g")
+        code, out, err = timed("--path", file, *LIMITS, "--json", tmp_path / f"{name}.json")
+        if name in ("turned", "still"):
+            assert code == 2
+            assert f"{name}.csv:{23 if name == 'turned' else 3}" in err
+            continue
+        assert code == 0
+        times.append(json.loads((tmp_path / f"{name}.json").read_bytes())["duration"])
+        assert ("1 row repeats the row before" in " ".join(out.split())) == (name == "twice")
+    assert times[0] == times[1]
+
+
 def test_a_table_of_poses_comes_with_a_warning(timed, tmp_path):
     code, _, err = timed(*ARCH, *LIMITS, "--to", tmp_path / "fast.csv")
     assert code == 0

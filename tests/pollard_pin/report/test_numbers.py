@@ -93,6 +93,25 @@ def test_document_has_the_documented_keys_and_shapes(robot, actuators):
     assert ("missing_force" in document) == (actuators == "three")
 
 
+def test_an_assumed_time_or_place_is_listed_only_where_it_is_used(robot):
+    def listed(**asked):
+        path = appendix_b(robot.specification, **asked)
+        found = trajectory_report(robot, path, samples=11).assumptions()
+        return {one["name"]: one for one in found if one["name"] in ("motion", "placement")}
+
+    own = robot.specification.assumptions
+    assert listed()["placement"]["position"] == list(own.placement.position)
+    elsewhere = listed(placement=[0.5, 0.0, 0.15])
+    assert set(elsewhere) == {"motion"}
+    assert elsewhere["motion"]["duration"] == own.motion.duration
+    slower = listed(duration=40.0)
+    assert set(slower) == {"motion", "placement"}
+    assert "duration" not in slower["motion"]
+    assert slower["motion"]["timing"] == own.motion.timing
+    other = {"constant-rate": "rest-to-rest", "rest-to-rest": "constant-rate"}[own.motion.timing]
+    assert set(listed(duration=40.0, timing=other)) == {"placement"}
+
+
 def test_columns_repeat_the_document(report):
     columns = report.columns()
     assert len({len(values) for values in columns.values()}) == 1

@@ -68,6 +68,31 @@ def test_a_slice_is_drawn_without_a_display(pollard):
     assert "y = 0 m" in figure.axes[0].get_title()
 
 
+def test_a_line_of_positions_is_drawn_as_condition_over_its_coordinate(pollard):
+    from pollard_pin.study.figures import workspace_figure
+
+    x = np.linspace(0.0, 1.0, 41)
+    space = evaluate_workspace(pollard, x, 0.0, 0.0)
+    (ax,) = workspace_figure(space).axes
+    drawn = {line.get_label(): line.get_xydata() for line in ax.lines}
+    np.testing.assert_array_equal(drawn["condition number"][:, 0], x)
+    np.testing.assert_array_equal(drawn["condition number"][:, 1], space.condition.ravel())
+    np.testing.assert_array_equal(drawn["out of reach"][:, 0], x[~space.reachable.ravel()])
+    sign = np.sign(space.determinant.ravel())
+    (change,) = np.flatnonzero(sign[1:] * sign[:-1] < 0)
+    assert x[change] < drawn["motors lose the tool"][0, 0] < x[change + 1]
+    assert (ax.get_xlabel(), ax.get_title()) == ("x [m]", "y = 0 m, z = 0 m")
+
+
+@pytest.mark.parametrize("axes", [(0.45, 0.0, 0.0), ([2.0, 2.5, 3.0], 0.0, 0.0)])
+def test_a_single_position_and_a_line_out_of_reach_are_drawn(pollard, axes):
+    from pollard_pin.study.figures import workspace_figure
+
+    (ax,) = workspace_figure(evaluate_workspace(pollard, *axes)).axes
+    (line,) = ax.lines
+    assert np.isfinite(line.get_ydata()).all()
+
+
 @pytest.mark.parametrize("axes", [([], 0, 0), (np.zeros(3000), np.zeros(3000), np.zeros(3000))])
 def test_an_empty_or_endless_grid_is_refused(pollard, axes):
     with pytest.raises(BadInput, match="positions"):

@@ -18,6 +18,7 @@ from thesis_pin.loops.workspace.mapped import (
 )
 from thesis_pin.report.curves import ORANGE, PURPLE, SKY, VERMILLION
 from thesis_pin.report.figures import default_style, figure_files, new_figure
+from thesis_pin.report.workspace.lines import condition_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -123,27 +124,16 @@ def _plane(
 
 def _line(space: Workspace, axis: int) -> Figure:
     """Condition over one coordinate."""
-    from matplotlib.ticker import FuncFormatter
-
     figure, axes = new_figure(8.0, 4.0)
-    ax, along = axes[0, 0], space.grid.axes[axis]
-    ax.plot(along.values, space.condition.ravel(), color="black")
-    for k, shade in SHADES.items():
-        if (there := space.state.ravel() == k).any():
-            ones = np.ones(int(there.sum()))
-            ax.plot(along.values[there], ones, ".", color=shade, label=WORDS[k])
-    if (space.state != 0).any():
-        ax.legend(fontsize=8)
+    ax, along, state = axes[0, 0], space.grid.axes[axis], space.state.ravel()
+    missing = [(WORDS[k], shade, state == k) for k, shade in SHADES.items()]
+    border = ("determinant changes sign", BORDER)
+    condition, determinant = space.condition.ravel(), space.determinant.ravel()
+    condition_line(ax, along.values, condition, determinant, missing, border)
     ax.set(
         xlabel=f"{along.name} [{along.unit}]",
-        ylabel="condition number",
-        yscale="log",
         title=f"{space.robot.model.name}: condition number {space.measure.said()}",
     )
-    plain = FuncFormatter(lambda value, _: f"{value:g}")
-    ax.yaxis.set_major_formatter(plain)
-    ax.yaxis.set_minor_formatter(plain)
-    ax.grid(alpha=0.3)
     return figure
 
 

@@ -27,8 +27,9 @@ def on_cluster(
 ) -> Generator[tuple[Task, Done]]:
     """Tasks with what came of them, in the order in which they are done.
 
-    Dask itself gives the tasks of a worker that died to others. Of a task that workers died of
-    again and again each design is tried alone; one that they die of even so is a row that says so.
+    Dask itself gives the tasks of a worker that died to others. Of a task that is blamed for the
+    death of several, each design is tried alone at the end; one that workers die of even so is a
+    row that says so.
 
     Args:
         study: What is asked.
@@ -58,34 +59,47 @@ def on_cluster(
             return client.submit(_worked, what, task, pure=False)
 
         asked = {ask(task): task for task in tasks}
+        blamed: list[Task] = []
         waiting = as_completed(list(asked), loop=client.loop)
         try:
             for future in waiting:
                 task = asked.pop(future)
                 if future.status == "finished":
                     yield task, future.result()
-                    continue
-                if future.status in ("lost", "pending"):  # its worker died with the answer
+                elif future.status in ("lost", "pending"):  # its worker died with the answer
                     asked[future] = task
                     waiting.add(future)
-                    continue
-                error = future.exception() if future.status == "error" else None
-                if not isinstance(error, KilledWorker):
-                    raise _gone(address, error)
-                if len(task.designs) == 1:
+                else:
+                    _killed(address, future)
+                    blamed += task.alone()
+            for task in blamed:  # one by one, since Dask blames all that waited for that worker
+                future = ask(task)
+                asked[future] = task
+                try:
+                    yield task, future.result()
+                except KilledWorker as error:
                     reason = f"{error.allowed_failures + 1} workers died of it, one after the other"
                     row = lost(study, task.designs[0], task.values[0], reason)
                     yield task, Done((row,), 0.0, {})
-                    continue
-                for one in task.alone():
-                    again = ask(one)
-                    asked[again] = one
-                    waiting.add(again)
+                del asked[future]
         except (OSError, distributed.client.FutureCancelledError) as error:
             raise _gone(address, error) from None
         finally:
             with contextlib.suppress(Exception):  # a scheduler that has gone has nothing to cancel
                 client.cancel(list(asked))
+
+
+def _killed(address: str, future: Future[Done]) -> None:
+    """Refuse a task that failed by anything but its workers' deaths.
+
+    Raises:
+        BadInput: It did.
+    """
+    from distributed.scheduler import KilledWorker
+
+    error = future.exception() if future.status == "error" else None
+    if not isinstance(error, KilledWorker):
+        raise _gone(address, error)
 
 
 def _given(study: Study, designs: Designs) -> tuple[Study, Designs]:

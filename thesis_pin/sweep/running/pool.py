@@ -16,7 +16,7 @@ from multiprocessing.process import BaseProcess
 from thesis_pin.errors import BadInput
 from thesis_pin.numeric.workers import ctrl_c_later
 from thesis_pin.sweep.designs.making import Designs
-from thesis_pin.sweep.running.work import BLAS, Done, Task, peak_memory, versions, work
+from thesis_pin.sweep.running.work import BLAS, Done, Task, work
 from thesis_pin.sweep.study import Study, lost
 
 _PATIENCE = 5.0
@@ -132,7 +132,7 @@ def _again(
         )
     if task.designs in tried:
         row = lost(study, task.designs[0], task.values[0], f"its process {_ended(code)}, twice")
-        yield task, Done((row,), peak_memory(), versions())
+        yield task, Done((row,), 0.0, {})
         return
     for one in task.alone():
         tried.add(one.designs)

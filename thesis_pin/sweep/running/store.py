@@ -13,13 +13,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, CannotWrite
 from thesis_pin.files import Claim
 from thesis_pin.report.writers import json_bytes
 from thesis_pin.sweep.designs.keys import dotted
 from thesis_pin.sweep.designs.making import Designs
 from thesis_pin.sweep.running.work import Task, versions
-from thesis_pin.sweep.study import Cell, Row, Study
+from thesis_pin.sweep.study import LOST, Cell, Row, Study
 
 if TYPE_CHECKING:
     import pyarrow
@@ -31,6 +31,9 @@ PARTS = "rows"
 """Folder of the parts."""
 
 SCHEMA, VERSION = "thesis-pin/sweep-designs", 1
+
+_OF = b"thesis-pin/sweep"
+"""Where a part has the hash of what it is of."""
 
 
 class Store:
@@ -51,7 +54,8 @@ class Store:
     ) -> None:
         _pyarrow()
         self._folder, self._study, self._designs, self._tasks = folder, study, designs, tasks
-        self._schema = _schema(study, designs)
+        self._document = self.document()
+        self._schema = _schema(study, designs).with_metadata({_OF: str(self._document["hash"])})
 
     def begin(self, resume: bool) -> None:
         """Write down what is asked, or find that the folder holds rows of the very same.
@@ -62,9 +66,15 @@ class Store:
         Raises:
             BadInput: They aren't, or are of other inputs or versions.
         """
-        ours = self.document()
+        ours = self._document
         there = self._folder.path / MANIFEST
         if not there.exists():
+            if any((self._folder.path / PARTS).glob("*")):
+                raise BadInput(
+                    f"rows stand in {PARTS}/ and no {MANIFEST} says of what",
+                    where=str(self._folder),
+                    remedy="Remove them, or name another folder",
+                )
             self._folder.add(MANIFEST, json_bytes(ours))
             return
         if not resume:
@@ -106,14 +116,30 @@ class Store:
         }
 
     def write(self, task: Task, rows: Sequence[Row]) -> None:
-        """Write a chunk's rows."""
+        """Write a chunk's rows.
+
+        Raises:
+            CannotWrite: They can't be written, or the folder was removed meanwhile with those that
+                stood in it.
+        """
+        if not (self._folder.path / MANIFEST).exists():
+            raise CannotWrite(
+                f"{MANIFEST} was removed while the sweep wrote there, and maybe rows with it",
+                where=str(self._folder),
+                remedy="Begin again in another folder",
+            )
         self._folder.add(_part(task.number), _parquet(self._schema, rows))
 
     def rows(self) -> Iterator[tuple[Task, list[Row]]]:
-        """The chunks that are done, with their rows; parts that can't be read aren't."""
+        """The chunks that are done, with their rows.
+
+        Parts that can't be read or are another sweep's aren't, nor are those with a design whose
+        process died, of which the machine may have been to blame.
+        """
         for task in self._tasks:
             path = self._folder.path / _part(task.number)
-            if path.exists() and (found := _read(path, self._schema, task)) is not None:
+            found = _read(path, self._schema, task) if path.exists() else None
+            if found is not None and all(row.status != LOST for row in found):
                 yield task, found
 
 
@@ -225,7 +251,8 @@ def _read(path: Path, schema: pyarrow.Schema, task: Task) -> list[Row] | None:
         table = parquet.read_table(io.BytesIO(path.read_bytes()))
     except (OSError, pa.ArrowException):
         return None
-    if not table.schema.equals(schema) or table["design"].to_pylist() != list(task.designs):
+    ours = table.schema.equals(schema, check_metadata=True)
+    if not ours or table["design"].to_pylist() != list(task.designs):
         return None
     many = len(task.values[0])
     columns = [column.to_pylist() for column in table.columns]

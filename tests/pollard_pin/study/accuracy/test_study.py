@@ -119,11 +119,29 @@ def test_a_study_says_what_moves_the_tip_most(study):
     assert not study.doubts()
 
 
+def test_shares_are_those_of_the_variances_as_each_is_drawn(pollard):
+    """Of one motor: anywhere within 0.1° has a third of the variance of one end or the other."""
+    rules = [Rule(f"{one}.chain1_shoulder", 0.1, "deg") for one in ("motor", "backlash")]
+    path = pollard_pin.appendix_b(pollard.specification)
+    found = path_accuracy(pollard, path, tolerances(rules), draws=0, samples=11)
+    shares = {one.parameter.kind: one.share for one in found.contributions}
+    assert shares == pytest.approx({"motors": 0.25, "backlash": 0.75})
+
+
 def test_a_wider_limit_is_kept(pollard):
     path = pollard_pin.appendix_b(pollard.specification)
     found = path_accuracy(pollard, path, draws=0, within=7e-3, samples=31)
     assert found.within_limits
     assert found.verdict()[0] == "PASS: the spray tip stays within 7 mm of its place at worst."
+
+
+def test_a_limit_that_is_kept_on_half_of_the_path_is_not_kept(pollard):
+    path = pollard_pin.appendix_b(pollard.specification)
+    every = path_accuracy(pollard, path, draws=0, samples=31).stack.farthest
+    middle = float(np.sort(every)[14:16].mean())
+    found = path_accuracy(pollard, path, draws=0, within=middle, samples=31)
+    assert not found.within_limits
+    assert f"on {16 / 31:.1%} of the path" in found.verdict()[0]
 
 
 def test_the_same_seed_draws_the_same_robots(pollard, study):

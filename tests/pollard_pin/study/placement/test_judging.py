@@ -128,12 +128,15 @@ def test_the_mirror_image_asks_the_same_of_the_robots_other_side(nod, branch):
         np.testing.assert_allclose(getattr(other, name), getattr(one, name), rtol=1e-9)
 
 
-def test_the_clearance_is_the_least_sine_of_the_sets_that_it_names(pollard, nod):
-    found = Judge.of(pollard, nod, SAMPLES).placements([Placement()], DEFAULT)
-    angles = pollard.inverse_kinematics(nod.sample(SAMPLES).pose, DEFAULT).angles
+@pytest.mark.parametrize(("place", "nearest"), [((0.0, 0.0, 0.0), 4), ((-0.1, 0.0, -0.1), 7)])
+def test_the_clearance_is_the_least_sine_of_the_sets_that_it_names(pollard, nod, place, nearest):
+    found = Judge.of(pollard, nod, SAMPLES).placements([Placement(place)], DEFAULT)
+    whole = nod.sample(SAMPLES).pose
+    whole[:, :3] += place
+    angles = pollard.inverse_kinematics(whole, DEFAULT).angles
     sines = np.abs(pollard.posture(angles).serial_sines).min(axis=0)
     # The volume of the base motors' directions, by singular values of unit rows from differences.
-    step, pose = 1e-6, nod.sample(SAMPLES).pose
+    step, pose = 1e-6, whole
     rows = np.empty((SAMPLES, 3, 3))
     for axis in range(3):  # the tool doesn't turn, so the tip moves as the wrist does
         ends = []
@@ -146,7 +149,7 @@ def test_the_clearance_is_the_least_sine_of_the_sets_that_it_names(pollard, nod)
     volume = np.linalg.svd(unit, compute_uv=False).prod(axis=-1).min()
     want = [*sines, volume]
     assert found.clearance[0] == pytest.approx(min(want), rel=1e-6)
-    assert NEAREST[found.nearest[0]] == NEAREST[int(np.argmin(want))]
+    assert NEAREST[found.nearest[0]] == NEAREST[int(np.argmin(want))] == NEAREST[nearest]
 
 
 def test_a_leap_by_a_turn_is_no_break_and_a_wrist_that_turns_over_is(pollard):
@@ -199,6 +202,21 @@ def test_what_the_motors_cannot_do_is_named(pollard, curve):
     assert reason(torque=1.0) == TORQUE
     assert reason(speed=1.0) == SPEED
     assert reason(torque=0.1, paces=True) == WEIGHT
+
+
+def test_a_hundredth_beyond_a_limit_is_beyond_it_and_a_hundredth_below_is_not(pollard, nod):
+    """Of each motor's torque and speed, as the report's peaks have them."""
+    report = trajectory_report(pollard, nod, samples=SAMPLES)
+    effort, velocity = pollard.specification.assumptions.joint_limits.of_motors()
+    peaks = np.abs(report.torque).max(axis=0), np.abs(report.speed).max(axis=0)
+    for which, (peak, reason) in enumerate(zip(peaks, (TORQUE, SPEED), strict=True)):
+        for motor in np.flatnonzero(peak > 1e-6):
+            for share, want in ((1.01, FOLLOWED), (0.99, reason)):
+                limits = [effort.copy(), velocity.copy()]
+                limits[which][motor] = share * peak[motor]
+                robot = with_limits(pollard, *(one.tolist() for one in limits))
+                judge = Judge.of(robot, nod, SAMPLES)
+                assert judge.placements([Placement()], DEFAULT).reason[0] == want
 
 
 def test_arms_that_cross_are_seen_from_above(pollard):

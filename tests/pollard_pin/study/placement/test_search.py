@@ -1,8 +1,10 @@
 """Where a path should stand: better than where it stood, confirmed by the report on it."""
 
 import copy
+import dataclasses
 import itertools
 import pickle
+import types
 
 import numpy as np
 import pytest
@@ -146,10 +148,27 @@ def test_the_shortest_time_is_one_that_the_motors_keep_and_no_law_there_is_short
     }
     assert best.law.duration == pytest.approx(min(times.values()), rel=1e-9)
     assert best.law.duration < best.fastest <= 1.5
+    told = sorted(columns(space)["fastest_s"])
+    assert told == pytest.approx(sorted(one.fastest for one in space.best), rel=0.01)
     report = trajectory_report(robot, space.best_path)
     assert report.path.duration == pytest.approx(best.law.duration, rel=1e-9)
     assert report.within_limits
     assert max(report.motor_use.torque.max(), report.motor_use.speed.max()) > 0.98
+
+
+def test_placements_stand_in_the_order_of_their_laws_where_those_are_known(pollard, monkeypatch):
+    """The grid's order is that of paths played faster, which laws may turn round."""
+    durations = iter([0.9, 0.7, 0.8, 1.1])
+
+    def timed(_, one):
+        return dataclasses.replace(one, law=types.SimpleNamespace(duration=next(durations)))
+
+    monkeypatch.setattr("pollard_pin.study.placement.laws._timed", timed)
+    space = evaluate_placements(
+        pollard, nodding(), z=[0.0, 0.05, 0.1], objective="time", samples=21, refine=False
+    )
+    assert [one.law.duration for one in space.best] == [0.7, 0.8, 0.9]
+    assert space.start.law.duration == 1.1
 
 
 def test_played_as_fast_as_it_is_told_no_motor_exceeds_its_limits(pollard):

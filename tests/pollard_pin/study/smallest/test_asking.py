@@ -1,5 +1,6 @@
 """The smallest motors for a path: reports and fastest laws with such motors say the same."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.sizing.actuator import Actuator
 from thesis_pin.sizing.catalogue import Catalogue
 from thesis_pin.sizing.smallest.result import smallest
+from thesis_pin.timing.fastest import fastest
 
 EXAMPLES = Path(__file__).parents[4] / "examples"
 
@@ -143,6 +145,20 @@ def test_the_law_of_least_heat_is_cooler_than_that_of_least_torque(answer):
     assert heat.long[0] < torque.long[0]
     assert heat.once[0] > torque.once[0]
     assert heat.duration == pytest.approx(1.5)
+
+
+def test_no_law_of_a_row_of_them_heats_the_base_less_than_that_of_least_heat(answer, found):
+    """Fastest under 1 to 10 times the least torque, then slowed to the time that there is."""
+    path, family, best = found
+    limits = path.limits(best.torque, family)
+    heats = []
+    for more in np.geomspace(1.0, 10.0, 30):
+        law = fastest(best.grid, replace(limits, effort=more * limits.effort))
+        slow = replace(best, law=law.slower(min(law.duration / 1.5, 1.0)))
+        heats.append(heat_along(path, slow, family)[:3].max())
+    loads = answer.cases[2].loads
+    assert loads.rms(loads.torque)[:3].max() == pytest.approx(min(heats), rel=0.015)
+    assert heats[0] > 1.025 * min(heats)
 
 
 def test_the_curve_is_that_of_fastest_laws_and_of_reports_run_faster(answer, report):

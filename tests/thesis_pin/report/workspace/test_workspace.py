@@ -1,6 +1,8 @@
 """A workspace's document, columns, sentences, picture and page."""
 
 import json
+from dataclasses import replace
+from itertools import pairwise
 
 import mechanisms
 import numpy as np
@@ -71,6 +73,12 @@ def test_planes_lines_and_volumes_are_drawn(space):
     assert ax.get_legend() is None
     assert "condition number of the motors" in ax.get_title()
     assert "by colour" not in workspace_page(line).decode()
+    wide = replace(line, condition=np.geomspace(2, 300, 5).reshape(line.condition.shape))
+    figure = workspace_figure(wide)
+    figure.draw_without_rendering()
+    labels = [one for one in figure.axes[0].get_yticklabels(which="both") if one.get_text()]
+    ticks = sorted((one.get_window_extent() for one in labels), key=lambda one: one.y0)
+    assert not any(a.overlaps(b) for a, b in pairwise(ticks))
     two = mechanisms.built("delta")
     cube = {name: np.linspace(low, low + 0.1, 3) for name, low in (("x", 0), ("y", -0.05))}
     cube["z"] = np.linspace(-0.4, -0.3, 3)

@@ -9,6 +9,7 @@ import time
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 from studied import BASE, Bowl
 
@@ -49,6 +50,18 @@ def test_what_is_wrong_with_a_design_is_its_row():
     assert rows[0].cells == (True, 1 / 3 + 0.09, 0.0, "blue, 0")
 
 
+@pytest.mark.parametrize("odd", [float("nan"), float("inf"), -float("inf"), np.float64("nan")])
+def test_what_is_no_finite_number_is_a_cell_without_one(odd):
+    class Odd(Bowl):
+        def judge(self, data):
+            return {"good": np.True_, "depth": odd, "width": np.float64(-0.0), "colour": "blue"}
+
+    (row,) = here(Odd(), designs("x=1"))
+    assert row.cells == (True, None, 0.0, "blue")
+    assert type(row.cells[0]) is bool
+    assert str(row.cells[2]) == "0.0"
+
+
 def test_a_process_that_is_killed_once_costs_nothing_but_time(tmp_path):
     study = Bowl({0.75: "die once", 1.5: "die once"}, str(tmp_path))
     found = sweep_designs(study, designs(), jobs=2)
@@ -75,6 +88,16 @@ def test_the_others_of_a_chunk_that_dies_are_judged_alone(tmp_path):
     found = [row for _, done in shared(study, made, [whole], 1) for row in done.rows]
     assert sorted(row.design for row in found) == list(range(9))
     assert {row.design: row.status for row in found if row.status != "done"} == {3: "lost"}
+
+
+def test_memory_is_a_process_own_and_not_that_of_who_began_it():
+    script = (
+        "import subprocess, sys; large = bytearray(400_000_000); sys.exit(subprocess.call("
+        "[sys.executable, '-c', 'from thesis_pin.sweep.running.work import peak_memory as p;"
+        " print(p())']))"
+    )
+    said = subprocess.check_output([sys.executable, "-c", script], text=True)
+    assert 10e6 < float(said) < 300e6
 
 
 def test_chunks_depend_on_the_number_of_designs_alone_and_cover_each_once():

@@ -1,6 +1,7 @@
 """A sweep's folder: rows that read back to the bit, and only of the very same question."""
 
 import json
+import shutil
 import sys
 
 import pyarrow.parquet as parquet
@@ -94,6 +95,43 @@ def test_parts_that_are_no_parts_are_worked_out_again(folder, harm):
     assert found.effort.judged == 1
     assert found.rows == sweep_designs(STUDY, designs(), jobs=1).rows
     assert part.read_bytes() == right
+
+
+def test_a_part_of_another_sweep_of_the_same_form_is_worked_out_again(folder, tmp_path):
+    other = Bowl({0.1: "refuse"}, base={**BASE, "legs": {"left": {"length": 9.0}}})
+    sweep_designs(other, designs(), jobs=1, out=tmp_path / "other")
+    name = "rows/part-00000.parquet"
+    (folder / name).write_bytes((tmp_path / "other" / name).read_bytes())
+    found = sweep_designs(STUDY, designs(), jobs=1, out=folder, resume=True)
+    assert found.effort.judged == 1
+    assert found.rows == sweep_designs(STUDY, designs(), jobs=1).rows
+
+
+def test_rows_without_a_word_of_what_they_are_of_are_refused(folder):
+    (folder / "designs.json").unlink()
+    for resume in (False, True):
+        with pytest.raises(BadInput, match=r"no designs.json says of what"):
+            sweep_designs(STUDY, designs("x=1,2"), jobs=1, out=folder, resume=resume)
+
+
+def test_a_folder_that_is_removed_meanwhile_is_no_folder_with_half_the_rows(tmp_path):
+    def remove(done, total):
+        if done == 2:
+            shutil.rmtree(tmp_path / "out")
+
+    with pytest.raises(CannotWrite, match="was removed while the sweep wrote there"):
+        sweep_designs(STUDY, designs(), jobs=1, out=tmp_path / "out", progress=remove)
+    assert not (tmp_path / "out").exists()
+
+
+def test_designs_whose_process_died_are_tried_again(tmp_path):
+    question = designs("x=0,0.5,1")
+    dies = Bowl({0.5: "die"})
+    before = sweep_designs(dies, question, jobs=1, out=tmp_path / "out")
+    assert [row.status for row in before.rows] == ["done", "lost", "done"]
+    found = sweep_designs(Bowl(), question, jobs=1, out=tmp_path / "out", resume=True)
+    assert found.effort.judged == 1
+    assert found.rows == sweep_designs(Bowl(), question, jobs=1).rows
 
 
 def test_a_folder_of_a_damaged_question_is_refused(folder):
