@@ -14,6 +14,7 @@ from pollard_pin.model import Pollard
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.display.counted import counted
 from thesis_pin.report import branches
+from thesis_pin.report.info import assumed_values
 from thesis_pin.report.tables import Part, Table
 
 if TYPE_CHECKING:  # inverse kinematics alone needs no report
@@ -94,12 +95,9 @@ def resting_on(assumptions: Sequence[dict[str, object]]) -> Iterator[str]:
 
 def _values(assumption: dict[str, object]) -> str:
     """The numbers of an assumption in brackets, if they are few."""
-    parts = [
-        f"{key.replace('_', ' ')} {value}"
-        for key, value in assumption.items()
-        if key not in ("name", "why", "link", "inertia", "inertia_convention")
-    ]
-    return f" ({', '.join(parts)})" if 0 < len(parts) <= 4 else ""
+    hidden = ("name", "why", "link", "inertia", "inertia_convention")
+    shown = {key: value for key, value in assumption.items() if key not in hidden}
+    return f" ({assumed_values(shown)})" if 0 < len(shown) <= 4 else ""
 
 
 def ik_document(robot: Pollard, solutions: Solutions) -> dict[str, object]:

@@ -198,6 +198,7 @@ def test_a_dry_run_says_what_there_is_and_judges_nothing_else(tmp_path, capfd):
     code, out, _ = run("pollard-pin sweep", [*words, "--dry-run"], capfd)
     assert code == 0
     assert "2,000 designs in 200 chunks of 10; one takes" in out
+    assert "(mean of 5)" in " ".join(out.split()), "designs from all over say how long one takes"
     assert list(tmp_path.iterdir()) == []
 
 

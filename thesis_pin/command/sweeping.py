@@ -21,10 +21,12 @@ from thesis_pin.sweep.designs.keys import dotted, leaves, matching, value_at
 from thesis_pin.sweep.designs.making import Designs, joined, listed
 from thesis_pin.sweep.running.runner import Interrupted, chunks, sweep_designs, usual_jobs
 from thesis_pin.sweep.shown.choice import Choice, shown
-from thesis_pin.sweep.study import Study, judged, make_designs
+from thesis_pin.sweep.study import Row, Study, judged, make_designs
 
 _NAMED = 12
 """Designs that a dry run lists."""
+_TIMED, _PATIENCE = 5, 3.0
+"""Designs that say in it how long all take, and seconds after which no further one is tried."""
 
 
 def run(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
@@ -173,24 +175,35 @@ def _keys(study: Study, pattern: str) -> Table:
 
 
 def _dry(study: Study, designs: Designs, jobs: int) -> list[Table | str]:
-    """Which designs there are, and how long it takes, from judging the first one twice."""
+    """Which designs there are, and how long it takes, from judging some of them."""
     tasks = chunks(designs)
-    seconds = 0.0
-    for _ in range(2):  # the first imports what it needs
-        began = time.perf_counter()
-        row = judged(study, designs.data(study.base, 0), 0, designs.values[0])
-        seconds = time.perf_counter() - began
+    first, times = _tried(study, designs)
     rows = [[str(k), *map(shown, values)] for k, values in enumerate(designs.values[:_NAMED])]
     what = f", the first {_NAMED}" if len(designs) > _NAMED else ""
-    whole = seconds * len(designs) / jobs
+    each = sum(times) / len(times)
+    whole = each * len(designs) / jobs
     said = [
-        f"{len(designs):,} designs in {len(tasks):,} chunks of {len(tasks[0].designs)}; one takes "
-        f"{seconds * 1e3:.3g} ms here, all about {_duration(whole)} with {jobs} free "
+        f"{len(designs):,} design{'s' * (len(designs) != 1)} in {len(tasks):,} "
+        f"chunk{'s' * (len(tasks) != 1)} of {len(tasks[0].designs)}; one takes {each * 1e3:.3g} ms "
+        f"here (mean of {len(times)}), all about {_duration(whole)} with {jobs} free "
         f"processor{'s' * (jobs != 1)}.",
-        f"The first one: {row.status}{f', {row.reason}' if row.reason else ''}.",
+        f"The first one: {first.status}{f', {first.reason}' if first.reason else ''}.",
     ]
     heads = ["design", *(one.label for one in designs.parameters)]
     return [*said, Table(f"Designs{what}", heads, rows)]
+
+
+def _tried(study: Study, designs: Designs) -> tuple[Row, list[float]]:
+    """The first design's row, and seconds of designs from all over: those that fail take less."""
+    row = judged(study, designs.data(study.base, 0), 0, designs.values[0])  # imports what it needs
+    times: list[float] = []
+    for k in sorted({n * (len(designs) - 1) // (_TIMED - 1) for n in range(_TIMED)}):
+        began = time.perf_counter()
+        judged(study, designs.data(study.base, k), k, designs.values[k])
+        times.append(time.perf_counter() - began)
+        if sum(times) > _PATIENCE:
+            break
+    return row, times
 
 
 def _duration(seconds: float) -> str:

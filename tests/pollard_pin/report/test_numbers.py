@@ -208,3 +208,10 @@ def test_the_tool_s_speed_is_the_slope_of_its_path(pollard):
     said = report.summary()["tool_speed"]
     assert said["largest"] == report.tool_speed.max()
     assert report.columns()["tool_speed_m_s"] is report.tool_speed
+
+
+def test_assumed_numbers_are_told_with_units_and_few_digits():
+    from pollard_pin.report.tables import resting_on
+
+    entry = {"name": "joint_limits", "velocity": [1.0, 5.235987755982988], "why": "given"}
+    assert list(resting_on([entry]))[1] == "- joint limits (velocity (1, 5.235987756) rad/s): given"

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thesis_pin.display.brief import Brief
+from thesis_pin.display.counted import counted
 from thesis_pin.errors import BadInput
 from thesis_pin.sweep.result import Sweep
 from thesis_pin.sweep.study import Column
@@ -54,7 +55,9 @@ def read_aims(sweep: Sweep, text: str) -> tuple[Aim, ...]:
     names = [aim.column.name for aim in aims]
     if not FEWEST <= len(aims) <= MOST or len(set(names)) < len(names):
         raise BadInput(
-            f"{text!r} are {len(aims)} aims", where="pareto", allowed="two or three columns"
+            f"{text!r} names {counted(len(set(names)), 'column')}",
+            where="pareto",
+            allowed="two or three different columns",
         )
     return aims
 

@@ -34,7 +34,9 @@ def split(pattern: str) -> tuple[str, ...]:
         at = match.end()
     if at < len(text) or not parts or text.endswith("."):
         raise BadInput(
-            f"{pattern!r} is no key", allowed="names and numbers with dots, as legs.left.x_3"
+            f"{pattern!r} is no key",
+            allowed="names and numbers with dots, as legs.left.x_3; values are in its unit, "
+            "which isn't named",
         )
     return tuple(parts)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,14 +11,19 @@ from numpy.typing import NDArray
 
 from thesis_pin.display.brief import Brief
 from thesis_pin.display.cell import Cell
+from thesis_pin.model.limits import Key
 from thesis_pin.sweep.chosen.pareto import Aim, front, read_aims, usual_aims
 from thesis_pin.sweep.chosen.wishes import Term, misses, ranked, read_wish
+from thesis_pin.sweep.designs.keys import leaves
 from thesis_pin.sweep.designs.making import Designs
 from thesis_pin.sweep.result import Effort, Sweep
 from thesis_pin.sweep.study import Study
 
 ROOM = 160
 """Letters of a reason that is told; rows keep more of it."""
+
+MOTION = ("gait", "plan", "path", "place", "limits")
+"""What keys of the motion begin with; all others are of the specification."""
 
 SHOWN = 12
 """Designs that a table shows."""
@@ -127,7 +132,20 @@ class Choice(Brief):
             said.append(
                 f"A mistake of ours or a process that died is among the reasons: {mistakes[0]}."
             )
+        if self._masses_kept:
+            said.append(
+                "Note: only what is named varies. Masses and inertias stay those of the "
+                "specification, also of longer links and stronger motors."
+            )
         return said
+
+    @property
+    def _masses_kept(self) -> bool:
+        """Whether a robot that weighs something varies, and nothing that weighs."""
+        sweep = self.sweep
+        varied = [key for one in sweep.designs.parameters for key in one.keys]
+        robot = [key for key in varied if key[0] not in MOTION]
+        return bool(robot) and _weighs(leaves(sweep.study.base)) and not _weighs(robot)
 
     def _why(self) -> str:
         if self.terms:
@@ -143,6 +161,10 @@ class Choice(Brief):
         ]
         heads = ("design", *names)
         return Cell("Sweep", self.sentences(), bool(self.sweep.feasible.any()), heads, rows)
+
+
+def _weighs(keys: Iterable[Key]) -> bool:
+    return any(part in ("mass", "inertia") for key in keys for part in key)
 
 
 def shown(value: object) -> str:

@@ -106,7 +106,9 @@ def summary(study: AccuracyNumbers) -> Iterator[Part]:
 
 def notes(study: AccuracyNumbers) -> list[str]:
     """What was chosen, and what the numbers rest on."""
-    ways = sorted({one.distribution for one in study.allowed.each})
+    ways: dict[str, dict[str, None]] = {}
+    for one in study.allowed.each:
+        ways.setdefault(one.distribution, {})[one.parameter.kind] = None
     said = {
         "uniform": "anything within a tolerance is as likely",
         "normal": "a tolerance is three standard deviations",
@@ -115,11 +117,16 @@ def notes(study: AccuracyNumbers) -> list[str]:
     named = len({one.parameter.column for one in study.allowed.each})
     found = [*study.allowed.notes, *(study.path.notes if study.path is not None else ())]
     if study.draws is not None:
-        found.append(f"drawn robots: {'; '.join(said[way] for way in ways)}")
+        drawn = [
+            said[way] + (f" ({', '.join(map(_WORDS.__getitem__, kinds))})" if len(ways) > 1 else "")
+            for way, kinds in sorted(ways.items())
+        ]
+        found.append(f"drawn robots: {'; '.join(drawn)}")
     if study.allowed.source != "default":
         found.append(
             f"{named} of {len(COLUMNS)} numbers of the robot have a tolerance "
-            f"({study.allowed.source}); the others are taken as exact"
+            f"({study.allowed.source})"
+            f"{'; the others are taken as exact' if named < len(COLUMNS) else ''}"
         )
     return found
 

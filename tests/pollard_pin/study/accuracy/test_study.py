@@ -1,6 +1,7 @@
 """Errors along the thesis's curve and over a workspace, against figures worked out elsewhere."""
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -219,3 +220,20 @@ def test_where_both_worst_cases_are_one_number_it_is_said_once(pollard):
     little = tolerances([Rule("lengths", 0.001, "mm")])
     said = path_accuracy(pollard, path, little, draws=0, samples=21).verdict()
     assert "what is linear goes" not in " ".join(said)
+
+
+def test_notes_say_which_kinds_are_drawn_how_and_name_no_exact_ones_where_none_are(pollard):
+    from pollard_pin.study.accuracy.told.tables import notes
+
+    path = pollard_pin.appendix_b(pollard.specification)
+    allowed = pollard_pin.read_tolerances(
+        Path(__file__).parents[4] / "examples" / "tolerances.toml"
+    )
+    said = notes(path_accuracy(pollard, path, allowed, draws=1, samples=11))
+    (drawn_how,) = (one for one in said if one.startswith("drawn robots"))
+    assert "as likely (encoders)" in drawn_how
+    assert "at one end or the other (play)" in drawn_how
+    assert "standard deviations (lengths, " in drawn_how
+    (counted,) = (one for one in said if "have a tolerance" in one)
+    assert counted.startswith("56 of 56")
+    assert "exact" not in counted

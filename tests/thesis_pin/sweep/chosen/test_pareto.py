@@ -60,8 +60,8 @@ def test_aims_go_the_way_that_is_better_or_that_is_said():
 @pytest.mark.parametrize(
     ("text", "error", "why"),
     [
-        ("depth", BadInput, "two or three"),
-        ("depth,depth", BadInput, "two or three"),
+        ("depth", BadInput, "names 1 column"),
+        ("depth,depth", BadInput, "two or three different"),
         ("depth,width,min:x,good", BadInput, "which way good is better"),
         ("depth,x", BadInput, "min:x or max:x"),
         ("depth,colour", BadInput, "holds texts"),

@@ -25,11 +25,12 @@ def choice():
 
 
 def test_the_answer_says_how_many_keep_their_limits_and_which_is_best(choice):
-    first, why, best, odd = choice.sentences()
+    first, why, best, odd, kept = choice.sentences()
     assert first == "6 of 12 designs keep every limit (good)."
     assert "4 couldn't be judged: 4 impossible, x = 0.25 is no bowl" in why
     assert best.endswith("the one with the least depth is design 6: x = 1, kind = round.")
     assert odd == "2 of 12 designs have warnings, which stand in their rows."
+    assert kept.startswith("Note: only what is named varies.")
 
 
 def test_what_the_chosen_design_is_warned_of_is_said_with_it():
