@@ -32,6 +32,7 @@ from pollard_pin.motion.orientation import named_alike
 from pollard_pin.motion.path import Curve, ToolPath
 from pollard_pin.motion.samples import along_curves, continued
 from thesis_pin.errors import TrajectoryError
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.specification import Key, NotNegative, Strict, Vector3
 from thesis_pin.numeric.interpolation import free_quintic
 from thesis_pin.timing.law import Law
@@ -156,15 +157,17 @@ def _curve(name: str, way: Array, position: Array, written: Array) -> Curve:
     return Curve(float(way[-1]), path.function)
 
 
-def law_toml(name: str, chain: Chain, law: Law) -> str:
+def law_toml(name: str, chain: Chain, law: Law, made_for: MadeFor | None = None) -> str:
     """A path in this form; what is read from it is the same to 10 nm and 0.02 % of its bends.
 
     Args:
         name: Its name.
         chain: Its geometry.
         law: Over the chain's parameter.
+        made_for: The robot whose motors it is the law for; None says nothing.
     """
-    lines = ["format = 1", f"name = {json.dumps(name)}", "", "[law]"]
+    lines = ["format = 1", f"name = {json.dumps(name)}"]
+    lines += [*([made_for.toml] if made_for else []), "", "[law]"]
     lines += [f"time = {_listed(law.time)}", f"rate = {_listed(law.rate)}"]
     for k in range(len(chain.curves)):
         way, poses = _nodes(name, chain, k)

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from pollard_pin.coordinates import pose_from_placement, pose_rates, tool_motion
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import TrajectoryError, WrongShape
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples, blocks
@@ -146,6 +147,7 @@ class ToolPath(Brief):
             as far as anybody knows.
         curves: Its geometry in smooth pieces, one after the other; none where it is known only
             over time.
+        made_for: The robot it was made for; None where nothing says.
     """
 
     name: str
@@ -155,6 +157,7 @@ class ToolPath(Brief):
     notes: tuple[str, ...] = ()
     variants: Variants | None = None
     curves: tuple[Curve, ...] = ()
+    made_for: MadeFor | None = None
 
     def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""

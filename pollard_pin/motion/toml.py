@@ -25,6 +25,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -39,6 +40,7 @@ from pollard_pin.motion.orientation import turns
 from pollard_pin.motion.path import PEAK, Timing, ToolPath
 from pollard_pin.motion.samples import through_orientations
 from thesis_pin.errors import BadInput, TrajectoryError
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.specification import Key, Positive, Strict, Vector3, read_toml
 from thesis_pin.tables.orientations import (
     check_order,
@@ -139,6 +141,7 @@ class PathFile(Strict):
     segments: tuple[Annotated[Line | Arc, Field(discriminator="kind")], ...] = ()
     law: LawTable | None = None
     pieces: tuple[Piece, ...] = ()
+    made_for: MadeFor | None = None
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Poses or segments, not both; time goes forwards, or a speed gives it."""
@@ -232,10 +235,12 @@ def path_of(content: PathFile) -> ToolPath:
         TrajectoryError: Its poses, segments or pieces make no motion.
     """
     if content.law is not None:
-        return lawful(content.name, content.law, content.pieces)
-    if content.poses:
-        return _through(content)
-    return joined(_segments(content), name=content.name)
+        path = lawful(content.name, content.law, content.pieces)
+    elif content.poses:
+        path = _through(content)
+    else:
+        path = joined(_segments(content), name=content.name)
+    return replace(path, made_for=content.made_for)
 
 
 def _through(content: PathFile) -> ToolPath:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
@@ -28,6 +29,7 @@ from pollard_pin.report.numbers import TrajectoryNumbers
 from pollard_pin.report.uncertainty.document import uncertainty
 from pollard_pin.specification import ACTUATOR_NAMES, ACTUATOR_SYMBOLS, JOINT_NAMES, JOINT_SYMBOLS
 from thesis_pin.display.cell import Cell
+from thesis_pin.errors import ModelWarning
 from thesis_pin.numeric.checks import choice, function, instance
 from thesis_pin.numeric.elementwise import blocks
 from thesis_pin.numeric.workers import silent
@@ -78,6 +80,13 @@ class TrajectoryReport(TrajectoryNumbers):
         from pollard_pin.report.reason import reason
 
         return reason(self)
+
+    @cached_property
+    def foreign(self) -> tuple[str, ...]:
+        """What has to be said where the path was made for another robot."""
+        whose = self.path.made_for
+        what = f"path {self.path.name!r}"
+        return () if whose is None else whose.against(self.robot.specification, what)
 
     def doubts(self) -> list[str]:
         """What is to be asked before the numbers are believed."""
@@ -157,7 +166,7 @@ class TrajectoryReport(TrajectoryNumbers):
             "parameters": self.parameters,
             "assumptions": self.assumptions(),
             "summary": self.summary(),
-            "notes": list(self.path.notes),
+            "notes": [*self.path.notes, *self.foreign],
             "uncertainty": uncertainty(self.headlines, self.drawn, self.path.variants),
         }
         if self.three is not None:
@@ -293,6 +302,8 @@ def trajectory_report(
         way = Way(robot, branch, three is not None)
         report = replace(report, drawn=drawn(way, motion, joints, _extremes(report)))
     progress(4, 4)
+    for one in report.foreign:
+        warnings.warn(one, ModelWarning, stacklevel=2)
     return report
 
 

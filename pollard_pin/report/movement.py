@@ -57,7 +57,7 @@ def path_movement(
         ACTUATOR_NAMES,
         lambda: joints().q[:, motors],
         states,
-        lambda units: path_toml(path.name, motion),
+        lambda units: path_toml(path.name, motion, path.made_for),
     )
 
 

@@ -78,7 +78,7 @@ def summary(report: TrajectoryReport) -> Iterator[Part]:
         yield open_table(report.headlines)
     yield from (
         "",
-        *(f"Warning: {one}." for one in report.doubts()),
+        *(f"Warning: {one}." for one in (*report.foreign, *report.doubts())),
         *report.verdict(),
         *(f"Note: {note}." for note in report.path.notes),
         "",

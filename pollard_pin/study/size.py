@@ -50,5 +50,8 @@ def loads_of(report: TrajectoryReport) -> Loads:
         gathered(count, joints.part, lambda part: part.v[:, ACTUATORS]),
         gathered(count, joints.part, lambda part: part.a[:, ACTUATORS]),
         report.robot.specification.motors.armature(),
-        [] if held is None else resolution_notes(ACTUATOR_NAMES, held.peak_torque),
+        [
+            *(f"{one[0].upper()}{one[1:]}." for one in report.foreign),
+            *([] if held is None else resolution_notes(ACTUATOR_NAMES, held.peak_torque)),
+        ],
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from thesis_pin.command.results import put, write_results
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.text import say
 from thesis_pin.command.warned import warned
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.report.plotting.wanted import Wanted, written_as
 from thesis_pin.report.writers import csv_bytes, json_bytes
 
@@ -59,7 +61,10 @@ def place(arguments: argparse.Namespace, branch: Branch, curve: Curve) -> ExitCo
             report = trajectory_report(space.robot, space.best_path, branch=space.best[0].branch)
         wanted = arguments.json or arguments.out
         content = json_bytes(document(space, report)) if wanted else b""
-        files = _files(space, report, content, style) if arguments.out else {}
+        files = {}
+        if arguments.out:  # for the robot as it is, whichever limits were asked for
+            own = MadeFor.of(Specification.read(arguments.specification))
+            files = _files(space, report, content, style, own)
         if arguments.html:
             from pollard_pin.study.placement.page import placements_page
 
@@ -83,6 +88,7 @@ def _search(
     robot = load(arguments.specification, inertia=arguments.inertia)
     robot = with_limits(robot, arguments.torque, arguments.speed)
     path, _ = curve(robot.specification, _NOWHERE)
+    path = replace(path, made_for=None)  # other limits make no other robot
     usual = robot.specification.assumptions.placement.position
     now = usual if arguments.path is None else _NOWHERE
     x, y, z = _ranges(arguments, now)
@@ -123,23 +129,27 @@ def _ranges(arguments: argparse.Namespace, now: Sequence[float]) -> list[np.ndar
 
 
 def _files(
-    space: Placements, report: TrajectoryReport | None, content: bytes, style: Wanted
+    space: Placements,
+    report: TrajectoryReport | None,
+    content: bytes,
+    style: Wanted,
+    own: MadeFor,
 ) -> dict[str, bytes]:
     from pollard_pin.study.placement.figures import placements_files
 
     files = {"placements.csv": csv_bytes(columns(space)), "placements.json": content}
     if report is not None:
-        files["path.toml"] = _path_file(space.best[0], report).encode()
+        files["path.toml"] = _path_file(space.best[0], report, own).encode()
     with written_as(style):
         return files | placements_files(space)
 
 
-def _path_file(best: Found, report: TrajectoryReport) -> str:
+def _path_file(best: Found, report: TrajectoryReport, own: MadeFor) -> str:
     """The path at the best placement: with the law that was found, or through its samples."""
     if best.law is None:
         from pollard_pin.motion.writing import path_toml
 
-        return path_toml(report.path.name, report.motion)
+        return path_toml(report.path.name, report.motion, own)
     from pollard_pin.motion.law_file import law_toml
 
-    return law_toml(report.path.name, best.law.course.track.chain, best.law.law)
+    return law_toml(report.path.name, best.law.course.track.chain, best.law.law, own)

@@ -62,6 +62,8 @@ def _lines(gait: Gait, header: Sequence[str], units: WrittenUnits) -> Iterator[s
         yield "cycle = true"
     if gait.branch:
         yield f"branch = {_text(gait.branch)}"
+    if gait.made_for:
+        yield gait.made_for.toml
     for body in BODIES:
         yield from ("", f"[{body}]")
         for name, curve in zip(POSE_NAMES, gait.curves[body], strict=True):

@@ -18,6 +18,7 @@ from scout_pin.motion.gait import BODIES, Gait
 from scout_pin.specification import BranchKeys
 from thesis_pin.errors import BadInput, TrajectoryError, UnknownName
 from thesis_pin.model.limits import LIMITS, Key
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.shipped import read_shipped
 from thesis_pin.model.strict import Held, Positive, Strict
 from thesis_pin.numeric.checks import choice
@@ -95,6 +96,7 @@ class GaitFile(BranchKeys):
     left_foot: BodyCurves
     right_foot: BodyCurves
     phases: Annotated[tuple[Phase, ...], Held(min_length=1, max_length=LIMITS.phases)]
+    made_for: MadeFor | None = None
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Phases follow each other; segments do, with as many values as nodes."""
@@ -250,6 +252,7 @@ def gait_of(file: GaitFile, interpolation: str | None = None) -> Gait:
         file.phases,
         cycle=file.cycle,
         branch=file.branch_asked,
+        made_for=file.made_for,
     )
 
 

@@ -22,6 +22,7 @@ from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, Phased, check_stance
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import TrajectoryError, WrongShape
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.numeric.arrays import ascending, finite_array
 from thesis_pin.numeric.checks import choice, real, whole
 from thesis_pin.numeric.elementwise import LONG, Samples, blocks
@@ -116,6 +117,7 @@ class Gait(Phased):
         variants: What samples of finite resolution leave open; None if the curves are
             exact, as far as anybody knows.
         rows: Where its samples stand in their file; None if it has none.
+        made_for: The robot it was made for; None where nothing says.
     """
 
     name: str
@@ -129,6 +131,7 @@ class Gait(Phased):
     branch: str | None = None
     variants: Variants | None = None
     rows: Rows | None = None
+    made_for: MadeFor | None = None
 
     def support(self, t: np.ndarray) -> np.ndarray:
         """Feet in support at times t, left then right: ``(n,)`` → booleans ``(n, 2)``.

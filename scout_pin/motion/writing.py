@@ -117,6 +117,7 @@ def gait_toml(gait: Gait, t: np.ndarray, units: WrittenUnits) -> str:
         'interpolation = "free"',
         *(["cycle = true"] if gait.cycle else []),
         *([f"branch = {json.dumps(gait.branch)}"] if gait.branch else []),
+        *([gait.made_for.toml] if gait.made_for else []),
     ]
     nodes = ", ".join(map(repr, time.tolist()))
     for body in BODIES:

@@ -97,6 +97,13 @@ class GaitReport(GaitNumbers):
 
         return reason(self)
 
+    @cached_property
+    def foreign(self) -> tuple[str, ...]:
+        """What has to be said where the gait was made for another robot."""
+        whose = self.gait.made_for
+        what = f"gait {self.gait.name!r}"
+        return () if whose is None else whose.against(self.robot.specification, what)
+
     def doubts(self) -> list[str]:
         """What is to be asked before the numbers are believed."""
         return self._doubts
@@ -162,7 +169,7 @@ class GaitReport(GaitNumbers):
             "admissible": self.dynamics.admissible,
             "parameters": self.parameters,
             "assumptions": self.assumptions(),
-            "notes": list(self.gait.notes),
+            "notes": [*self.gait.notes, *self.foreign],
             "summary": self.summary(),
             "uncertainty": uncertainty(self.headlines, self.drawn, self.gait.variants),
         }
@@ -296,6 +303,8 @@ def gait_report(
         drawn=draws,
     )
     progress(4, 4)
+    for one in report.foreign:
+        warnings.warn(one, ModelWarning, stacklevel=2)
     if report.stance.tied:
         warnings.warn(report.stance.sentence(), ModelWarning, stacklevel=2)
     return report

@@ -79,7 +79,7 @@ def summary(report: GaitReport) -> Iterator[Part]:
         from scout_pin.report.uncertainty.document import open_table
 
         yield open_table(report.headlines)
-    yield from ("", *(f"Warning: {one}." for one in report.doubts()))
+    yield from ("", *(f"Warning: {one}." for one in (*report.foreign, *report.doubts())))
     yield from (*report.verdict(), *(f"Note: {note}." for note in report.gait.notes))
     yield from (f"Warning: {one}" for one in implausible(s.specification))
 

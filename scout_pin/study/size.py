@@ -41,5 +41,9 @@ def loads_of(report: GaitReport) -> Loads:
         gathered(count, joints.part, lambda part: part.v),
         gathered(count, joints.part, lambda part: part.a),
         report.robot.specification.armature(),
-        [SHARING, *([] if held is None else resolution_notes(JOINT_NAMES, held.peak_torque))],
+        [
+            *(f"{one[0].upper()}{one[1:]}." for one in report.foreign),
+            SHARING,
+            *([] if held is None else resolution_notes(JOINT_NAMES, held.peak_torque)),
+        ],
     )

@@ -30,7 +30,7 @@ def page_of(report: TrajectoryReport) -> Page:
         f"{report.robot.inertia} inertias, {len(report.joints.time)} samples",
         good=report.within_limits,
         verdict=[
-            *(f"Warning: {one}." for one in report.doubts()),
+            *(f"Warning: {one}." for one in (*report.foreign, *report.doubts())),
             *report.verdict(),
             *(f"Note: {note}." for note in report.path.notes),
         ],

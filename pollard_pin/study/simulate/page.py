@@ -28,7 +28,7 @@ def simulation_page(simulation: Simulation) -> bytes:
             title=f"{report.robot.specification.name.capitalize()}: {report.path.name}, simulated",
             subtitle=f"{report.path.duration:.4g} s, {how(simulation)}",
             good=simulation.passed,
-            verdict=simulation.verdict(),
+            verdict=[*(f"Warning: {one}." for one in report.foreign), *simulation.verdict()],
             tiles=_tiles(simulation),
             plots=plots(simulation),
             tables=[

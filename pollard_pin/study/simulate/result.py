@@ -160,6 +160,7 @@ class Simulation(Tally):
             "joints": list(JOINT_NAMES),
             "parameters": self.parameters,
             "summary": self.summary(),
+            "notes": list(self.report.foreign),
             "draws": [
                 _draw(k, one, asked)
                 for k, (one, asked) in enumerate(zip(self.draws, self.tries, strict=True))

@@ -64,6 +64,7 @@ def summary(simulation: Simulation) -> Iterator[Part]:
     )
     yield from draws_tables(simulation.spread)
     yield ""
+    yield from (f"Warning: {one}." for one in simulation.report.foreign)
     yield from simulation.verdict()
     if not simulation.conditions.open_loop and simulation.conditions.damping is None:
         yield "Damping wasn't given: it is critical for the inertia each motor feels at the start."

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pollard_pin.motion.law_file import law_toml
 from pollard_pin.motion.path import ToolPath
 from pollard_pin.study.timing.course import Course
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.sizing.smallest.answer import Answer
 from thesis_pin.timing.law import Law
 
@@ -40,13 +41,11 @@ class PathAnswer(Answer):
 
     def files(self) -> dict[str, bytes]:
         """The path with each law, as ``pollard-pin trajectory --path`` reads it."""
-        return (
-            {}
-            if self.course is None
-            else {
-                f"path-{name}.toml": law_toml(
-                    f"{self.course.path.name}, {name}", self.course.track.chain, law
-                ).encode()
-                for name, law in self.laws.items()
-            }
-        )
+        if self.course is None:
+            return {}
+        own, chain = MadeFor.of(self.course.robot.specification), self.course.track.chain
+        name = self.course.path.name
+        return {
+            f"path-{kind}.toml": law_toml(f"{name}, {kind}", chain, law, own).encode()
+            for kind, law in self.laws.items()
+        }

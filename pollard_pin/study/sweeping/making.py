@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import cast
@@ -15,7 +16,7 @@ from pollard_pin.specification import Specification
 from pollard_pin.study.sweeping.paths import LIMITS, MEASURES, PATH, PLACE, PathStudy
 from pollard_pin.study.sweeping.times import BOUNDS, TimeStudy
 from pollard_pin.study.timing.timed import AIMS, Aim
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.limits import LIMITS as READ
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.source import read_bytes
@@ -177,7 +178,12 @@ def base_and_path(
     base[PLACE] = place
     made = load_path(path, euler=euler, feed=feed, timing=timing, smooth=smooth)
     if Path(path).suffix.lower() == ".toml":
-        base[PATH] = read_toml("path", PathFile, path).model_dump(mode="json")
+        if made.made_for is not None:
+            for one in made.made_for.against(specification, f"path {made.name!r}"):
+                warnings.warn(one, ModelWarning, stacklevel=2)
+        values = read_toml("path", PathFile, path).model_dump(mode="json")
+        del values["made_for"]  # designs are other robots
+        base[PATH] = values
         return base, None, ""
     content = hashlib.sha256(read_bytes("path", path, READ.csv_bytes)).hexdigest()
     return base, made, f"{content} {euler} {feed} {timing} {smooth}"

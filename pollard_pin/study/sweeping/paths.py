@@ -21,6 +21,7 @@ from pollard_pin.specification import ACTUATOR_NAMES, Specification
 from pollard_pin.study.smallest.asking import smallest_motors
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, ModelWarning
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
 from thesis_pin.numeric.checks import real
@@ -277,5 +278,7 @@ def written(
         said.append(f"Its path is put elsewhere: {flags}{' --mirror' * place.mirrored}")
     files = {"best.toml": toml(_own(parts), said)}
     if parts.get(PATH) is not base.get(PATH):
-        files["best_path.toml"] = toml(cast(Mapping[str, object], parts[PATH]), said)
+        whose = validate("specification", Specification, _own(parts), where=DESIGN)
+        path = {**cast(Mapping[str, object], parts[PATH])}
+        files["best_path.toml"] = toml(path | {"made_for": MadeFor.of(whose).model_dump()}, said)
     return {name: text.encode() for name, text in files.items()}

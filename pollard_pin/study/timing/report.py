@@ -17,6 +17,7 @@ from pollard_pin.study.timing.timed import TimedPath
 from pollard_pin.study.timing.verdict import verdict
 from thesis_pin.display.brief import Brief
 from thesis_pin.display.cell import Cell
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.numeric.checks import instance
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report.info import assumptions
@@ -56,7 +57,9 @@ class TimeReport(Brief):
     @property
     def path_file(self) -> str:
         """The path with its law, as ``pollard-pin trajectory --path`` reads it."""
-        return law_toml(self.timed.path.name, self.timed.course.track.chain, self.timed.law)
+        timed = self.timed
+        own = MadeFor.of(timed.course.robot.specification)
+        return law_toml(timed.path.name, timed.course.track.chain, timed.law, own)
 
     @cached_property
     def shares(self) -> dict[str, float]:

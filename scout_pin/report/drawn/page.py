@@ -35,7 +35,7 @@ def page_of(report: GaitReport) -> Page:
         f"{len(report.joints.time)} samples. {report.gait.source}",
         good=report.within_limits,
         verdict=[
-            *(f"Warning: {one}." for one in report.doubts()),
+            *(f"Warning: {one}." for one in (*report.foreign, *report.doubts())),
             *report.verdict(),
             *(f"Note: {note}." for note in report.gait.notes),
             *(f"Warning: {one}" for one in implausible(report.robot.specification)),

@@ -31,6 +31,7 @@ from scout_pin.study.plan.limits import Worst
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.way import Way
 from thesis_pin.display.brief import Brief
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.numeric.checks import function, instance
 from thesis_pin.numeric.workers import silent
 from thesis_pin.report.branches import label
@@ -102,6 +103,7 @@ class CyclePlan(Brief):
             phases=phases(pace),
             cycle=True,
             branch=",".join(names),
+            made_for=MadeFor.of(self.robot.specification),
         )
 
 

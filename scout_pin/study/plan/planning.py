@@ -155,7 +155,7 @@ def walk(cycle: CyclePlan, start: Transition, stop: Transition, steps: int) -> G
     between = _joined(between, first, FIRST)
     end = _joined(stop.course.stretch(stop.free), between, last)
     gait = chained("walk", origin(cycle), [first, between, end])
-    return replace(gait, branch=cycle.gait.branch)
+    return replace(gait, branch=cycle.gait.branch, made_for=cycle.gait.made_for)
 
 
 def _joined(later: Stretch, earlier: Stretch, side: str) -> Stretch:

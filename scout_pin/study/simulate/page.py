@@ -33,7 +33,7 @@ def simulation_page(simulation: Simulation) -> bytes:
             "simulated",
             subtitle=f"{how(simulation)}. {simulation.start}",
             good=simulation.passed,
-            verdict=simulation.verdict(),
+            verdict=[*(f"Warning: {one}." for one in report.foreign), *simulation.verdict()],
             tiles=_tiles(simulation),
             plots=plots(simulation),
             tables=[

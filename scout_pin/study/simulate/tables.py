@@ -71,4 +71,5 @@ def summary(simulation: Simulation) -> Iterator[Part]:
     yield from draws_tables(simulation.spread)
     yield f"{how(simulation)}."
     yield simulation.start
+    yield from (f"Warning: {one}." for one in simulation.report.foreign)
     yield from simulation.verdict()

@@ -18,6 +18,7 @@ from scout_pin.specification import JOINT_NAMES, Specification
 from scout_pin.study.smallest.asking import smallest_motors
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput, ModelWarning
+from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
 from thesis_pin.sweep.designs.text import toml
@@ -197,7 +198,9 @@ class GaitStudy(Brief):
         parts = cast(Mapping[str, object], data)
         files = {"best.toml": specification_text(parts, notes)}
         if parts.get(GAIT) is not self.base.get(GAIT):
-            files["best_gait.toml"] = toml(cast(Mapping[str, object], parts[GAIT]), notes)
+            own = MadeFor.of(specification_of(parts)).model_dump()
+            gait = {**cast(Mapping[str, object], parts[GAIT]), "made_for": own}
+            files["best_gait.toml"] = toml(gait, notes)
         return {name: text.encode() for name, text in files.items()}
 
 

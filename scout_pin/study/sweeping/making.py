@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +16,7 @@ from scout_pin.study.plan.planning import LEAST_SAMPLES
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.sweeping.gaits import GAIT, MEASURES, PLAN, GaitStudy
 from scout_pin.study.sweeping.plans import PlanStudy, request_of
-from thesis_pin.errors import BadInput, UnknownName
+from thesis_pin.errors import BadInput, ModelWarning, UnknownName
 from thesis_pin.model.limits import LIMITS
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.shipped import read_shipped
@@ -70,7 +71,15 @@ def gait_study(
     base = _data(specification)
     file = _gait_file(gait)
     if file is not None:
+        if file.made_for is not None:
+            robot = specification
+            if not isinstance(robot, Specification):
+                robot = Specification.read(robot)
+            for one in file.made_for.against(robot, f"gait {file.name!r}"):
+                warnings.warn(one, ModelWarning, stacklevel=2)
+            file = file.model_copy(update={"made_for": None})  # designs are other robots
         values = file.model_dump(mode="json") | {"cycle": file.cycle or cycle}
+        del values["made_for"]
         if time_unit is not None:
             values["time_unit"] = float(time_unit)
         base = {**base, GAIT: values}
