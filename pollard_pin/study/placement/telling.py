@@ -9,6 +9,7 @@ import numpy as np
 
 from pollard_pin.kinematics.geometry import DEFAULT_BRANCH
 from pollard_pin.report.document import TrajectoryReport
+from pollard_pin.report.judged.limits import CONDITION_BOUNDS, distance_class
 from pollard_pin.specification import ACTUATOR_SYMBOLS
 from pollard_pin.study.placement.objectives import WORDS
 from pollard_pin.study.placement.result import Found, PlacementNumbers
@@ -88,6 +89,14 @@ def sentences(space: PlacementNumbers) -> Iterator[str]:
         yield (
             "Warning: on this branch the arms of chains 1 and 2 cross, seen from above; whether "
             "they touch depends on how they are built."
+        )
+    best = space.best[0]
+    if not distance_class(np.array([best.margin]), np.array([best.condition]))[0]:
+        yield (
+            f"Warning: the best nearly touches a singularity (reach margin {best.margin:z.3f}, "
+            f"condition number {best.condition:.1f}), where small errors grow large: --for "
+            f"clearance stays far from all, --condition {CONDITION_BOUNDS[-1]:g} leaves out where "
+            "motors hold the tool badly."
         )
     if ends := space.at_ends:
         yield (

@@ -19,7 +19,7 @@ from pollard_pin.study.placement.judged import ARMS, FOLLOWED, REASONS, arms_cro
 from pollard_pin.study.placement.limits import with_limits
 from pollard_pin.study.placement.pacing import played
 from pollard_pin.study.placement.search import evaluate_placements
-from pollard_pin.study.placement.telling import best_table, flags, told
+from pollard_pin.study.placement.telling import best_table, flags, sentences, told
 from thesis_pin.errors import BadInput, ThesisPinError
 from thesis_pin.report.writers import csv_bytes, json_bytes
 
@@ -328,3 +328,16 @@ def test_other_limits_change_nothing_else(pollard):
     np.testing.assert_array_equal(
         other.inverse_kinematics([0.45, 0.02, 0.05, 0.1, 0.0, 0.0]).angles, q
     )
+
+
+def test_a_best_place_that_nearly_touches_a_singularity_is_warned_of_and_another_is_not(found):
+    best = found.best[0]
+    for margin, condition, warned in (
+        (0.049, 20.0, True),
+        (0.3, 101.0, True),
+        (0.051, 99.0, False),
+    ):
+        near = copy.deepcopy(best)
+        near.judged.margin[0], near.judged.condition[0] = margin, condition
+        text = " ".join(sentences(dataclasses.replace(found, best=(near, *found.best[1:]))))
+        assert ("nearly touches a singularity" in text) is warned
