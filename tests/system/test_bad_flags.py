@@ -18,7 +18,7 @@ FLAGS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "flag"), FLAGS, ids=" ".join)
+@pytest.mark.parametrize(("name", "flag"), FLAGS, ids=map(" ".join, FLAGS))
 def test_hopeless_values_are_refused_before_anything_is_written(
     name, flag, tmp_path, monkeypatch, capfd
 ):

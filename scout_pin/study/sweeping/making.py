@@ -59,13 +59,15 @@ def gait_study(
             :data:`scout_pin.study.sweeping.gaits.MEASURES`.
 
     Raises:
-        BadInput: A file can't be read, or the gait is of joint angles, which belong to one robot.
+        BadInput: A file can't be read, ``smooth`` is no resolution, or the gait is of joint
+            angles, which belong to one robot.
         UnknownName: There is no such measure.
     """
     chosen(MEASURES, extra)
     branch_words(branch)
     whole("samples", samples, 2)
     whole("repeat", repeat, 1)
+    how = stated(smooth)  # also of a gait in TOML, which has no samples
     base = _data(specification)
     file = _gait_file(gait)
     if file is not None:
@@ -88,7 +90,7 @@ def gait_study(
         made = _sampled(gait, interpolation, smooth, time_unit)
         made = replace(made, cycle=made.cycle or cycle)
         content = read_bytes("gait", gait, LIMITS.csv_bytes)
-        motion = f"{stated(smooth)} {hashlib.sha256(content).hexdigest()}"
+        motion = f"{how} {hashlib.sha256(content).hexdigest()}"
     return GaitStudy(
         base, made, samples, inertia, branch, repeat, interpolation, tuple(extra), motion
     )

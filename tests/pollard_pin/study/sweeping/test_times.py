@@ -33,7 +33,8 @@ def test_a_row_is_to_the_bit_what_the_solver_finds_for_the_design(tmp_path):
     assert cells["duration"] == found.duration
     assert cells["within_limits"] is found.within_limits is True
     assert cells["torque_use"] == found.largest_torque_share
-    assert cells["tool_speed"] == pytest.approx(1.5, rel=1e-6)
+    # The law leaves a thousandth of every limit (docs/timing.md).
+    assert cells["tool_speed"] == pytest.approx(1.5 * 0.999, rel=1e-6)
     assert "tool_speed = 1.5" in files["best.toml"].decode().split("format = 1")[0]
 
 
