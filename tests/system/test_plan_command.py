@@ -10,10 +10,12 @@ from commands import run
 
 import scout_pin
 from scout_pin.motion.files import load_gait
+from scout_pin.specification import Specification
 from scout_pin.study.plan import planning
 from scout_pin.study.plan.results.result import Plan
 from scout_pin.verbs import planned
 from thesis_pin.errors import CannotWrite
+from thesis_pin.model.made_for import MadeFor
 
 PLAN = "scout-pin plan"
 WORDS = ["plan", "--steps", "1", "--margin", "8"]
@@ -52,6 +54,7 @@ def test_what_is_written_is_judged_well_by_the_other_commands(tmp_path, capfd):
     for name in ("walk.toml", "cycle.toml"):
         judge = ["gait", "--gait", str(out / name), "--samples", "801", "--strict"]
         assert run("scout-pin gait", judge, capfd)[0] == 0
+        assert load_gait(out / name).made_for == MadeFor.of(Specification.read())
     head = (out / "walk.toml").read_text(encoding="utf-8").splitlines()[0]
     assert head == "# Made by: scout-pin plan --margin 8 --steps 1"
 
