@@ -12,8 +12,6 @@ import shlex
 import tempfile
 from pathlib import Path
 
-from viewer_pictures import lighten
-
 import scout_pin
 from scout_pin.cli import main
 from scout_pin.motion.files import load_gait
@@ -46,6 +44,8 @@ def make() -> None:
 
 def picture() -> None:
     """Draw the README's."""
+    from viewer_pictures import lighten  # beside this script, which tests read from elsewhere
+
     gait = load_gait(EXAMPLES / f"{PICTURED}.toml")
     report = scout_pin.gait_report(scout_pin.load(), gait, samples=801)
     figure = panels([[curves.plan(report), curves.stability_margin(report)]], 11, 5)

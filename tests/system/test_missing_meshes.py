@@ -38,7 +38,13 @@ def files(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("shapes", "bars", "bodies"), [((GONE,), True, 0), ((GONE, BOX), False, 1), ((BOX,), False, 1)]
+    ("shapes", "bars", "bodies"),
+    [
+        ((GONE,), True, 0),
+        ((GONE, BOX), True, 1),  # one of four joints has a shape: that alone shows no robot
+        ((GONE, BOX, BOX), False, 2),
+        ((BOX,), False, 1),
+    ],
 )
 def test_what_is_there_is_drawn_and_what_is_not_is_said(shapes, bars, bodies, files):
     urdf, closures, motion = files(*shapes)

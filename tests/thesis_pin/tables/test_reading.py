@@ -117,9 +117,9 @@ def test_a_comment_that_names_other_columns_is_believed_before_the_order(tmp_pat
     assert found.header == ("x", "t")
 
 
-@pytest.mark.parametrize("more", ["", ",5"])
-def test_a_line_of_another_width_is_refused_with_its_number(tmp_path, more):
-    with pytest.raises(BadInput, match=rf"a\.csv:3: {1 + 2 * len(more) // 2} cells; allowed: 2"):
+@pytest.mark.parametrize(("more", "told"), [("", "1 cell"), (",5", "3 cells")])
+def test_a_line_of_another_width_is_refused_with_its_number(tmp_path, more, told):
+    with pytest.raises(BadInput, match=rf"a\.csv:3: {told}; allowed: 2"):
         table(tmp_path, f"t,x\n0,1\n1{more}{more}\n")
 
 

@@ -10,6 +10,7 @@ from plotted import assert_arrives
 import scout_pin
 from scout_pin.report.drawn import curves
 from scout_pin.report.drawn.figures import NUMBERS, figures
+from thesis_pin.pages.alignment import by_time
 from thesis_pin.pages.beside import overlaid_plots
 
 WALK = Path(__file__).parents[4] / "examples" / "walk.toml"
@@ -92,7 +93,8 @@ def test_every_figure_comes_as_png_and_svg(report):
 
 
 def test_beside_another_gait_no_plot_tells_the_legs_by_dots(report, plots):
-    both = overlaid_plots(plots.values(), list(plots.values()), ("one", "two"))
+    alignment = by_time(report.motion.time, report.motion.time)
+    both = overlaid_plots(plots.values(), list(plots.values()), ("one", "two"), alignment)
     told = [plot.title for plot in plots.values() if "right leg in dots" in plot.caption]
     assert {"Joint torques", "Joint angles", "Joint speeds"} < set(told)
     for plot in both:
