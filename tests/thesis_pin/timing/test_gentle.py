@@ -40,5 +40,5 @@ def test_of_a_torque_speed_line_the_largest_use_is_the_least():
 
 
 def test_less_time_than_the_limits_leave_is_refused():
-    with pytest.raises(TrajectoryError, match="shall take 0.5 s"):
+    with pytest.raises(TrajectoryError, match=r"shall take 0\.5 s"):
         gentlest(*wheel(), 0.5)
