@@ -64,7 +64,7 @@ def path_accuracy(
     instance("path", path, ToolPath, "load_path() or appendix_b()")
     allowed, limit, stiff = _asked(allowed, within, stiffness)
     function("progress", progress, "progress(done, total)")
-    branch, draws = one_branch(branch), whole("draws", draws, 0)
+    branch, draws, seed = one_branch(branch), whole("draws", draws, 0), whole("seed", seed, 0)
     if whole("samples", samples, 2) > MOST:
         raise BadInput(f"{samples:,} samples", allowed=f"at most {MOST:,}")
     motion = path.sample(samples)
@@ -128,7 +128,7 @@ def workspace_accuracy(
         BadInput: The grid is too large, or a number can't be.
     """
     allowed, limit, stiff = _asked(allowed, within, stiffness)
-    draws = whole("draws", draws, 0)
+    draws, seed = whole("draws", draws, 0), whole("seed", seed, 0)
     space = evaluate_workspace(robot, x, y, z, orientation, branch)
     angles, pose = _regular(space)
     return Accuracy(
