@@ -107,12 +107,7 @@ def smallest_motors(
         if law != "given":
             cases.append(_free(path, family, given, best, "least-torque"))
             tick()
-            driving = np.flatnonzero(best.torque >= DRIVING * best.torque.max())
-
-            def heat(one: Found) -> float:
-                return float(heat_along(path, one, family)[driving].max())
-
-            cool = gentlest_in(path, family, best, time, heat)
+            cool = _coolest(path, family, best, time)
             cases.append(_free(path, family, given, cool, "least-heat"))
             laws = {"least-torque": best.law, "least-heat": cool.law}
             said += _judged(best)
@@ -195,6 +190,14 @@ def _free(path: AnyLaw, family: Family, given: Smallest, best: Found, law: str) 
     timing = f"{WORDS[law]}, {best.law.duration:.4g} s"
     case = smallest(loads, family, given.groups, factor=given.factor, law=law, timing=timing)
     return replace(case, duration=best.law.duration)
+
+
+def _coolest(path: AnyLaw, family: Family, best: Found, time: float) -> Found:
+    """The law of least heat in the motors that decide in the law of least torque."""
+    driving = np.flatnonzero(best.torque >= DRIVING * best.torque.max())
+    return gentlest_in(
+        path, family, best, time, lambda one: float(heat_along(path, one, family)[driving].max())
+    )
 
 
 def _judged(best: Found) -> list[str]:
