@@ -65,7 +65,7 @@ def path_accuracy(
     path = path.followed_by(robot.specification)
     allowed, limit, stiff = _asked(allowed, within, stiffness)
     function("progress", progress, "progress(done, total)")
-    branch, draws = one_branch(branch), whole("draws", draws, 0)
+    branch, draws, seed = one_branch(branch), whole("draws", draws, 0), whole("seed", seed, 0)
     if whole("samples", samples, 2) > MOST:
         raise BadInput(f"{samples:,} samples", allowed=f"at most {MOST:,}")
     motion = path.sample(samples)
@@ -129,7 +129,7 @@ def workspace_accuracy(
         BadInput: The grid is too large, or a number can't be.
     """
     allowed, limit, stiff = _asked(allowed, within, stiffness)
-    draws = whole("draws", draws, 0)
+    draws, seed = whole("draws", draws, 0), whole("seed", seed, 0)
     space = evaluate_workspace(robot, x, y, z, orientation, branch)
     angles, pose = _regular(space)
     return Accuracy(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Self
 
 from meshcat import Visualizer
@@ -9,12 +10,12 @@ from meshcat import Visualizer
 from thesis_pin.pages.meshcat.page import static
 
 
-class Shown:
+class Shown(ABC):
     """What the viewers of scenes and of robots have in common; a context manager."""
 
+    @abstractmethod
     def _meshcat(self) -> Visualizer:
         """meshcat's own object."""
-        raise NotImplementedError
 
     @property
     def url(self) -> str:
