@@ -39,12 +39,13 @@ def spans(grid: Grid, limits: Limits, *, rests: bool = True) -> Spans:
     return Spans(np.diff(every), left, right, np.where(grid.rests & rests, 0.0, cap))
 
 
-def fastest(grid: Grid, limits: Limits) -> Law:
+def fastest(grid: Grid, limits: Limits, near: Law | None = None) -> Law:
     """The fastest law on a grid's places, at rest where the track asks for it.
 
     Args:
         grid: Places on a track.
         limits: Kept at all of them, on both sides.
+        near: A law of the same track with much the same limits, which leads there sooner.
 
     Raises:
         Infeasible: At rest a limit is exceeded somewhere.
@@ -55,7 +56,7 @@ def fastest(grid: Grid, limits: Limits) -> Law:
     # √ṡ² is taken for its tangent where the last law went: each law keeps the limits, and none
     # is slower than the one before.
     half = np.minimum(known.cap / 4, _halfway(known))
-    square, last = half, np.inf
+    square, last = half if near is None else near.square(grid.every), np.inf
     for _ in range(_ROUNDS):
         square = largest(known, np.maximum(square, _LOW * half.max()))
         law = Law(grid.every, np.sqrt(square))

@@ -48,6 +48,10 @@ class Law(Brief):
         s = np.clip(s, self.place[k], self.place[k + 1])
         return s, np.maximum(rate + after * bend, 0.0), bend
 
+    def square(self, place: Array) -> Array:
+        """ṡ² at places, the same shape."""
+        return np.interp(place, self.place, self.rate**2)
+
     def within(self, points: int) -> tuple[Array, Array, Array]:
         """s, ṡ and s̈ at points evenly spread inside each interval, each ``(n − 1, points)``."""
         share = (np.arange(points) + 0.5) / points

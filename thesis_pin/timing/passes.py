@@ -85,9 +85,9 @@ def _apex(p: Array, r: Array, h: Array, cap: Array) -> tuple[Array, Array]:
     x = cap[:-1].copy()
     with np.errstate(divide="ignore", invalid="ignore"):
         upright = np.where((r == 0) & (p > 0), h / p, np.inf).min(axis=1)
-        up, down = np.where(r > 0, r, np.nan), np.where(r < 0, r, np.nan)
-        up_at, up_by = np.nan_to_num(h / up, nan=np.inf), np.nan_to_num(p / up, nan=0.0)
-        down_at, down_by = np.nan_to_num(h / down, nan=-np.inf), np.nan_to_num(p / down, nan=0.0)
+        at, by, up, down = h / r, p / r, r > 0, r < 0
+    up_at, up_by = np.where(up, at, np.inf), np.where(up, by, 0.0)
+    down_at, down_by = np.where(down, at, -np.inf), np.where(down, by, 0.0)
     # 0 ≤ y ≤ cap are two more sides.
     zero, many = np.zeros((len(x), 1)), np.arange(len(x))
     up_at, up_by = np.hstack([up_at, cap[1:, None]]), np.hstack([up_by, zero])
@@ -115,13 +115,13 @@ def _back(p: Array, r: Array, h: Array, cap: Array, apex: Array, lowest: Array) 
     """The largest ṡ² at each place from which the end can be reached."""
     with np.errstate(divide="ignore", invalid="ignore"):
         at, by = np.where(p > 0, h / p, np.inf), np.where(p > 0, r / p, 0.0)
-    most = cap.copy()
+    most, least = cap.copy(), np.minimum.reduce
     y = float(most[-1])
     tops, lows, caps = apex.tolist(), lowest.tolist(), cap.tolist()
     for k in range(len(tops) - 1, -1, -1):
         x = tops[k]
         if y < lows[k]:
-            x = min(x, float((at[k] - by[k] * y).min()))
+            x = min(x, float(least(at[k] - by[k] * y)))
         y = max(min(x, caps[k]), 0.0)
         most[k] = y
     return most
@@ -131,11 +131,14 @@ def _forth(p: Array, r: Array, h: Array, most: Array, cap: Array) -> Array:
     """As fast as possible from the beginning, never above what the end allows."""
     with np.errstate(divide="ignore", invalid="ignore"):
         at, by = np.where(r > 0, h / r, np.inf), np.where(r > 0, p / r, 0.0)
-    found = np.empty_like(most)
+    found, least = np.empty_like(most), np.minimum.reduce
     x = found[0] = float(min(most[0], cap[0]))
     tops = most.tolist()
-    for k in range(len(at)):
-        x = max(min(tops[k + 1], float((at[k] - by[k] * x).min())), 0.0)
+    # Where the last speed is the largest that the end allows, what follows is known beforehand.
+    known = least(at - by * most[:-1, None], axis=1).tolist()
+    for k, top in enumerate(tops[1:]):
+        thrust = known[k] if x == tops[k] else float(least(at[k] - by[k] * x))
+        x = max(min(top, thrust), 0.0)
         found[k + 1] = x
     return found
 

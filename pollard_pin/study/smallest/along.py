@@ -12,7 +12,7 @@ from thesis_pin.sizing.loads import Array, Loads
 from thesis_pin.sizing.smallest.family import Family
 from thesis_pin.timing.law import Law
 from thesis_pin.timing.solving import Solved
-from thesis_pin.timing.track import Grid
+from thesis_pin.timing.track import Grid, Values
 
 POINTS = 4
 """Inside each interval of a law's grid at which loads are told."""
@@ -51,23 +51,33 @@ def heat_along(path: AnyLaw, found: Found, family: Family) -> Array:
     return np.asarray(np.sqrt(total / law.duration))
 
 
-def loads_along(path: AnyLaw, found: Found, given: Loads) -> Loads:
+def inside(found: Found) -> list[Values]:
+    """What the path asks for at points inside all intervals of a law's grid, piece by piece."""
+    grid, law = found.grid, found.law
+    counts = np.cumsum([len(one) - 1 for one in grid.places])[:-1]
+    at = np.split(law.within(POINTS)[0], counts)
+    return [grid.track.values(piece, one.ravel()) for piece, one in enumerate(at)]
+
+
+def loads_along(
+    path: AnyLaw, found: Found, given: Loads, asked: list[Values] | None = None
+) -> Loads:
     """What a law asks of each motor's joint, at points inside all intervals of its grid.
 
     Args:
         path: The path.
         found: The law.
         given: Loads in another timing, for their names and notes.
+        asked: From :func:`inside`, of any law of the same grid; None works it out.
     """
     grid, law = found.grid, found.law
     s, rate, bend = (np.asarray(one, dtype=float) for one in law.within(POINTS))
     start, first = law.time[:-1, None], law.rate[:-1, None]
     time = start + 2.0 * (s - law.place[:-1, None]) / (first + rate)
     own = path.report.robot.specification.motors.armature()
-    parts = [grid.split(one) for one in (s, rate, bend)]
+    parts = [grid.split(one) for one in (rate, bend)]
     torque, speed, acceleration = [], [], []
-    for piece, (at, v, u) in enumerate(zip(*parts, strict=True)):
-        known = grid.track.values(piece, at.ravel())
+    for known, v, u in zip(inside(found) if asked is None else asked, *parts, strict=True):
         v, u = v.reshape(-1, 1), u.reshape(-1, 1)
         a, b, d = np.moveaxis(known.effort, 1, 0)
         moved = known.speed * u + known.bend * v**2

@@ -12,7 +12,7 @@ from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES
 from pollard_pin.study.size import loads_of
-from pollard_pin.study.smallest.along import Found, heat_along, loads_along
+from pollard_pin.study.smallest.along import Found, heat_along, inside, loads_along
 from pollard_pin.study.smallest.answer import PathAnswer
 from pollard_pin.study.smallest.free import AnyLaw
 from pollard_pin.study.smallest.motors import Per, groups, motor_family
@@ -32,7 +32,7 @@ from thesis_pin.timing.law import Law
 from thesis_pin.timing.limits import Limits
 from thesis_pin.timing.solving import POINTS as JUDGED
 from thesis_pin.timing.solving import refined
-from thesis_pin.timing.track import Grid
+from thesis_pin.timing.track import Grid, Values
 
 STEPS = 5
 """Of the search for the smallest motors, for its progress."""
@@ -105,7 +105,8 @@ def smallest_motors(
         best = smallest_in(path, family, _shape(given), time, tick)
         notes += path.notes
         if law != "given":
-            cases.append(_free(path, family, given, best, "least-torque"))
+            asked = inside(best)
+            cases.append(_free(path, family, given, best, "least-torque", asked))
             tick()
             driving = np.flatnonzero(best.torque >= DRIVING * best.torque.max())
 
@@ -113,7 +114,7 @@ def smallest_motors(
                 return float(heat_along(path, one, family)[driving].max())
 
             cool = gentlest_in(path, family, best, time, heat)
-            cases.append(_free(path, family, given, cool, "least-heat"))
+            cases.append(_free(path, family, given, cool, "least-heat", asked))
             laws = {"least-torque": best.law, "least-heat": cool.law}
             said += _judged(best)
             notes.append(HEAT)
@@ -189,9 +190,11 @@ def _shape(given: Smallest) -> Array:
     return np.asarray(np.where(peak < DRIVING * peak.max(), ROOM * peak, peak))
 
 
-def _free(path: AnyLaw, family: Family, given: Smallest, best: Found, law: str) -> Smallest:
+def _free(
+    path: AnyLaw, family: Family, given: Smallest, best: Found, law: str, asked: list[Values]
+) -> Smallest:
     """The answer in a law that was found."""
-    loads = loads_along(path, best, given.loads)
+    loads = loads_along(path, best, given.loads, asked)
     timing = f"{WORDS[law]}, {best.law.duration:.4g} s"
     case = smallest(loads, family, given.groups, factor=given.factor, law=law, timing=timing)
     return replace(case, duration=best.law.duration)

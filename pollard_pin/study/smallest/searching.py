@@ -11,7 +11,7 @@ import numpy as np
 
 from pollard_pin.study.smallest.along import Found
 from pollard_pin.study.smallest.free import AnyLaw
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, Infeasible
 from thesis_pin.sizing.loads import Array
 from thesis_pin.sizing.smallest.family import Family
 from thesis_pin.timing.fastest import fastest
@@ -24,7 +24,8 @@ _ROUNDS = 3
 _HALVINGS = 6
 _STEP = 1.5
 _STEPS = 30  # either way
-_FINE = 1.02  # first step from what is known to do
+_FINE = 1.02  # least first step from what is known to do
+_BEYOND = 1.5  # how much further it goes than a time that falls as torque grows asks for
 _FAR = 3.0  # of the logarithm of a duration over the asked one: as good as never
 _MOST = 10.0  # times the least torque, beyond which laws are no gentler
 _NEAR = 0.05  # relative difference of two such torques that ends the search
@@ -50,13 +51,19 @@ def smallest_in(
         BadInput: No motors of the kind do it.
     """
     grid, scale = path.course.grid, 1.0
-
-    def excess(size: float, grid: Grid) -> float:
-        time = path.fastest(path.limits(size * shape, family), grid)
-        return min(math.log(time / within), _FAR)
+    near: Law | None = None
 
     def make(size: float, grid: Grid) -> Law:
-        return fastest(grid, path.limits(size * shape, family).tightened(SPARE))
+        # Motors differ little from one to the next, so that their laws do.
+        nonlocal near
+        near = fastest(grid, path.limits(size * shape, family).tightened(SPARE), near)
+        return near
+
+    def excess(size: float, grid: Grid) -> float:
+        try:
+            return min(math.log(make(size, grid).duration / within), _FAR)
+        except Infeasible:
+            return _FAR
 
     scale = _least(partial(excess, grid=grid), scale)
     # Near what just holds the robot the time is steep in the torque: the torque has to settle.
@@ -119,23 +126,27 @@ def _least(excess: Callable[[float], float], start: float) -> float:
         BadInput: None is.
     """
     good, high = start, excess(start)
-    for k in range(1, _STEPS):
-        if high <= 0.0:
-            break
-        # Where speed falls with torque, the sizes that do may be smaller ones.
-        for size in (start * _STEP**k, start / _STEP**k):
-            good, high = size, excess(size)
-            if high <= 0.0:
+    if high > 0.0:
+        bad, low = good, high
+        for k in range(1, _STEPS):
+            # Where speed falls with torque, the sizes that do may be smaller ones.
+            more, less = start * _STEP**k, start / _STEP**k
+            if (high := excess(more)) <= 0.0:
+                return _between(excess, (bad, low), (more, high))
+            bad, low = more, high
+            if (high := excess(less)) <= 0.0:
+                good = less
                 break
-    else:
-        raise BadInput(
-            "no motors of this kind do the path in that time, however strong",
-            remedy="Allow more time, a greater speed or power, or a lighter rotor",
-        )
-    step = _FINE
+        else:
+            raise BadInput(
+                "no motors of this kind do the path in that time, however strong",
+                remedy="Allow more time, a greater speed or power, or a lighter rotor",
+            )
+    # Time falls about as torque grows: a step as long as that is seldom too short.
+    step = max(_FINE, min(math.exp(-_BEYOND * high), _STEP))
     bad, low = good / step, excess(good / step)
     while low <= 0.0:
-        good, high, step = bad, low, step**2
+        good, high, step = bad, low, min(step**2, _STEP)
         bad = good / step
         low = excess(bad)
     return _between(excess, (bad, low), (good, high))
@@ -144,15 +155,24 @@ def _least(excess: Callable[[float], float], start: float) -> float:
 def _between(
     excess: Callable[[float], float], bad: tuple[float, float], good: tuple[float, float]
 ) -> float:
-    """The border between two sizes, on the good side: by secants, and halves where they stall."""
-    halve, side, near = False, 1.0, TOLERANCES.motor_torque / 3
+    """The border between two sizes, on the good side: by secants, none of whose ends stays.
+
+    Source: M. Dowell and P. Jarratt, A modified regula falsi method for computing the root of an
+    equation, 1971: the value at an end that stays counts half.
+    """
+    side, near = 0.0, TOLERANCES.motor_torque / 3
+    low, high = bad[1], good[1]
     while (width := good[0] - bad[0]) > TOLERANCES.motor_torque * good[0]:
-        share = 0.5 if halve else bad[1] / (bad[1] - good[1])
         # Once a little to the good side, once to the other, so that the bracket closes from both.
-        size = bad[0] + width * share + side * near * good[0]
+        size = bad[0] + width * low / (low - high) + (-side or 1.0) * near * good[0]
         size = min(max(size, bad[0] + width / 16), good[0] - width / 16)
         found = excess(size)
-        side = -1.0 if found <= 0.0 else 1.0
-        bad, good = (bad, (size, found)) if found <= 0.0 else ((size, found), good)
-        halve = good[0] - bad[0] > width / 2
+        if found <= 0.0:
+            good, high = (size, found), found
+            low = low / 2 if side > 0.0 else low
+            side = 1.0
+        else:
+            bad, low = (size, found), found
+            high = high / 2 if side < 0.0 else high
+            side = -1.0
     return good[0]

@@ -70,7 +70,7 @@ def path_study(
     """
     chosen(MEASURES, extra)
     whole("samples", samples, 2)
-    base, made, motion = base_and_path(
+    base, made, motion = _base_and_path(
         specification,
         path,
         placement=placement,
@@ -126,7 +126,7 @@ def time_study(
         UnknownName: There is no such law.
     """
     choice("law", law, AIMS)
-    base, made, motion = base_and_path(
+    base, made, motion = _base_and_path(
         specification,
         path,
         placement=placement,
@@ -142,18 +142,18 @@ def time_study(
     return TimeStudy(base, made, law, inertia, one_branch(branch), motion)
 
 
-def base_and_path(
+def _base_and_path(
     specification: Specification | str | Path | None,
     path: str | Path | None,
     *,
-    placement: Sequence[float] | None = None,
-    duration: float | None = None,
-    timing: Timing | None = None,
-    turn_deg: float = 0.0,
-    mirrored: bool = False,
-    euler: str | None = None,
-    feed: float | None = None,
-    smooth: str = "auto",
+    placement: Sequence[float] | None,
+    duration: float | None,
+    timing: Timing | None,
+    turn_deg: float,
+    mirrored: bool,
+    euler: str | None,
+    feed: float | None,
+    smooth: str,
 ) -> tuple[dict[str, object], ToolPath | None, str]:
     """What designs change, a path that they don't, and what tells that one from others.
 

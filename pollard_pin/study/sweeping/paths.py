@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
@@ -20,13 +19,12 @@ from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import ACTUATOR_NAMES, Specification
 from pollard_pin.study.smallest.asking import smallest_motors
 from thesis_pin.display.brief import Brief
-from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
 from thesis_pin.numeric.checks import real
 from thesis_pin.sweep.designs.text import toml
-from thesis_pin.sweep.measures import Measure, chosen, row
+from thesis_pin.sweep.measures import Measure, chosen, columns_of, largest, reported
 from thesis_pin.sweep.study import Cell, Column
 
 PATH, PLACE, LIMITS = "path", "place", "limits"
@@ -56,11 +54,7 @@ def _smallest(report: TrajectoryReport, motors: slice) -> float | None:
 
     None where no motor of the kind does.
     """
-    try:
-        found = smallest_motors(report, law="given").cases[0].long[motors]
-    except BadInput:
-        return None
-    return float(found.max()) if np.isfinite(found).all() else None
+    return largest(lambda: smallest_motors(report, law="given").cases[0].long[motors])
 
 
 MEASURES: tuple[Measure[TrajectoryReport], ...] = (
@@ -165,7 +159,7 @@ class PathStudy(Brief):
     @property
     def columns(self) -> tuple[Column, ...]:
         """What is found of each design."""
-        return tuple(one.column for one in self._measures)
+        return columns_of(self._measures)
 
     @property
     def inputs(self) -> Mapping[str, object]:
@@ -181,10 +175,7 @@ class PathStudy(Brief):
 
     def judge(self, data: object) -> Mapping[str, Cell]:
         """The columns of one design: those of its path's report."""
-        report = self.report(data)
-        for doubt in report.doubts():
-            warnings.warn(doubt, ModelWarning, stacklevel=2)
-        return row(self._measures, report)
+        return reported(self._measures, self.report(data))
 
     def report(self, data: object) -> TrajectoryReport:
         """The report of one design.

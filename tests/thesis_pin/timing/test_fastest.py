@@ -154,3 +154,16 @@ def test_a_law_played_over_time_goes_where_its_places_say():
     np.testing.assert_allclose(np.gradient(s, time)[inner], rate[inner], atol=2e-3)
     way = np.concatenate([[0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(time))])
     np.testing.assert_allclose(way, s, atol=1e-7)
+
+
+@SEVERAL
+@given(st.floats(0.1, 1.5), st.floats(1.0, 9.0), st.floats(0.8, 1.25))
+def test_from_the_law_of_much_the_same_limits_the_fastest_is_found_too(wave, k, other):
+    grid = Grid.of(Arm(wave, k, 2.0), 100)
+    near = fastest(Grid.of(Arm(wave, k, 2.0), 150), motors([other, other], 4.0, line=True))
+    limits = motors([1.0, 1.0], 4.0, line=True)
+    law, cold = fastest(grid, limits, near), fastest(grid, limits)
+    assert law.duration == pytest.approx(cold.duration, rel=1e-3)
+    known = spans(grid, limits)
+    for side, rate in ((known.left, law.rate[:-1]), (known.right, law.rate[1:])):
+        assert side.use(rate, law.acceleration).max() <= 1.0 + 1e-9
