@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -86,9 +85,9 @@ def _search(
     progress: Callable[[int, int], None],
 ) -> Placements:
     robot = load(arguments.specification, inertia=arguments.inertia)
-    robot = with_limits(robot, arguments.torque, arguments.speed)
     path, _ = curve(robot.specification, _NOWHERE)
-    path = replace(path, made_for=None)  # other limits make no other robot
+    path = path.followed_by(robot.specification)  # before limits make another robot of it
+    robot = with_limits(robot, arguments.torque, arguments.speed)
     usual = robot.specification.assumptions.placement.position
     now = usual if arguments.path is None else _NOWHERE
     x, y, z = _ranges(arguments, now)

@@ -99,6 +99,7 @@ def document(space: PlacementNumbers, report: TrajectoryReport | None) -> dict[s
         "margin": space.judged.margin[some],
         "clearance": space.judged.clearance[some],
         "report": None if report is None else report.summary(),
+        "notes": list(space.path.notes),
     }
 
 
