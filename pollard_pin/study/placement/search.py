@@ -91,6 +91,7 @@ def evaluate_placements(
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
     instance("path", path, ToolPath, "load_path() or appendix_b()")
+    path = path.followed_by(robot.specification)
     choice("objective", objective, OBJECTIVES)
     function("progress", progress, "progress(done, total)")
     best, samples = whole("best", best, 1), whole("samples", samples, 2)

@@ -13,7 +13,8 @@ from pollard_pin.motion.files import load_path
 from pollard_pin.motion.path import Timing, ToolPath
 from pollard_pin.motion.toml import PathFile
 from pollard_pin.specification import Specification
-from pollard_pin.study.sweeping.paths import LIMITS, MEASURES, PATH, PLACE, PathStudy
+from pollard_pin.study.sweeping.design import LIMITS, PATH, PLACE
+from pollard_pin.study.sweeping.paths import MEASURES, PathStudy
 from pollard_pin.study.sweeping.times import BOUNDS, TimeStudy
 from pollard_pin.study.timing.timed import AIMS, Aim
 from thesis_pin.errors import BadInput, ModelWarning

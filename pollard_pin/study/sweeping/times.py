@@ -10,7 +10,7 @@ import numpy as np
 
 from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.motion.path import ToolPath
-from pollard_pin.study.sweeping.paths import LIMITS, named, path_in, robot_of, written
+from pollard_pin.study.sweeping.design import LIMITS, named, path_in, robot_of, written
 from pollard_pin.study.timing.limits import motor_limits
 from pollard_pin.study.timing.timed import Aim, TimedPath, time_path
 from thesis_pin.display.brief import Brief

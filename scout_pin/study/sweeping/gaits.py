@@ -8,13 +8,19 @@ from typing import cast
 
 import numpy as np
 
-from scout_pin.model import Scout, load
 from scout_pin.motion.cycles import repeat_gait
 from scout_pin.motion.files import GaitFile, gait_of
 from scout_pin.motion.gait import Gait
 from scout_pin.report.document import GaitReport, gait_report
-from scout_pin.specification import JOINT_NAMES, Specification
+from scout_pin.specification import JOINT_NAMES
 from scout_pin.study.smallest.asking import smallest_motors
+from scout_pin.study.sweeping.design import (
+    DESIGN,
+    GAIT,
+    robot_of,
+    specification_of,
+    specification_text,
+)
 from thesis_pin.display.brief import Brief
 from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.mechanism.inertia import Reading
@@ -22,12 +28,6 @@ from thesis_pin.model.specification import validate
 from thesis_pin.sweep.designs.text import toml
 from thesis_pin.sweep.measures import Measure, chosen, columns_of, largest, reported
 from thesis_pin.sweep.study import Cell, Column
-
-GAIT, PLAN = "gait", "plan"
-"""Names under which the data have what isn't of the specification."""
-
-DESIGN = "the design"
-"""Where what is wrong with a design's data is, for messages."""
 
 
 def _worst(report: GaitReport) -> str:
@@ -196,31 +196,3 @@ class GaitStudy(Brief):
             gait = {**cast(Mapping[str, object], parts[GAIT]), "made_for": own}
             files["best_gait.toml"] = toml(gait, notes)
         return {name: text.encode() for name, text in files.items()}
-
-
-def robot_of(parts: Mapping[str, object], inertia: Reading) -> Scout:
-    """The biped of a design.
-
-    Raises:
-        SpecificationError: There is none.
-    """
-    return load(specification_of(parts), inertia=inertia)
-
-
-def specification_of(parts: Mapping[str, object]) -> Specification:
-    """The specification of a design.
-
-    Raises:
-        SpecificationError: It is none.
-    """
-    return validate("specification", Specification, _own(parts), where=DESIGN)
-
-
-def specification_text(parts: Mapping[str, object], notes: Sequence[str]) -> str:
-    """The specification of a design as TOML."""
-    return toml(_own(parts), notes)
-
-
-def _own(parts: Mapping[str, object]) -> dict[str, object]:
-    """What is of the specification."""
-    return {key: value for key, value in parts.items() if key not in (GAIT, PLAN)}

@@ -10,7 +10,7 @@ from scout_pin.study.plan.planning import plan_gait
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.results.judged import Judged
 from scout_pin.study.plan.results.result import Plan
-from scout_pin.study.sweeping.gaits import PLAN, robot_of, specification_text
+from scout_pin.study.sweeping.design import PLAN, robot_of, specification_text
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.model.mechanism.inertia import Reading
