@@ -75,9 +75,22 @@ def test_a_default_that_is_written_down_is_as_one_that_isnt(tmp_path):
 
 def test_where_appendix_b_stands_makes_no_other_robot(tmp_path):
     text = POLLARD_PATH.read_text(encoding="utf-8")
-    moved, count = re.subn(r"(?m)^duration = [\d.]+", "duration = 7.5", text)
-    assert count == 1
+    moved = text
+    for old, new in (
+        (r"^duration = [\d.]+", "duration = 7.5"),
+        (r"^(\[assumptions\.placement\]\n(?:.*\n)*?position = \[)0\.45", r"\g<1>0.4"),
+    ):
+        moved, count = re.subn(old, new, moved, flags=re.MULTILINE)
+        assert count == 1
     found = read(pollard_pin.Specification, moved, tmp_path)
+    assert fingerprint(found) == fingerprint(pollard_pin.Specification.read())
+
+
+def test_a_zero_with_a_minus_is_zero(tmp_path):
+    text = POLLARD_PATH.read_text(encoding="utf-8")
+    minus, count = re.subn(r"(?m)^(tool = \[0\.03, )0\.0", r"\g<1>-0.0", text)
+    assert count == 1
+    found = read(pollard_pin.Specification, minus, tmp_path)
     assert fingerprint(found) == fingerprint(pollard_pin.Specification.read())
 
 

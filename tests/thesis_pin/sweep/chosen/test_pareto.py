@@ -1,5 +1,7 @@
 """The Pareto front, held against comparing every design with every other."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -42,6 +44,16 @@ def test_designs_that_break_a_limit_or_were_not_judged_are_not_on_the_front():
     # 9 is widest and too deep, 2 isn't judged; 1 is least deep and wider than 0.
     assert front(sweep, aims).tolist() == [1]
     assert front(swept("x=8,9,10"), aims).tolist() == [0, 1, 2]  # none is good: all are taken
+
+
+def test_designs_without_one_of_the_aims_are_not_on_the_front():
+    """A number that isn't there is smaller and larger than none."""
+    sweep = swept("x=0,1,1.2")
+    _, deep, deeper = sweep.rows  # of the last one only its width is known
+    cells = tuple(np.nan if k == 1 else one for k, one in enumerate(deeper.cells))
+    holed = replace(sweep, rows=(sweep.rows[0], deep, replace(deeper, cells=cells)))
+    assert front(sweep, read_aims(sweep, "depth,width")).tolist() == [1, 2]
+    assert front(holed, read_aims(holed, "depth,width")).tolist() == [1]
 
 
 def test_what_rounding_alone_tells_apart_is_equal():

@@ -25,6 +25,7 @@ def best(text, sweep=None):
         ("width>2.5", 5),
         ("width>2.5,depth<0.5", 5),  # 0.5 wider is a fifth of it; 0.92 deeper nearly twice that
         ("width=100", 5),  # the widest that is good
+        ("width=100,depth=0.09", 2),  # 0.08 of depth is most of it, 2 of width a fiftieth
         ("x=0", 0),
     ],
 )
