@@ -83,6 +83,6 @@ class Bowl:
 def swept(*texts, study=None):
     """A sweep of the bowl in this process."""
     study = study or Bowl()
-    designs = combined([vary(BASE, text) for text in texts])
+    designs = combined([vary(study.base, text) for text in texts])
     rows = [row for task in chunks(designs) for row in work(study, designs, task).rows]
     return Sweep(study, designs, tuple(rows), Effort(1, None, len(rows), 1.0, 1.0))

@@ -8,6 +8,7 @@ angles ψ, θ, φ only name it, so that where cos ψ = 0 nothing happens.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, get_args
@@ -17,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from pollard_pin.coordinates import pose_from_placement, pose_rates, tool_motion
 from thesis_pin.display.brief import Brief
-from thesis_pin.errors import TrajectoryError, WrongShape
+from thesis_pin.errors import ModelWarning, TrajectoryError, WrongShape
 from thesis_pin.model.made_for import MadeFor
 from thesis_pin.numeric.arrays import finite_array
 from thesis_pin.numeric.checks import choice, real, whole
@@ -27,6 +28,7 @@ from thesis_pin.tolerances import TOLERANCES
 
 if TYPE_CHECKING:  # exact paths need no smoothing
     from pollard_pin.motion.variants import Variants
+    from pollard_pin.specification import Specification
 
 Timing = Literal["constant-rate", "rest-to-rest", "ramped"]
 TIMINGS: tuple[str, ...] = get_args(Timing)
@@ -158,6 +160,22 @@ class ToolPath(Brief):
     variants: Variants | None = None
     curves: tuple[Curve, ...] = ()
     made_for: MadeFor | None = None
+
+    def followed_by(self, specification: Specification) -> ToolPath:
+        """The path as a robot's own; if it was made for another one, warned of and noted.
+
+        Args:
+            specification: The robot's.
+
+        Warns:
+            ModelWarning: The path was made for a robot of other numbers.
+        """
+        if self.made_for is None:
+            return self
+        said = self.made_for.against(specification, f"path {self.name!r}")
+        for one in said:
+            warnings.warn(one, ModelWarning, stacklevel=3)
+        return replace(self, notes=(*self.notes, *said), made_for=None)
 
     def at(self, time: ArrayLike) -> ToolMotion:
         """Pose and derivatives at given times [s] within the duration, shape ``(n,)``."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -14,12 +13,12 @@ from pollard_pin.motion.path import ToolPath
 from pollard_pin.motion.placing import Placement
 from pollard_pin.report.document import TrajectoryReport, trajectory_report
 from pollard_pin.specification import Specification
-from pollard_pin.study.placement.document import columns, document
 from pollard_pin.study.placement.limits import with_limits
 from pollard_pin.study.placement.placements import Placements
 from pollard_pin.study.placement.result import Found
 from pollard_pin.study.placement.search import evaluate_placements
-from pollard_pin.study.placement.telling import told
+from pollard_pin.study.placement.told.document import columns, document
+from pollard_pin.study.placement.told.words import told
 from thesis_pin.command.flags.drawn_as import figure_style
 from thesis_pin.command.flags.options import refuse_beside
 from thesis_pin.command.output import print_parts
@@ -66,7 +65,7 @@ def place(arguments: argparse.Namespace, branch: Branch, curve: Curve) -> ExitCo
             own = MadeFor.of(Specification.read(arguments.specification))
             files = _files(space, report, content, style, own)
         if arguments.html:
-            from pollard_pin.study.placement.page import placements_page
+            from pollard_pin.study.placement.told.page import placements_page
 
             page = placements_page(space, report)
     write_results(arguments, files, content)
@@ -86,9 +85,9 @@ def _search(
     progress: Callable[[int, int], None],
 ) -> Placements:
     robot = load(arguments.specification, inertia=arguments.inertia)
-    robot = with_limits(robot, arguments.torque, arguments.speed)
     path, _ = curve(robot.specification, _NOWHERE)
-    path = replace(path, made_for=None)  # other limits make no other robot
+    path = path.followed_by(robot.specification)  # before limits make another robot of it
+    robot = with_limits(robot, arguments.torque, arguments.speed)
     usual = robot.specification.assumptions.placement.position
     now = usual if arguments.path is None else _NOWHERE
     x, y, z = _ranges(arguments, now)
@@ -135,7 +134,7 @@ def _files(
     style: Wanted,
     own: MadeFor,
 ) -> dict[str, bytes]:
-    from pollard_pin.study.placement.figures import placements_files
+    from pollard_pin.study.placement.told.figures import placements_files
 
     files = {"placements.csv": csv_bytes(columns(space)), "placements.json": content}
     if report is not None:

@@ -63,6 +63,11 @@ VERBS = {
     "view of a path": ("pollard-pin view", "arm", "--path", []),
     "size": ("scout-pin size", "biped", "--gait", ["--law", "given"]),
     "size of a path": ("pollard-pin size", "arm", "--path", ["--law", "given"]),
+    "size with free times": ("pollard-pin size", "arm", "--path", ["--law", "free"]),
+    "time": ("pollard-pin time", "arm", "--path", QUICK),
+    "accuracy": ("pollard-pin accuracy", "arm", "--path", [*QUICK, "--draws", "2"]),
+    "place": ("pollard-pin place", "arm", "--path", [*QUICK, "--x", "0", "--torque", "9"]),
+    "place for time": ("pollard-pin place", "arm", "--path", [*QUICK, "--x", "0", "--for", "time"]),
 }
 
 
@@ -79,7 +84,8 @@ def test_every_verb_warns_of_another_robot_and_of_no_other(case, request, capfd,
     assert code == 0, err
     assert err.count(SAID) == 1, err
     if words[0] != "view":
-        notes = json.loads((tmp_path / "found.json").read_bytes())["notes"]
+        found = json.loads((tmp_path / "found.json").read_bytes())
+        notes = found.get("summary" if words[0] == "accuracy" else "", found)["notes"]
         assert sum(SAID in note for note in notes) == 1
     for reading in ("physical", "printed"):
         own = [*words, "--specification", str(other), "--inertia", reading]

@@ -193,6 +193,14 @@ def test_a_table_as_excel_writes_it_is_a_design_a_row(tmp_path, capfd):
     assert found["judged"] == 2
 
 
+def test_a_key_with_two_columns_is_refused_rather_than_one_of_them_taken(tmp_path, capfd):
+    file = tmp_path / "designs.csv"
+    file.write_text("chain_0.x_32,name,chain_0.x_32\n0.3,one,0.31\n", encoding="utf-8")
+    code, _, err = run("pollard-pin sweep", ["sweep", *ARCH, "--designs", str(file)], capfd)
+    assert code == 2
+    assert "columns 1 and 3 are both called 'chain_0.x_32'" in " ".join(err.split())
+
+
 def test_a_dry_run_says_what_there_is_and_judges_nothing_else(tmp_path, capfd):
     words = ["sweep", *ARCH, "--vary", "chain_*.x_43=0.3:0.36:1000", "--vary", "chain_0.x_32=1,2"]
     code, out, _ = run("pollard-pin sweep", [*words, "--dry-run"], capfd)

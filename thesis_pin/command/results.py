@@ -127,7 +127,7 @@ def deliver(
             if arguments.html:
                 with warned():
                     written = _called(page)(answer)
-        except Exception:
+        except Exception:  # the data took the time, and can be drawn anew
             write_results(arguments, files, content)
             raise
     write_results(arguments, files | drawn, content)

@@ -207,12 +207,14 @@ class _Handler(BaseHTTPRequestHandler):
     timeout = PATIENCE
 
     def do_GET(self) -> None:
+        """Give the page, and nothing else."""
         if self._is_ours() and self.path == "/":
             self._answer(200, self.server.page)
         else:
             self._answer(404)
 
     def do_POST(self) -> None:
+        """Answer what the page asks; only what is short enough is read at all."""
         answer = self.server.answers.get(self.path)
         if answer is None or not self._is_ours():
             self._answer(404)

@@ -20,7 +20,7 @@ def gentlest(grid: Grid, limits: Limits, duration: float) -> tuple[Law, float]:
     """The law whose largest share of the motors' torque limits is the least.
 
     It is the fastest law under a share of all torque limits, the share being such that it
-    takes this long.
+    takes this long; of torque–speed lines where these limit the motors.
 
     Args:
         grid: Places on a track.
@@ -45,7 +45,7 @@ def gentlest(grid: Grid, limits: Limits, duration: float) -> tuple[Law, float]:
     for _ in range(_STEPS):
         middle = (low + high) / 2
         try:
-            law = fastest(grid, replace(limits, effort=limits.effort * middle))
+            law = fastest(grid, _shared(limits, middle))
         except Infeasible:
             low = middle
             continue
@@ -57,3 +57,9 @@ def gentlest(grid: Grid, limits: Limits, duration: float) -> tuple[Law, float]:
             break
     # What is left of the time is spent everywhere alike; slower, nothing asks for more.
     return best.slower(best.duration / duration), float(np.float64(high))
+
+
+def _shared(limits: Limits, share: float) -> Limits:
+    """A share of what motors may be asked for: of a line its no-load speed is a part too."""
+    speed = limits.speed * share if limits.line else limits.speed
+    return replace(limits, effort=limits.effort * share, speed=speed)

@@ -138,8 +138,8 @@ def disc(linear: tuple[Array, Array, Array], limit: float, name: str) -> Rows:
         name: What it is.
 
     Returns:
-        Rows that are strict where the vector is within its limit; where d alone exceeds it
-        across the plane, rows that nothing satisfies.
+        Rows that are strict where d is within the limit; where d alone exceeds it, rows that
+        nothing satisfies and whose share is d's own.
     """
     a, b, d = linear
     first = _unit(np.where(_size(a) > _size(b), a, b))
@@ -154,7 +154,10 @@ def disc(linear: tuple[Array, Array, Array], limit: float, name: str) -> Rows:
     inside = np.maximum(radius * np.cos(np.pi / FACES), np.finfo(float).tiny)[:, None]
     angle = (np.arange(FACES) + 0.5) * (2 * np.pi / FACES)
     normals = np.stack([np.cos(angle), np.sin(angle)])
-    a, b, d = (one @ normals / inside for one in along)
+    alone = _size(d) / limit
+    fits = alone <= 1.0
+    a, b, d = (np.where(fits, one @ normals / np.where(fits, inside, 1.0), 0.0) for one in along)
+    d = np.where(fits, d, alone)
     none = np.empty((len(a), 0))
     return Rows(a, b, np.zeros_like(a), d, none, (name,) * FACES)
 

@@ -62,6 +62,7 @@ def path_accuracy(
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
     instance("path", path, ToolPath, "load_path() or appendix_b()")
+    path = path.followed_by(robot.specification)
     allowed, limit, stiff = _asked(allowed, within, stiffness)
     function("progress", progress, "progress(done, total)")
     branch, draws, seed = one_branch(branch), whole("draws", draws, 0), whole("seed", seed, 0)

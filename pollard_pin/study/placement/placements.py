@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pollard_pin.study.placement.result import PlacementNumbers
-from pollard_pin.study.placement.telling import best_table, sentences
+from pollard_pin.study.placement.told.words import best_table, sentences
 from thesis_pin.display.cell import Cell
 
 

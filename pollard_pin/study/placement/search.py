@@ -91,6 +91,7 @@ def evaluate_placements(
     """
     instance("robot", robot, Pollard, "pollard_pin.load()")
     instance("path", path, ToolPath, "load_path() or appendix_b()")
+    path = path.followed_by(robot.specification)
     choice("objective", objective, OBJECTIVES)
     function("progress", progress, "progress(done, total)")
     best, samples = whole("best", best, 1), whole("samples", samples, 2)
@@ -99,34 +100,28 @@ def evaluate_placements(
     start = Placement() if start is None else start
     instance("start", start, Placement, "Placement.of()")
     start_branch = one_branch(start_branch)
-    branches = (one_branch(branch),) if isinstance(branch, Branch) else branch_labels(branch)
-    # Of branches as good as each other, one like the start's.
-    branches = tuple(sorted(branches, key=lambda one: sum(map(ne, one, start_branch))))
-    choices = Choices.of(x, y, z, turn, mirrored, branches)
+    choices = Choices.of(x, y, z, turn, mirrored, _branches(branch, start_branch))
     worst = math.inf if condition is None else real("condition", condition, low=1.0)
-    judge = Judge.of(
-        robot, path, samples, paces=objective == "time", apart=len(branches) > 1, worst=worst
-    )
+    several = len(choices.branches) > 1
+    judge = Judge.of(robot, path, samples, paces=objective == "time", apart=several, worst=worst)
     if objective == "time" and _rests(judge):
         raise BadInput(
             f"the path {path.name!r} stays where it is, and takes no time",
             allowed="a path that moves, where the shortest time is asked for",
         )
-    wide = [k for k, axis in enumerate(choices.lines) if len(axis) > 1]
-    more = STARTS * TRIES * len(wide) if refine else 0
-    total = choices.count + more
+    wide = [k for k, axis in enumerate(choices.lines) if len(axis) > 1] if refine else []
+    each = TRIES * len(wide)
+    total = choices.count + STARTS * each
     grid = _grid(judge, choices, lambda done: progress(done, total))
     costs = cost(robot, objective, grid)
     order = np.argsort(rounded(costs), kind="stable")[: int(np.isfinite(costs).sum())]
     tried: list[tuple[Placement, Branch, bool]] = []
-    if refine and wide and order.size:
-        quick = replace(judge, conditions=objective == "conditioning")
-        for number, first in enumerate(starts(choices, order)):
-            done = choices.count + number * TRIES * len(wide)
-            progress(done, total)
-            one, its_branch = choices.at(first)
-            nearby = refine_from(quick, objective, choices, wide, one, its_branch)
-            tried.append((nearby, its_branch, True))
+    quick = replace(judge, conditions=objective == "conditioning")
+    for number, first in enumerate(starts(choices, order) if wide else ()):
+        progress(choices.count + number * each, total)
+        one, its_branch = choices.at(first)
+        nearby = refine_from(quick, objective, choices, wide, one, its_branch)
+        tried.append((nearby, its_branch, True))
     many = max(samples, REPORT_SAMPLES)
     fine = Judge.of(robot, path, many, paces=judge.paces, apart=judge.apart, worst=worst)
     last = itertools.chain(tried, ((*choices.at(int(k)), False) for k in order))
@@ -149,6 +144,15 @@ def evaluate_placements(
     from pollard_pin.study.placement.laws import with_laws
 
     return with_laws(space)
+
+
+def _branches(branch: Branches, like: Branch) -> tuple[Branch, ...]:
+    """The branches that are meant, those first that differ least from another.
+
+    Of branches as good as each other, the first is the answer.
+    """
+    meant = (one_branch(branch),) if isinstance(branch, Branch) else branch_labels(branch)
+    return tuple(sorted(meant, key=lambda one: sum(map(ne, one, like))))
 
 
 def _rests(judge: Judge) -> bool:

@@ -6,7 +6,7 @@ The path's geometry stays, its law of time is free: from rest to rest, at rest i
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -38,7 +38,8 @@ class AnyLaw:
     @cached_property
     def course(self) -> Course:
         """The path's geometry on the robot."""
-        return Course.of(self.report.robot, self.report.path, self.report.branch)
+        path = replace(self.report.path, made_for=None)  # whose it is, the report has said
+        return Course.of(self.report.robot, path, self.report.branch)
 
     @property
     def notes(self) -> list[str]:

@@ -13,7 +13,8 @@ from pollard_pin.motion.files import load_path
 from pollard_pin.motion.path import Timing, ToolPath
 from pollard_pin.motion.toml import PathFile
 from pollard_pin.specification import Specification
-from pollard_pin.study.sweeping.paths import LIMITS, MEASURES, PATH, PLACE, PathStudy
+from pollard_pin.study.sweeping.design import LIMITS, PATH, PLACE
+from pollard_pin.study.sweeping.paths import MEASURES, PathStudy
 from pollard_pin.study.sweeping.times import BOUNDS, TimeStudy
 from pollard_pin.study.timing.timed import AIMS, Aim
 from thesis_pin.errors import BadInput, ModelWarning
@@ -70,7 +71,7 @@ def path_study(
     """
     chosen(MEASURES, extra)
     whole("samples", samples, 2)
-    base, made, motion = base_and_path(
+    base, made, motion = _base_and_path(
         specification,
         path,
         placement=placement,
@@ -126,7 +127,7 @@ def time_study(
         UnknownName: There is no such law.
     """
     choice("law", law, AIMS)
-    base, made, motion = base_and_path(
+    base, made, motion = _base_and_path(
         specification,
         path,
         placement=placement,
@@ -142,18 +143,18 @@ def time_study(
     return TimeStudy(base, made, law, inertia, one_branch(branch), motion)
 
 
-def base_and_path(
+def _base_and_path(
     specification: Specification | str | Path | None,
     path: str | Path | None,
     *,
-    placement: Sequence[float] | None = None,
-    duration: float | None = None,
-    timing: Timing | None = None,
-    turn_deg: float = 0.0,
-    mirrored: bool = False,
-    euler: str | None = None,
-    feed: float | None = None,
-    smooth: str = "auto",
+    placement: Sequence[float] | None,
+    duration: float | None,
+    timing: Timing | None,
+    turn_deg: float,
+    mirrored: bool,
+    euler: str | None,
+    feed: float | None,
+    smooth: str,
 ) -> tuple[dict[str, object], ToolPath | None, str]:
     """What designs change, a path that they don't, and what tells that one from others.
 

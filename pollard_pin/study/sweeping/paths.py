@@ -2,38 +2,22 @@
 
 from __future__ import annotations
 
-import math
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 
 from pollard_pin.kinematics.geometry import Branch
-from pollard_pin.model import Pollard, load
-from pollard_pin.motion.curves import appendix_b
 from pollard_pin.motion.path import ToolPath
-from pollard_pin.motion.placing import Placement, place_path
-from pollard_pin.motion.toml import PathFile, path_of
 from pollard_pin.report.document import TrajectoryReport, trajectory_report
-from pollard_pin.specification import ACTUATOR_NAMES, Specification
+from pollard_pin.specification import ACTUATOR_NAMES
 from pollard_pin.study.smallest.asking import smallest_motors
+from pollard_pin.study.sweeping.design import named, path_in, robot_of, written
 from thesis_pin.display.brief import Brief
-from thesis_pin.errors import BadInput, ModelWarning
-from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.mechanism.inertia import Reading
-from thesis_pin.model.specification import validate
-from thesis_pin.numeric.checks import real
-from thesis_pin.sweep.designs.text import toml
-from thesis_pin.sweep.measures import Measure, chosen, row
+from thesis_pin.sweep.measures import Measure, chosen, columns_of, largest, reported
 from thesis_pin.sweep.study import Cell, Column
-
-PATH, PLACE, LIMITS = "path", "place", "limits"
-"""Names under which the data have what isn't of the specification."""
-
-DESIGN = "the design"
-"""Where what is wrong with a design's data is, for messages."""
 
 BASE = slice(0, 3)
 """The motors at the base among the six."""
@@ -56,11 +40,7 @@ def _smallest(report: TrajectoryReport, motors: slice) -> float | None:
 
     None where no motor of the kind does.
     """
-    try:
-        found = smallest_motors(report, law="given").cases[0].long[motors]
-    except BadInput:
-        return None
-    return float(found.max()) if np.isfinite(found).all() else None
+    return largest(lambda: smallest_motors(report, law="given").cases[0].long[motors])
 
 
 MEASURES: tuple[Measure[TrajectoryReport], ...] = (
@@ -165,7 +145,7 @@ class PathStudy(Brief):
     @property
     def columns(self) -> tuple[Column, ...]:
         """What is found of each design."""
-        return tuple(one.column for one in self._measures)
+        return columns_of(self._measures)
 
     @property
     def inputs(self) -> Mapping[str, object]:
@@ -181,10 +161,7 @@ class PathStudy(Brief):
 
     def judge(self, data: object) -> Mapping[str, Cell]:
         """The columns of one design: those of its path's report."""
-        report = self.report(data)
-        for doubt in report.doubts():
-            warnings.warn(doubt, ModelWarning, stacklevel=2)
-        return row(self._measures, report)
+        return reported(self._measures, self.report(data))
 
     def report(self, data: object) -> TrajectoryReport:
         """The report of one design.
@@ -200,85 +177,3 @@ class PathStudy(Brief):
     def written(self, data: object, notes: Sequence[str]) -> Mapping[str, bytes]:
         """The design as files: its specification, and its path where that varied."""
         return written(self.base, cast(Mapping[str, object], data), notes)
-
-
-def named(base: Mapping[str, object], path: ToolPath | None) -> str:
-    """What a study's path is called.
-
-    Args:
-        base: What designs change.
-        path: A path that they don't; None for one in the data, or appendix B's curve.
-    """
-    if path is not None:
-        return path.name
-    return str(cast(Mapping[str, object], base.get(PATH, {"name": "of appendix B"}))["name"])
-
-
-def robot_of(parts: Mapping[str, object], inertia: Reading) -> Pollard:
-    """The robot of a design.
-
-    Raises:
-        SpecificationError: There is none.
-    """
-    return load(
-        validate("specification", Specification, _own(parts), where=DESIGN), inertia=inertia
-    )
-
-
-def _own(parts: Mapping[str, object]) -> dict[str, object]:
-    """What is of the specification."""
-    return {key: value for key, value in parts.items() if key not in (PATH, PLACE, LIMITS)}
-
-
-def path_in(parts: Mapping[str, object], robot: Pollard, path: ToolPath | None) -> ToolPath:
-    """The path of a design, where it is put.
-
-    Args:
-        parts: The base with the design's values.
-        robot: The design's robot, which places and times appendix B's curve.
-        path: One that no design changes; None for one in the data, or appendix B's curve.
-
-    Raises:
-        SpecificationError: There is none.
-    """
-    if path is None and PATH in parts:
-        path = path_of(validate("path", PathFile, parts[PATH], where=DESIGN))
-    elif path is None:
-        path = appendix_b(robot.specification)
-    return place_path(path, placement_of(parts))
-
-
-def placement_of(parts: Mapping[str, object]) -> Placement:
-    """Where a design has the path.
-
-    Raises:
-        BadInput: Its values make no placement.
-    """
-    place = cast(Mapping[str, Any], parts[PLACE])
-    turn = real("place.turn_deg", place["turn_deg"])
-    return Placement.of(place["position"], math.radians(turn), place["mirrored"])
-
-
-def written(
-    base: Mapping[str, object], parts: Mapping[str, object], notes: Sequence[str]
-) -> Mapping[str, bytes]:
-    """A design as files that the commands read.
-
-    Args:
-        base: What designs change.
-        parts: The same with the design's values.
-        notes: What stands at their top.
-    """
-    place = placement_of(parts)
-    said = list(notes)
-    if place != Placement():
-        x, y, z = place.position
-        turn = cast(Mapping[str, float], parts[PLACE])["turn_deg"]
-        flags = f"--placement {x + 0.0!r} {y + 0.0!r} {z + 0.0!r} --turn={turn!r}"
-        said.append(f"Its path is put elsewhere: {flags}{' --mirror' * place.mirrored}")
-    files = {"best.toml": toml(_own(parts), said)}
-    if parts.get(PATH) is not base.get(PATH):
-        whose = validate("specification", Specification, _own(parts), where=DESIGN)
-        path = {**cast(Mapping[str, object], parts[PATH])}
-        files["best_path.toml"] = toml(path | {"made_for": MadeFor.of(whose).model_dump()}, said)
-    return {name: text.encode() for name, text in files.items()}

@@ -10,12 +10,12 @@ import numpy as np
 
 from pollard_pin.kinematics.geometry import Branch
 from pollard_pin.motion.path import ToolPath
-from pollard_pin.study.sweeping.paths import LIMITS, named, path_in, robot_of, written
+from pollard_pin.study.sweeping.design import LIMITS, named, path_in, robot_of, written
 from pollard_pin.study.timing.limits import motor_limits
 from pollard_pin.study.timing.timed import Aim, TimedPath, time_path
 from thesis_pin.display.brief import Brief
 from thesis_pin.model.mechanism.inertia import Reading
-from thesis_pin.sweep.measures import Measure, row
+from thesis_pin.sweep.measures import Measure, columns_of, row
 from thesis_pin.sweep.study import Cell, Column
 
 BOUNDS: Mapping[str, float | bool | None] = {
@@ -90,7 +90,7 @@ class TimeStudy(Brief):
     @property
     def columns(self) -> tuple[Column, ...]:
         """What is found of each design."""
-        return tuple(one.column for one in MEASURES)
+        return columns_of(MEASURES)
 
     @property
     def inputs(self) -> Mapping[str, object]:

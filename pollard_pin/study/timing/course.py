@@ -54,6 +54,7 @@ class Course(Brief):
         instance("robot", robot, Pollard, "pollard_pin.load()")
         instance("path", path, ToolPath, "load_path() or appendix_b()")
         chosen = DEFAULT_BRANCH if branch is None else one_branch(branch)
+        path = path.followed_by(robot.specification)
         _try(robot, path, chosen)
         curves, told = untimed(path)
         chain = Chain.of(curves)

@@ -87,7 +87,7 @@ class TimedPath(Brief):
 
     @cached_property
     def largest_torque_share(self) -> float:
-        """Largest share that any motor uses of its torque limit, between places too."""
+        """Largest share that any motor uses of its torque limit or line, between places too."""
         use = self.solved.use
         return max(
             float(share)

@@ -44,9 +44,10 @@ def _answer(timed: TimedPath) -> str:
             f"within {window:.3g}% of itself on {share:.3g}% of the way and never exceeded; "
             f"elsewhere limits bind or the motion rests, and it falls to {tool.min():.3g} m/s."
         )
+    what = "torque–speed line" if timed.limits.line else "torque limit"
     return (
         f"{on}: in {seconds} from rest to rest no motor needs more than "
-        f"{timed.largest_torque_share:.1%} of its torque limit, and no law of that duration asks "
+        f"{timed.largest_torque_share:.1%} of its {what}, and no law of that duration asks "
         "for less (measured by the largest share of any motor)."
     )
 

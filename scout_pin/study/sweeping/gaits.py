@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
 
-from scout_pin.model import Scout, load
 from scout_pin.motion.cycles import repeat_gait
 from scout_pin.motion.files import GaitFile, gait_of
 from scout_pin.motion.gait import Gait
 from scout_pin.report.document import GaitReport, gait_report
-from scout_pin.specification import JOINT_NAMES, Specification
+from scout_pin.specification import JOINT_NAMES
 from scout_pin.study.smallest.asking import smallest_motors
+from scout_pin.study.sweeping.design import (
+    DESIGN,
+    GAIT,
+    robot_of,
+    specification_of,
+    specification_text,
+)
 from thesis_pin.display.brief import Brief
-from thesis_pin.errors import BadInput, ModelWarning
 from thesis_pin.model.made_for import MadeFor
 from thesis_pin.model.mechanism.inertia import Reading
 from thesis_pin.model.specification import validate
 from thesis_pin.sweep.designs.text import toml
-from thesis_pin.sweep.measures import Measure, chosen, row
+from thesis_pin.sweep.measures import Measure, chosen, columns_of, largest, reported
 from thesis_pin.sweep.study import Cell, Column
-
-GAIT, PLAN = "gait", "plan"
-"""Names under which the data have what isn't of the specification."""
 
 
 def _worst(report: GaitReport) -> str:
@@ -42,11 +43,7 @@ def _smallest(report: GaitReport) -> float | None:
 
     None where no servo of the kind does.
     """
-    try:
-        found = smallest_motors(report, law="given").cases[0].long
-    except BadInput:
-        return None
-    return float(found.max()) if np.isfinite(found).all() else None
+    return largest(lambda: smallest_motors(report, law="given").cases[0].long)
 
 
 MEASURES: tuple[Measure[GaitReport], ...] = (
@@ -149,7 +146,7 @@ class GaitStudy(Brief):
     @property
     def columns(self) -> tuple[Column, ...]:
         """What is found of each design."""
-        return tuple(one.column for one in self._measures)
+        return columns_of(self._measures)
 
     @property
     def inputs(self) -> Mapping[str, object]:
@@ -169,10 +166,7 @@ class GaitStudy(Brief):
 
     def judge(self, data: object) -> Mapping[str, Cell]:
         """The columns of one design: those of its gait's report."""
-        report = self.report(data)
-        for doubt in report.doubts():
-            warnings.warn(doubt, ModelWarning, stacklevel=2)
-        return row(self._measures, report)
+        return reported(self._measures, self.report(data))
 
     def report(self, data: object) -> GaitReport:
         """The report of one design.
@@ -190,7 +184,7 @@ class GaitStudy(Brief):
     def _gait(self, parts: Mapping[str, object]) -> Gait:
         if parts.get(GAIT) is self.base.get(GAIT):
             return self.gait
-        file = validate("gait", GaitFile, parts[GAIT], where="the design")
+        file = validate("gait", GaitFile, parts[GAIT], where=DESIGN)
         return replace(gait_of(file, self.interpolation), cycle=file.cycle)
 
     def written(self, data: object, notes: Sequence[str]) -> Mapping[str, bytes]:
@@ -202,28 +196,3 @@ class GaitStudy(Brief):
             gait = {**cast(Mapping[str, object], parts[GAIT]), "made_for": own}
             files["best_gait.toml"] = toml(gait, notes)
         return {name: text.encode() for name, text in files.items()}
-
-
-def robot_of(parts: Mapping[str, object], inertia: Reading) -> Scout:
-    """The biped of a design.
-
-    Raises:
-        SpecificationError: There is none.
-    """
-    return load(specification_of(parts), inertia=inertia)
-
-
-def specification_of(parts: Mapping[str, object]) -> Specification:
-    """The specification of a design.
-
-    Raises:
-        SpecificationError: It is none.
-    """
-    own = {key: value for key, value in parts.items() if key not in (GAIT, PLAN)}
-    return validate("specification", Specification, own, where="the design")
-
-
-def specification_text(parts: Mapping[str, object], notes: Sequence[str]) -> str:
-    """The specification of a design as TOML."""
-    own = {key: value for key, value in parts.items() if key not in (GAIT, PLAN)}
-    return toml(own, notes)

@@ -14,7 +14,8 @@ from scout_pin.motion.gait import Gait
 from scout_pin.specification import Specification
 from scout_pin.study.plan.planning import LEAST_SAMPLES
 from scout_pin.study.plan.request import PlanRequest
-from scout_pin.study.sweeping.gaits import GAIT, MEASURES, PLAN, GaitStudy
+from scout_pin.study.sweeping.design import GAIT, PLAN
+from scout_pin.study.sweeping.gaits import MEASURES, GaitStudy
 from scout_pin.study.sweeping.plans import PlanStudy, request_of
 from thesis_pin.errors import BadInput, ModelWarning, UnknownName
 from thesis_pin.model.limits import LIMITS

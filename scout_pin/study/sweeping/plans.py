@@ -10,11 +10,11 @@ from scout_pin.study.plan.planning import plan_gait
 from scout_pin.study.plan.request import PlanRequest
 from scout_pin.study.plan.results.judged import Judged
 from scout_pin.study.plan.results.result import Plan
-from scout_pin.study.sweeping.gaits import PLAN, robot_of, specification_text
+from scout_pin.study.sweeping.design import PLAN, robot_of, specification_text
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import BadInput
 from thesis_pin.model.mechanism.inertia import Reading
-from thesis_pin.sweep.measures import Measure, row
+from thesis_pin.sweep.measures import Measure, columns_of, row
 from thesis_pin.sweep.study import Cell, Column
 
 
@@ -95,7 +95,7 @@ class PlanStudy(Brief):
     @property
     def columns(self) -> tuple[Column, ...]:
         """What is found of each design."""
-        return tuple(one.column for one in MEASURES)
+        return columns_of(MEASURES)
 
     @property
     def inputs(self) -> Mapping[str, object]:

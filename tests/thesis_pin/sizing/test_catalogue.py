@@ -143,6 +143,7 @@ def test_several_files_make_one_list(tmp_path):
         ("name,torque_Nm,speed_rpm,rated_Nm\nTotal,,,\n", r"list\.csv:2: Total: it has no stall"),
         ("name,torque_Nm,speed_rpm\nA,1,5\nA,2,5\n", "'A' is listed 2 times"),
         ("name,torque_Nm,speed_rpm,mass_6V_g\nA,1,5,3\n", "can't depend on the voltage"),
+        ("name,torque_Nm,torque_Nm,speed_rpm\nA,1,2,5\n", "columns 2 and 3 are both called"),
         ("name,torque_Nm,speed_rpm\n,1,5\n", "it has no name"),
         ("name,torque_Nm,speed_rpm\n", "there is no servo"),
     ],

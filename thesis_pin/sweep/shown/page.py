@@ -35,6 +35,7 @@ def sweep_page(choice: Choice) -> bytes:
             plots=[],
             tables=[
                 *tables,
+                Table("What varied", ("key", "values"), _varied(choice), prose=True),
                 parameters_table(_asked(choice)),
                 _columns_table(choice),
                 software(),
@@ -59,21 +60,24 @@ def _tiles(choice: Choice) -> list[Tile]:
     return found
 
 
-def _asked(choice: Choice) -> dict[str, object]:
-    """What varied, from where to where, and what else was said."""
+def _varied(choice: Choice) -> list[tuple[str, str]]:
+    """Each key as ``--vary`` takes it, from where to where it went."""
     designs = choice.sweep.designs
-    told: dict[str, object] = {}
+    told: list[tuple[str, str]] = []
     for k, one in enumerate(designs.parameters):
         values = list(dict.fromkeys(row[k] for row in designs.values))
         if designs.numeric[k] and len(values) > 1:
             numbers = [float(value) for value in values]
-            told[one.label] = f"{min(numbers):.6g} to {max(numbers):.6g}, {len(values)} values"
+            said = f"{min(numbers):.6g} to {max(numbers):.6g}, {len(values)} values"
         else:
-            told[one.label] = ", ".join(map(str, values[:8]))
-        told[one.label] = f"{told[one.label]}{' of what it was' if one.relative else ''}"
-    return told | {
-        key: value for key, value in choice.sweep.study.inputs.items() if key != "motion"
-    }
+            said = ", ".join(map(str, values[:8]))
+        told.append((one.label, f"{said}{' of what it was' if one.relative else ''}"))
+    return told
+
+
+def _asked(choice: Choice) -> dict[str, object]:
+    """What was said besides."""
+    return {key: value for key, value in choice.sweep.study.inputs.items() if key != "motion"}
 
 
 def _columns_table(choice: Choice) -> Table:

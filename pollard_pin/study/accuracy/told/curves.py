@@ -152,6 +152,7 @@ def map_figure(study: AccuracyNumbers) -> Figure:
     low = float(finite.min()) if finite.size else 1.0
     high = float(np.quantile(finite, 0.95)) if finite.size else 10.0
     scale = LogNorm(low, max(high, low * 1.1))
+    outlined = False
     for ax, normal in zip(grid[0], normals, strict=True):
         across, up = (k for k in range(3) if k != normal)
         middle = sizes[normal] // 2
@@ -164,6 +165,7 @@ def map_figure(study: AccuracyNumbers) -> Figure:
             level = np.where(np.isnan(shown), np.inf, shown)
             inside = np.where(level <= study.limit * 1e3, 1.0, 0.0)
             if 0.0 < inside.mean() < 1.0:
+                outlined = True
                 ax.contour(*at, inside.T, levels=[0.5], colors=VERMILLION)
         names = "xyz"
         ax.set(
@@ -179,7 +181,7 @@ def map_figure(study: AccuracyNumbers) -> Figure:
     bar.set_ticks(ticks, labels=[f"{one:g}" for one in ticks])
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
     said = ["grey: some robot within tolerances can't be assembled"] if lost.any() else []
-    if study.limit is not None:
+    if study.limit is not None and outlined:
         said.append(f"orange: within {study.limit * 1e3:g} mm")
     if said:
         figure.suptitle("; ".join(said), size=9)

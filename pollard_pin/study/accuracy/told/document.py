@@ -148,7 +148,7 @@ def _summary(study: AccuracyNumbers) -> dict[str, object]:
         "within_limits": None if study.limit is None else study.within_limits,
         "verdict": sentences(study),
         "doubts": doubts(study),
-        "notes": list(study.allowed.notes),
+        "notes": [*study.allowed.notes, *([] if study.path is None else study.path.notes)],
         "worst": {
             "largest": _number(stack.farthest[k]),
             "linear": float(stack.worst[k]),

@@ -5,6 +5,8 @@ import pytest
 
 import pollard_pin
 from pollard_pin.study.accuracy.exact import reached
+from pollard_pin.study.accuracy.study import workspace_accuracy
+from pollard_pin.study.accuracy.told.curves import map_figure
 from pollard_pin.study.accuracy.told.page import scene
 
 
@@ -30,3 +32,10 @@ def test_ellipsoids_are_as_long_in_each_direction_as_the_root_of_squares_along_i
             half = np.array(body.geometry["radii"]) * (body.local[:3, :3].T @ direction)
             assert np.linalg.norm(half) == pytest.approx(expected, rel=2e-3)
         assert np.linalg.det(body.local[:3, :3]) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("limit", "outlined"), [(1e-4, False), (5e-3, True)])
+def test_the_map_speaks_of_an_outline_only_where_it_draws_one(limit, outlined, pollard):
+    x, z = np.linspace(0.4, 0.7, 7), np.linspace(-0.3, 0.1, 7)
+    figure = map_figure(workspace_accuracy(pollard, x, 0.0, z, within=limit))
+    assert ("orange" in figure.get_suptitle()) == outlined

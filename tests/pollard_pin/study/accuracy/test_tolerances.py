@@ -158,6 +158,8 @@ def test_tables_are_read_as_people_write_them(tmp_path, text):
         ("parameter,tolerance_mm\nx_86,0.1\n", "t.csv:2"),
         ("parameter,tolerance_mm,distribution\nx_87,0.1,gauss\n", "t.csv:2"),
         ("parameter,tolerance_mm\nx_87,500\n", "t.csv:2"),
+        ("parameter,tolerance_mm,tolerance_mm\nx_87,0.1,0.2\n", "x_87 has two tolerances in mm"),
+        ("parameter,tolerance_mm,tolerance_um\nx_87,0.1,20\n", "x_87 has two tolerances in mm"),
         ("", "empty"),
         ("parameter,tolerance_mm\n", "no tolerance"),
     ],

@@ -14,12 +14,12 @@ from pollard_pin.kinematics.geometry import USEFUL_BRANCHES
 from pollard_pin.motion.curves import line
 from pollard_pin.motion.placing import Placement, place_path
 from pollard_pin.report.document import trajectory_report
-from pollard_pin.study.placement.document import columns, document
 from pollard_pin.study.placement.judged import ARMS, FOLLOWED, REASONS, arms_cross
 from pollard_pin.study.placement.limits import with_limits
 from pollard_pin.study.placement.pacing import played
 from pollard_pin.study.placement.search import evaluate_placements
-from pollard_pin.study.placement.telling import best_table, flags, sentences, told
+from pollard_pin.study.placement.told.document import columns, document
+from pollard_pin.study.placement.told.words import best_table, flags, sentences, told
 from thesis_pin.errors import BadInput, ThesisPinError
 from thesis_pin.report.writers import csv_bytes, json_bytes
 
@@ -272,8 +272,8 @@ def test_searches_travel(found):
 
 
 def test_a_picture_and_a_page_are_drawn_of_volumes_planes_lines_and_nothing(pollard):
-    from pollard_pin.study.placement.figures import placements_figure
-    from pollard_pin.study.placement.page import placements_page
+    from pollard_pin.study.placement.told.figures import placements_figure
+    from pollard_pin.study.placement.told.page import placements_page
 
     path = nodding()
     for axes, panels in (

@@ -1,37 +1,18 @@
 """Rows of Pollard-like robots, held against what `trajectory` says of the written-out designs."""
 
-import json
 import tomllib
 from pathlib import Path
 
 import pytest
+from designed import asked, row_of
 
 import pollard_pin
 import thesis_pin
 from pollard_pin.cli import main
 from thesis_pin.errors import BadInput, UnknownName
-from thesis_pin.sweep.study import judged
 
 ROOT = Path(__file__).parents[4]
 ARCH = str(ROOT / "examples" / "spray_arch.toml")
-
-
-def row_of(study, *texts, design=-1):
-    designs = thesis_pin.make_designs(study, texts)
-    number = range(len(designs))[design]
-    data = designs.data(study.base, number)
-    row = judged(study, data, number, designs.values[number])
-    names = [column.name for column in study.columns]
-    return row, dict(zip(names, row.cells, strict=True)), study.written(data, ["a note"])
-
-
-def asked(tmp_path, files, *words):
-    for name, content in files.items():
-        (tmp_path / name).write_bytes(content)
-    out = tmp_path / "report.json"
-    robot = ["--specification", str(tmp_path / "best.toml")]
-    assert main(["trajectory", *robot, *words, "--json", str(out)]) == 0
-    return json.loads(out.read_bytes())["summary"]
 
 
 @pytest.mark.parametrize(
@@ -52,7 +33,7 @@ def test_a_row_is_to_the_bit_what_trajectory_says_of_the_design(options, words, 
     if words is None:
         place = ["--placement", "0.02", "0", "0.01", "--turn", "20", "--mirror"]
         words = ["--path", ARCH, *place]
-    found = asked(tmp_path, files, *words, "--samples", "201")
+    found = asked(main, "trajectory", tmp_path, files, *words, "--samples", "201")
     assert cells["within_limits"] == found["within_limits"]
     assert cells["base_torque"] == max(found["peak_torque"][:3])
     assert cells["wrist_torque"] == max(found["peak_torque"][3:])
@@ -74,7 +55,7 @@ def test_a_path_that_varies_is_written_out_and_followed_alike(tmp_path):
     _, cells, files = row_of(study, "path.segments.0.duration=3,2.5")
     assert tomllib.loads(files["best_path.toml"].decode())["segments"][0]["duration"] == 2.5
     words = ("--path", str(tmp_path / "best_path.toml"), "--samples", "201")
-    found = asked(tmp_path, files, *words)
+    found = asked(main, "trajectory", tmp_path, files, *words)
     assert cells["base_torque"] == max(found["peak_torque"][:3])
     assert cells["duration"] == 4.5
 
@@ -84,7 +65,7 @@ def test_a_place_that_varies_is_where_the_flags_put_the_path(tmp_path):
     texts = ("place.position.0=0,0.02", "place.turn_deg=0,-15", "place.mirrored=false,true")
     _, cells, files = row_of(study, *texts)
     place = ("--placement", "0.02", "0", "0", "--turn=-15", "--mirror")
-    found = asked(tmp_path, files, "--path", ARCH, *place, "--samples", "201")
+    found = asked(main, "trajectory", tmp_path, files, "--path", ARCH, *place, "--samples", "201")
     assert cells["base_torque"] == max(found["peak_torque"][:3])
     assert cells["reach_margin"] == found["margin"]["least"]
     assert "--placement 0.02 0.0 0.0 --turn=-15.0 --mirror" in files["best.toml"].decode()

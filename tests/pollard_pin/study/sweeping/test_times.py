@@ -3,22 +3,13 @@
 from pathlib import Path
 
 import pytest
+from designed import row_of
 
 import pollard_pin
-import thesis_pin
 from thesis_pin.errors import UnknownName
-from thesis_pin.sweep.study import judged
 
 ROOT = Path(__file__).parents[4]
 ARCH = str(ROOT / "examples" / "spray_arch.toml")
-
-
-def row_of(study, *texts):
-    designs = thesis_pin.make_designs(study, texts)
-    data = designs.data(study.base, len(designs) - 1)
-    row = judged(study, data, 0, designs.values[-1])
-    names = [column.name for column in study.columns]
-    return row, dict(zip(names, row.cells, strict=True)), study.written(data, [])
 
 
 def test_a_row_is_to_the_bit_what_the_solver_finds_for_the_design(tmp_path):

@@ -1,48 +1,27 @@
 """Rows of bipeds, held against the reports that `gait` makes of the written-out designs."""
 
-import json
 import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
+from designed import asked, row_of
 
 import scout_pin
 import thesis_pin
 from scout_pin.cli import main
 from scout_pin.study.sweeping.gaits import MEASURES
 from thesis_pin.errors import BadInput, UnknownName
-from thesis_pin.sweep.study import judged
 
 ROOT = Path(__file__).parents[4]
 WALK = str(ROOT / "examples" / "walk.toml")
-
-
-def row_of(study, *texts, design=-1):
-    """A design, its row as a dictionary, and its files."""
-    designs = thesis_pin.make_designs(study, texts)
-    number = range(len(designs))[design]
-    data = designs.data(study.base, number)
-    row = judged(study, data, number, designs.values[number])
-    names = [column.name for column in study.columns]
-    return row, dict(zip(names, row.cells, strict=True)), study.written(data, ["a note"])
-
-
-def asked(tmp_path, files, *words):
-    """What the command says of a design that was written out."""
-    for name, content in files.items():
-        (tmp_path / name).write_bytes(content)
-    out = tmp_path / "report.json"
-    robot = ["--specification", str(tmp_path / "best.toml")]
-    main(["gait", *robot, *words, "--json", str(out)])
-    return json.loads(out.read_bytes())["summary"]
 
 
 def test_a_row_is_to_the_bit_what_gait_says_of_the_design_that_is_written_out(tmp_path):
     study = scout_pin.gait_study(gait=WALK, samples=101, extra=["fastest_time_unit"])
     texts = ("legs.*.x_3=0.06,0.07", "servos.*.stall_torque=90%,70%", "torso.mass=0.2")
     row, cells, files = row_of(study, *texts)
-    found = asked(tmp_path, files, "--gait", WALK, "--samples", "101")
+    found = asked(main, "gait", tmp_path, files, "--gait", WALK, "--samples", "101")
     assert row.status == "done"
     assert cells["within_limits"] == found["within_limits"]
     assert cells["can_walk"] == found["can_walk"]
@@ -67,7 +46,7 @@ def test_a_gait_that_varies_is_written_out_and_walked_alike(tmp_path):
     assert tomllib.loads(files["best_gait.toml"].decode())["time_unit"] == 0.04
     gait = str(tmp_path / "best_gait.toml")
     more = ("--gait", gait, "--samples", "101", "--repeat", "2", "--branch", "forward")
-    found = asked(tmp_path, files, *more)
+    found = asked(main, "gait", tmp_path, files, *more)
     assert cells["servo_use"] == max(found["servo_use"])
     assert cells["margin"] == found["worst_margin"]
 
@@ -76,7 +55,7 @@ def test_what_is_said_of_the_gait_is_said_of_every_design(tmp_path):
     study = scout_pin.gait_study(gait=WALK, samples=101, time_unit=0.06, inertia="printed")
     _, cells, files = row_of(study, "torso.mass=0.2")
     words = ("--gait", WALK, "--samples", "101", "--time-unit", "0.06", "--inertia", "printed")
-    found = asked(tmp_path, files, *words)
+    found = asked(main, "gait", tmp_path, files, *words)
     assert cells["servo_use"] == max(found["servo_use"])
     assert cells["margin"] == found["worst_margin"]
 

@@ -3,26 +3,16 @@
 import tomllib
 
 import pytest
+from designed import row_of
 
 import scout_pin
-import thesis_pin
 from scout_pin.study.plan.request import PlanRequest
 from thesis_pin.errors import BadInput, UnknownName
-from thesis_pin.sweep.study import judged
-
-
-def row_of(study, *texts, design=-1):
-    designs = thesis_pin.make_designs(study, texts)
-    number = range(len(designs))[design]
-    data = designs.data(study.base, number)
-    row = judged(study, data, number, designs.values[number])
-    names = [column.name for column in study.columns]
-    return dict(zip(names, row.cells, strict=True)), study.written(data, [])
 
 
 def test_a_row_is_to_the_bit_what_the_planner_finds_for_the_design_that_is_written_out(tmp_path):
     study = scout_pin.plan_study(request={"speed": 0.03}, steps=2)
-    cells, files = row_of(study, "servos.*.stall_torque=0.5", "plan.margin=0.008,0.006")
+    _, cells, files = row_of(study, "servos.*.stall_torque=0.5", "plan.margin=0.008,0.006")
     (tmp_path / "best.toml").write_bytes(files["best.toml"])
     robot = scout_pin.load(tmp_path / "best.toml")
     plan = scout_pin.plan_gait(robot, PlanRequest(speed=0.03, margin=0.006), steps=2)
@@ -39,7 +29,7 @@ def test_a_row_is_to_the_bit_what_the_planner_finds_for_the_design_that_is_writt
 
 
 def test_a_walk_that_cant_be_is_a_row_that_says_what_stands_in_the_way():
-    cells, _ = row_of(
+    _, cells, _ = row_of(
         scout_pin.plan_study(request={"speed": 0.03}, steps=2), "servos.*.stall_torque=0.05"
     )
     assert cells["met"] is False

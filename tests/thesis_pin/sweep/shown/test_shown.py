@@ -89,6 +89,13 @@ def test_a_picture_and_a_page_are_made_of_any_sweep(choice):
     assert "Nearest to the wish" in sweep_page(three).decode()
 
 
+def test_the_page_has_the_keys_that_varied_as_they_are_written():
+    study = Bowl(base=BASE | {"leg_1": {"x_3": 1.0}})
+    page = sweep_page(Choice.of(swept("leg_*.x_3=0,1", study=study))).decode()
+    assert "<td>leg_*.x_3</td>" in page
+    assert "0 to 1, 2 values" in page
+
+
 def test_where_nothing_was_judged_that_is_said_and_nothing_is_drawn():
     choice = Choice.of(swept("x=0.25,0.5", study=STUDY))
     assert choice.best is None

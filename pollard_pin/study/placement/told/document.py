@@ -12,7 +12,7 @@ from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.specification import ACTUATOR_NAMES
 from pollard_pin.study.placement.judged import FOLLOWED, REASONS
 from pollard_pin.study.placement.result import Found, PlacementNumbers
-from pollard_pin.study.placement.telling import flags
+from pollard_pin.study.placement.told.words import flags
 from thesis_pin.version import __version__
 
 SCHEMA = "pollard-pin/placements"
@@ -99,6 +99,7 @@ def document(space: PlacementNumbers, report: TrajectoryReport | None) -> dict[s
         "margin": space.judged.margin[some],
         "clearance": space.judged.clearance[some],
         "report": None if report is None else report.summary(),
+        "notes": list(space.path.notes),
     }
 
 

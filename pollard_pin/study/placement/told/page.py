@@ -8,10 +8,10 @@ from dataclasses import replace
 
 from pollard_pin.report.document import TrajectoryReport
 from pollard_pin.report.drawn.page import page_of
-from pollard_pin.study.placement.figures import placements_files, shown
 from pollard_pin.study.placement.objectives import WORDS
 from pollard_pin.study.placement.result import PlacementNumbers
-from pollard_pin.study.placement.telling import best_table, sentences
+from pollard_pin.study.placement.told.figures import placements_files, shown
+from pollard_pin.study.placement.told.words import best_table, sentences
 from thesis_pin.pages.page import Drawing, Page, html
 from thesis_pin.report.plotting.wanted import Wanted, written_as
 

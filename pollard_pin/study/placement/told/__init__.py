@@ -1,0 +1,1 @@
+"""What is told of placements: sentences, tables, figures, page, JSON."""
