@@ -161,6 +161,7 @@ def _table(study: Study, file: str) -> Designs:
         bare = cell.removesuffix("%")
         return cell.replace(",", ".") if comma and NUMBER.fullmatch(bare) else cell
 
+    table.refuse_repeats()
     columns = {
         heading: [word(row[k]) for row in table.rows] for k, heading in enumerate(table.header)
     }

@@ -110,6 +110,7 @@ def _read(path: str | Path, voltage: float | None) -> tuple[list[Actuator], list
     if where.lower().endswith(".json"):
         return [read_identified(read_text(KIND, path), where, voltage)], []
     table = read_table(KIND, path, means=understood)
+    table.refuse_repeats(understood)
     cells = [dict(zip(table.header, row, strict=True)) for row in table.rows]
     meanings = meanings_of(table.header, cells, where)
     comma = table.dialect.decimal == ","

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 
@@ -67,6 +68,24 @@ class Table:
     def between(self, rows: Iterable[int]) -> str:
         """File and lines of some rows, for messages."""
         return f"{self.file}:{', '.join(str(self.lines[row]) for row in rows)}"
+
+    def refuse_repeats(self, used: Callable[[str], object] = bool) -> None:
+        """Refuse two columns of one heading, of which only one would be read.
+
+        Args:
+            used: Whether a heading is of a column that is read.
+
+        Raises:
+            BadInput: There are two; with their heading and places.
+        """
+        for heading, count in Counter(self.header).items():
+            if count > 1 and used(heading):
+                places = [k for k, one in enumerate(self.header, 1) if one == heading]
+                raise BadInput(
+                    f"columns {' and '.join(map(str, places))} are both called {heading!r}",
+                    where=self.file,
+                    remedy="Keep one of them, or rename what isn't meant",
+                )
 
     def texts(self, place: int) -> list[str]:
         """Cells of a column as they are written."""

@@ -144,6 +144,7 @@ def _rows(table: Table) -> Iterator[Rule]:
         said = [(k, row[k]) for k in sized if row[k] not in ("", "-")]
         if not said:
             raise BadInput(f"{row[names[0]]} has no tolerance", where=where, allowed="0 for exact")
+        seen: set[str] = set()
         for k, cell in said:
             size = finite(re.sub(r"^(±|\+/-|\+-)\s*", "", cell).replace(",", "."))
             written = _spelt(sized[k] or row[units or 0])
@@ -154,6 +155,11 @@ def _rows(table: Table) -> Iterator[Rule]:
                     allowed="a number in mm, um, m, deg, rad or mrad",
                 )
             unit, factor = _UNIT[written]
+            if unit in seen:
+                raise BadInput(
+                    f"{row[names[0]]} has two tolerances in {unit}", where=where, allowed="one"
+                )
+            seen.add(unit)
             rule = Rule(
                 row[names[0]],
                 size * factor,

@@ -80,8 +80,8 @@ def test_a_phase_that_takes_no_time_leaves_a_gap_and_no_line_across():
     back = by_phase(instant, SLOW)
     assert np.isnan(back.of_first(np.array([1.3]))).all()
     assert back.left == (0, 3)
-    moving = back.of_first(np.array([0.8, 1.8]))
-    np.testing.assert_allclose(moving, [0.5, 1.5])
+    moving = back.of_first(np.array([0.4, 0.8, 1.8]))
+    np.testing.assert_allclose(moving, [0.0, 0.5, 1.5])  # 0.4 s is where both phases meet
 
 
 def test_motions_without_a_change_in_common_are_refused():

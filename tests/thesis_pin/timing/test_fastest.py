@@ -89,6 +89,8 @@ def test_a_load_that_the_motor_cannot_hold_is_refused_with_its_share():
     with pytest.raises(Infeasible, match=r"takes 120\.0% of the torque of m0") as caught:
         fastest(Grid.of(Wheel(0.02, 6.0, load=0.6), 20), motors(0.5, 8.0))
     assert caught.value.share == pytest.approx(1.2)
+    with pytest.raises(Infeasible, match=r"100\.2%"):
+        fastest(Grid.of(Wheel(0.02, 6.0, load=0.501), 20), motors(0.5, 8.0))
 
 
 @SEVERAL

@@ -39,15 +39,20 @@ def test_a_box_needs_the_peak_and_nothing_beyond_its_speed():
     assert "no motor of this kind carries b" in " ".join(found.sentences())
 
 
+def test_a_load_at_the_free_speed_is_beyond_every_torque():
+    assert np.isnan(smallest(loads(0.1, 10.0), Family.of(1, 10.0)).once[0])
+
+
 def test_a_speed_that_nothing_bounds_leaves_the_whole_torque():
     assert smallest(loads(0.6, 400.0), Family.of(1, np.inf)).once[0] == pytest.approx(0.6)
 
 
 def test_a_joint_without_load_needs_no_torque_below_the_free_speed_and_has_none_above():
-    load = loads([[0.0, 0.0]], [[9.0, 11.0]], joints=("a", "b"))
-    found = smallest(load, Family.of(2, 10.0))
+    load = loads([[0.0, 0.0, 0.0]], [[9.0, 11.0, 10.0]], joints=("a", "b", "c"))
+    found = smallest(load, Family.of(3, 10.0))
     assert found.once[0] == 0.0
     assert np.isnan(found.once[1])
+    assert found.once[2] == 0.0  # just as fast as it turns freely
 
 
 def test_a_rotor_that_grows_with_the_torque_is_solved_for():
