@@ -59,3 +59,11 @@ def test_nothing_reaches_over_a_printed_page(printed):
         margin = 20  # points, where 34 are left free
         edges = (drawn[:, :margin], drawn[:, -margin:], drawn[:margin], drawn[-margin:])
         assert all((edge > 250).all() for edge in edges)
+
+
+def test_the_colour_of_the_answer_stays_on_paper(printed, report):
+    document, *_ = printed
+    drawn = document[0].render(scale=1).to_numpy()[..., 2::-1].astype(int)  # red, green, blue
+    colour = (0, 114, 178) if report.within_limits else (213, 94, 0)
+    bar = (np.abs(drawn[:, 30:44] - colour).max(axis=-1) < 30).any(axis=1)
+    assert bar.sum() > 40  # as high as a few lines

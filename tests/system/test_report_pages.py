@@ -101,6 +101,8 @@ def test_colours_that_mean_something_stay_where_the_system_chooses_them(browser,
         found.append((browser.run(seen), browser.run(texts)))
     assert len(set(found[0][0])) > 5
     assert found[1] == found[0]
+    edge = "getComputedStyle(document.querySelector('.swatch')).borderTopColor"
+    assert browser.run(edge) == browser.run("getComputedStyle(document.body).color")
 
 
 def test_the_report_answers_first(browser, report_file, report):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, ROUND_DOWN, Context
+from types import MappingProxyType
 
 from scout_pin.study.plan.cycles.feet import Steps
 from scout_pin.study.plan.cycles.problem import Unknowns
@@ -20,9 +21,9 @@ _TINY = (0.01, 0.001)  # of one as far from what can be met as another unit make
 _CLIMBS = 10  # from the first that is met towards what was asked for
 _FIRST, _FINE = 0.16, 0.02  # relative steps of it: the first one, and when it is given up
 _FASTER, _SLOWER = 1.5, 0.4
-_CONFIRMED = {0.6: 1 / 2, 1.0: 2 / 3, 0.85: 1 / 2}
-"""Shares of what was met from nearby that are searched anew, what is safe before what may take all
-of the time there is; of that, what each may take."""
+_SAFE = 0.6  # of what was met from nearby, what is searched anew first
+_LARGER = {1.0: 9 / 10, 0.85: 1 / 2}
+"""Shares of it that are searched anew then; of the steps there are, what each may take."""
 
 OFFERS = 4 * (2 * len(_SHARES) + _CLIMBS + ATTEMPTS)
 """Descents at most, or so."""
@@ -91,10 +92,23 @@ def _of(amount: float) -> Callable[[float], float]:
     return lambda share: share * amount
 
 
-def nearest(
-    search: Search, request: PlanRequest, found: Candidate, change: Change
-) -> PlanRequest | None:
-    """The request with the largest share that was found to be met, and is met if asked for.
+@dataclass(frozen=True)
+class Offer:
+    """What may be asked for instead.
+
+    Attributes:
+        change: The one thing that is changed.
+        share: Of the ambition in it that was met from nearby.
+        request: The request with the largest share that is met if asked for; None if none is yet.
+    """
+
+    change: Change
+    share: float
+    request: PlanRequest | None
+
+
+def nearest(search: Search, request: PlanRequest, found: Candidate, change: Change) -> Offer | None:
+    """How much of a request is met from nearby; and what is safe of that, searched anew.
 
     Args:
         search: Where it was searched.
@@ -103,7 +117,7 @@ def nearest(
         change: What may be less of it.
 
     Returns:
-        The request; None if none was found.
+        The offer; None if nothing was found.
     """
     begun = _begun(search, request, found, change)
     if begun is None:
@@ -120,21 +134,31 @@ def nearest(
             step = _SLOWER * (share / low - 1.0)
             if step < _FINE:
                 break
-    return _confirmed(search, request, change, low)
+    return raised(search, request, Offer(change, low, None), {_SAFE: 1 / 2})
 
 
-def _confirmed(
-    search: Search, request: PlanRequest, change: Change, share: float
-) -> PlanRequest | None:
-    """What is met anew: what is met from nearby isn't always, then less is."""
-    offered = None
-    for part, most in _CONFIRMED.items():
-        asked = change.request(request, part * share)
-        if asked is not None and _again(search, asked, most):
-            offered = asked
-            if part == max(_CONFIRMED):
-                break
-    return offered
+def raised(
+    search: Search,
+    request: PlanRequest,
+    offer: Offer,
+    shares: Mapping[float, float] = MappingProxyType(_LARGER),
+    most: float = 1.0,
+) -> Offer:
+    """An offer with the first of larger shares that is met anew, as not all from nearby are.
+
+    Args:
+        search: Where it was searched.
+        request: What was asked for.
+        offer: The offer.
+        shares: Shares of what was met from nearby; of the steps it may take, what each may.
+        most: Share of the steps that are left that all of it may take.
+    """
+    end = search.iterations + most * search.left
+    for part, some in shares.items():
+        asked = offer.change.request(request, part * offer.share)
+        if asked is not None and _again(search, asked, some * (end - search.iterations)):
+            return replace(offer, request=asked)
+    return offer
 
 
 def _begun(
@@ -164,14 +188,14 @@ def _again(search: Search, request: PlanRequest, most: float) -> bool:
     Args:
         search: The search.
         request: The request.
-        most: Share of what may still be searched that this may take.
+        most: Steps after which it begins no further descent.
     """
-    if search.left <= 0.0:
+    if most <= 0.0:
         return False
     anew = None
     try:
         anew = Search(search.sampler.robot, request, search.tick)
-        anew.allowed = most * search.left
+        anew.allowed = most
         return anew.first(request).kept
     except (ThesisPinError, ArithmeticError):
         return False

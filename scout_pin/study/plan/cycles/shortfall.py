@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import groupby
 
-from scout_pin.study.plan.cycles.nearest import OFFERS, attempt, changes, nearest
+from scout_pin.study.plan.cycles.nearest import OFFERS, Change, attempt, changes, nearest, raised
 from scout_pin.study.plan.cycles.search import FAR, Candidate, Search
 from scout_pin.study.plan.limits import KINDS, Worst
 from scout_pin.study.plan.request import LEAST, PlanRequest
@@ -62,10 +63,20 @@ def shortfall(search: Search, request: PlanRequest, found: Candidate) -> Shortfa
     met: dict[str, PlanRequest | None] = dict.fromkeys(one.name for one in wanted)
     # What is seldom asked for is what fails, and more time seldom helps: it comes last, as there
     # may be no time for all of them.
-    for one in sorted(wanted, key=lambda one: (one.name not in LEAST, one.up)):
-        search.allowed = search.iterations + _CLIMBING * search.left
-        met[one.name] = nearest(search, request, found, one)
+    for _, alike in groupby(sorted(wanted, key=_rank), _rank):
+        offers = []
+        for one in alike:
+            search.allowed = search.iterations + _CLIMBING * search.left
+            if (offer := nearest(search, request, found, one)) is not None:
+                offers.append(offer)
+        for k, offer in enumerate(offers):
+            larger = raised(search, request, offer, most=1 / (len(offers) - k))
+            met[offer.change.name] = larger.request
     return Shortfall(tuple(binding), {name: one for name, one in met.items() if one is not None})
+
+
+def _rank(change: Change) -> tuple[bool, bool]:
+    return change.name not in LEAST, change.up
 
 
 def _near(search: Search, request: PlanRequest, found: Candidate, most: int) -> list[Binding]:

@@ -8,7 +8,7 @@ import pytest
 
 from scout_pin.study.plan.cycles import nearest as module
 from scout_pin.study.plan.cycles.feet import least_spacing
-from scout_pin.study.plan.cycles.nearest import Change, changes, nearest
+from scout_pin.study.plan.cycles.nearest import Change, changes, nearest, raised
 from scout_pin.study.plan.cycles.search import Search
 from scout_pin.study.plan.request import GAP, STEP_TIME, PlanRequest
 from thesis_pin.errors import NoSupportForce
@@ -51,32 +51,39 @@ def of_speeds(monkeypatch, most, met_anew):
     return asked
 
 
+def offered(asked, found, change):
+    """What is offered in the end, of a search of which nothing is done yet."""
+    search = Limited(0.0)
+    offer = nearest(search, asked, found, change)
+    return None if offer is None else raised(search, asked, offer).request
+
+
 def test_what_fails_from_afar_is_met_step_by_step(monkeypatch):
     of_speeds(monkeypatch, 0.18, 1.0)
-    met = nearest(None, ASKED, Found(ASKED, False), SPEED)
+    met = offered(ASKED, Found(ASKED, False), SPEED)
     assert 0.97 * 0.18 < met.speed <= 0.18
 
 
 def test_what_is_not_met_anew_is_not_offered_but_the_next_less_ambitious(monkeypatch):
     of_speeds(monkeypatch, 0.18, 0.175)
-    assert 0.14 < nearest(None, ASKED, Found(ASKED, False), SPEED).speed <= 0.175
+    assert 0.14 < offered(ASKED, Found(ASKED, False), SPEED).speed <= 0.175
     of_speeds(monkeypatch, 0.18, 0.0)
-    assert nearest(None, ASKED, Found(ASKED, False), SPEED) is None
+    assert offered(ASKED, Found(ASKED, False), SPEED) is None
 
 
 def test_a_request_is_offered_where_only_much_less_than_the_edge_is_met_anew(monkeypatch):
     of_speeds(monkeypatch, 0.18, 0.12)
-    assert 0.1 < nearest(None, ASKED, Found(ASKED, False), SPEED).speed <= 0.12
+    assert 0.1 < offered(ASKED, Found(ASKED, False), SPEED).speed <= 0.12
 
 
 def test_what_is_safe_is_searched_anew_before_what_may_take_all_the_time(monkeypatch):
     asked = of_speeds(monkeypatch, 0.18, 0.12)
-    assert nearest(None, ASKED, Found(ASKED, False), SPEED).speed == asked[0][0]
-    speeds, shares = zip(*asked, strict=True)
+    assert offered(ASKED, Found(ASKED, False), SPEED).speed == asked[0][0]
+    speeds, steps = zip(*asked, strict=True)
     assert speeds[0] < speeds[2] < speeds[1]
-    assert all(0.0 < share < 1.0 for share in shares), "something is left for the next"
+    assert all(0.0 < most < Limited.left for most in steps), "something is left for the next"
     asked = of_speeds(monkeypatch, 0.18, 1.0)
-    assert nearest(None, ASKED, Found(ASKED, False), SPEED).speed == max(asked)[0]
+    assert offered(ASKED, Found(ASKED, False), SPEED).speed == max(asked)[0]
     assert len(asked) == 2, "nothing lies between"
 
 
@@ -104,7 +111,7 @@ class Limited:
         raise NoSupportForce("nothing is regular")
 
 
-def test_a_search_anew_takes_its_share_of_what_is_left_and_is_counted(monkeypatch):
+def test_a_search_anew_takes_the_steps_that_it_may_and_is_counted(monkeypatch):
     anew = []
 
     def search(robot, request, tick):
@@ -113,10 +120,10 @@ def test_a_search_anew_takes_its_share_of_what_is_left_and_is_counted(monkeypatc
 
     monkeypatch.setattr(module, "Search", search)
     of = Limited(1000.0)
-    assert not module._again(of, ASKED, 0.5)
+    assert not module._again(of, ASKED, 150.0)
     assert anew[0].allowed == 150.0
     assert of.iterations == 1150.0
-    assert not module._again(Limited(1000.0, left=0.0), ASKED, 0.5)
+    assert not module._again(of, ASKED, 0.0)
     assert len(anew) == 1, "where nothing is left nobody searches"
 
 
@@ -131,18 +138,18 @@ def test_a_request_in_another_unit_is_led_back_to_what_can_be_met(monkeypatch):
     of_speeds(monkeypatch, 0.18, 1.0)
     asked = PlanRequest(speed=10.0)
     change = Change("speed", lambda share: share * 10.0)
-    assert 0.01 <= nearest(None, asked, Found(asked, False, 50.0), change).speed <= 0.18
+    assert 0.01 <= offered(asked, Found(asked, False, 50.0), change).speed <= 0.18
 
 
 def test_hardly_anything_that_fails_is_the_last_of_its_kind_but_of_time(monkeypatch):
     tried = []
     monkeypatch.setattr(module, "_fresh", lambda search, request, found: tried.append(request))
-    assert nearest(None, ASKED, Found(ASKED, False), SPEED) is None
+    assert offered(ASKED, Found(ASKED, False), SPEED) is None
     assert [one.speed for one in tried] == [0.03]
     slower = Change("step_time", lambda share: 0.8 / share, unit=1.0, up=True)
     asked, tried = PlanRequest(step_time=0.8), []
     monkeypatch.setattr(module, "_fresh", lambda search, request, found: tried.append(request))
-    assert nearest(None, asked, Found(asked, False), slower) is None
+    assert offered(asked, Found(asked, False), slower) is None
     assert [one.step_time for one in tried] == [1.6, 3.2, 8.0]
 
 
@@ -186,7 +193,7 @@ def test_one_thing_changes_and_all_else_stays_as_it_was_said(scout, asked, names
 
 def test_never_more_is_offered_than_was_asked_for(monkeypatch):
     of_speeds(monkeypatch, 1.0, 1.0)
-    assert 0.25 < nearest(None, ASKED, Found(ASKED, False), SPEED).speed <= 0.3
+    assert 0.25 < offered(ASKED, Found(ASKED, False), SPEED).speed <= 0.3
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,10 @@
 import pytest
 
 from scout_pin.study.plan.cycle import plan_cycle
+from scout_pin.study.plan.cycles import nearest as near
 from scout_pin.study.plan.cycles import search as searches
 from scout_pin.study.plan.cycles import shortfall as module
+from scout_pin.study.plan.cycles.nearest import Change, Offer, raised
 from scout_pin.study.plan.cycles.search import Search
 from scout_pin.study.plan.request import PlanRequest
 
@@ -56,9 +58,10 @@ def test_turns_come_first_and_slower_steps_last_of_what_may_be_offered(scout, mo
     def nearest(search, request, found, change):
         asked.append((change.name, search.allowed - search.iterations, search.left))
         search.iterations += 100
-        return request
+        return Offer(change, 1.0, request)
 
     monkeypatch.setattr(module, "nearest", nearest)
+    monkeypatch.setattr(module, "raised", lambda _search, _request, offer, **_: offer)
     monkeypatch.setattr(module, "_near", lambda *_, **__: [module.Binding])
     request = PlanRequest(turn=1.0, side=0.05, step_length=0.03)
     search = Search(scout, request, lambda: None)
@@ -71,3 +74,66 @@ def test_turns_come_first_and_slower_steps_last_of_what_may_be_offered(scout, mo
     assert list(why.nearest) == ["step_length", "step_time", "margin", "side", "turn"]
     for _, allowed, left in asked:
         assert allowed == pytest.approx(left / 3)
+
+
+class Counted:
+    """As much of a search as proofs ask for."""
+
+    def __init__(self, left):
+        self.iterations, self.end = 0, left
+
+    @property
+    def left(self):
+        return self.end - self.iterations
+
+
+@pytest.mark.parametrize(
+    ("costs", "share", "asked"),
+    [
+        ({1.0: 300, 0.85: 10}, 1.0, [(1.0, 360.0)]),
+        ({1.0: 370, 0.85: 10}, 0.85, [(1.0, 360.0), (0.85, 20.0)]),
+        ({1.0: 370, 0.85: 30}, 0.6, [(1.0, 360.0), (0.85, 20.0)]),
+    ],
+)
+def test_an_offer_grows_to_the_largest_share_that_the_steps_left_prove(
+    monkeypatch, costs, share, asked
+):
+    """Where one isn't proven in its steps, what is left of them goes into less."""
+    request, tried = PlanRequest(turn=0.5), []
+
+    def again(search, asked, most):
+        part = next(p for p in costs if asked.turn == pytest.approx(0.4 * p, rel=2e-3))
+        tried.append((part, pytest.approx(most)))
+        search.iterations += min(costs[part], most)
+        return costs[part] <= most
+
+    monkeypatch.setattr(near, "_again", again)
+    change = Change("turn", lambda part: 0.5 * part)
+    proven = change.request(request, 0.6 * 0.8)
+    found = raised(Counted(400), request, Offer(change, 0.8, proven))
+    assert found.request.turn == pytest.approx(0.4 * share, rel=2e-3)
+    assert [(part, most.expected) for part, most in tried] == asked
+
+
+def test_larger_offers_are_proven_when_all_of_a_kind_have_a_safe_one(scout, monkeypatch):
+    told = []
+
+    def nearest(search, request, found, change):
+        told.append(("safe", change.name))
+        return Offer(change, 1.0, request)
+
+    def raised(search, request, offer, *, most):
+        told.append((most, offer.change.name))
+        return offer
+
+    monkeypatch.setattr(module, "nearest", nearest)
+    monkeypatch.setattr(module, "raised", raised)
+    monkeypatch.setattr(module, "_near", lambda *_, **__: [])
+    request = PlanRequest(turn=1.0, side=0.05)
+    search = Search(scout, request, lambda: None)
+    start = next(searches.starts(search.build, search.steps, search.cyclic, 0.03))
+    found = search.solved(request, searches.Unknowns(start, searches.SHARE, 0.03), most=1)
+    module.shortfall(search, request, found)
+    both = [("safe", "side"), ("safe", "turn"), (1 / 2, "side"), (1.0, "turn")]
+    assert told[:4] == both
+    assert told[-2:] == [("safe", "step_time"), (1.0, "step_time")]
