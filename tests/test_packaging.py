@@ -68,7 +68,9 @@ def test_no_extra_but_the_developers_exists_that_nothing_uses():
 @pytest.mark.parametrize(("extra", "names"), EXTRAS.items())
 def test_what_an_extra_brings_is_imported_late(extra, names):
     assert declared(PROJECT["optional-dependencies"][extra]) == {canonical(one) for one in names}
-    modules = "thesis_pin.loops.loading, thesis_pin.pages.film.making, thesis_pin.command.sweeping"
+    modules = (
+        "thesis_pin.loops.loading, thesis_pin.pages.film.making, thesis_pin.command.verbs.sweep"
+    )
     code = f"import sys, {modules}; assert not {set(names)!r} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
 

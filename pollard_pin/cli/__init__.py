@@ -10,7 +10,6 @@ from pollard_pin.cli.accuracy import which_tolerances
 from pollard_pin.cli.placement import which_places
 from pollard_pin.cli.sweeps import which_judge
 from pollard_pin.cli.timing import which_geometry, which_law
-from thesis_pin.command import common
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_number, number
 from thesis_pin.command.flags.options import (
@@ -23,6 +22,7 @@ from thesis_pin.command.flags.options import (
     add_smooth,
 )
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
+from thesis_pin.command.verbs import common
 
 
 def _which_curve(words: argparse.ArgumentParser) -> None:

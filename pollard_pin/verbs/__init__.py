@@ -21,7 +21,7 @@ from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import Answer, give, write_results
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.showing.words import refuse_set, shown_by
-from thesis_pin.command.simulating import tried
+from thesis_pin.command.verbs.simulate import tried
 from thesis_pin.errors import BadInput, Unreachable
 from thesis_pin.report.tables import Table
 

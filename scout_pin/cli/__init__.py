@@ -10,9 +10,9 @@ from scout_pin.cli.making import which_new, which_urdf
 from scout_pin.cli.servos import which_servos, which_size
 from scout_pin.cli.sweeps import which_judge
 from scout_pin.cli.walks import which_walk
-from thesis_pin.command import common
 from thesis_pin.command.flags.options import add_json, add_robot
 from thesis_pin.command.registry import Command, Parser, Robot, Verb
+from thesis_pin.command.verbs import common
 
 ROBOT = Robot(
     package="scout_pin",

@@ -17,8 +17,8 @@ from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import Answer, check_new, put, put_new
 from thesis_pin.command.running import ExitCode
 from thesis_pin.command.showing.words import refuse_set, shown_by
-from thesis_pin.command.simulating import tried
 from thesis_pin.command.text import say
+from thesis_pin.command.verbs.simulate import tried
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 from thesis_pin.model.loading import shipped_folder

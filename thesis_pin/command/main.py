@@ -37,7 +37,7 @@ COMMAND = Command(
             "where it closes.",
             "check urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml",
             "thesis_pin.loops.checking.soundness:check",
-            "thesis_pin.command.any_robot:check",
+            "thesis_pin.command.verbs.any_robot:check",
             (
                 which_robot,
                 which_pose,
@@ -53,7 +53,7 @@ COMMAND = Command(
             "torque urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
             "examples/pollard_motors.csv",
             "thesis_pin.report.torque.document:torque_report",
-            "thesis_pin.command.any_robot:torque",
+            "thesis_pin.command.verbs.any_robot:torque",
             (
                 which_robot,
                 which_motion,
@@ -70,7 +70,7 @@ COMMAND = Command(
             "in a pose or along a motion.",
             "balance example:talos_reduced_box --slope 5",
             "thesis_pin.report.balance.making:balance_report",
-            "thesis_pin.command.on_feet:balance",
+            "thesis_pin.command.verbs.balance:balance",
             (
                 which_robot,
                 which_stance,
@@ -85,7 +85,7 @@ COMMAND = Command(
             "size urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
             "examples/pollard_motors.csv --list examples/servos.csv",
             "thesis_pin.sizing.motors:size_motors",
-            "thesis_pin.command.any_robot:size",
+            "thesis_pin.command.verbs.any_robot:size",
             (
                 which_robot,
                 which_motion,
@@ -104,7 +104,7 @@ COMMAND = Command(
             "view urdf/pollard/pollard.urdf urdf/pollard/pollard.closures.yaml "
             "examples/pollard_motors.csv --html view.html",
             "thesis_pin.pages.reports.torque_scene:scene",
-            "thesis_pin.command.any_robot:view",
+            "thesis_pin.command.verbs.any_robot:view",
             (
                 which_robot,
                 perhaps_motion,
@@ -125,7 +125,7 @@ COMMAND = Command(
             "--frame tool_tip --along x 0.2 0.7 --along z -0.4 0.4 --at y 0 --at roll 0 --at pitch "
             "0 --at yaw 0 --points 21 --out space",
             "thesis_pin.loops.workspace.mapped:evaluate_workspace",
-            "thesis_pin.command.mapping:workspace",
+            "thesis_pin.command.verbs.workspace:workspace",
             (
                 which_robot,
                 which_grid,
@@ -140,7 +140,7 @@ COMMAND = Command(
             "Formats of robots: what of each is used, and what is passed over and named.",
             "formats",
             "thesis_pin.report.formats:formats",
-            "thesis_pin.command.any_robot:formats",
+            "thesis_pin.command.verbs.any_robot:formats",
             (partial(add_json, what="the formats"),),
         ),
     ),

@@ -177,7 +177,7 @@ class Robot(NamedTuple):  # as a dataclass it takes 2 ms of every command's star
         motion: Add the options that say which motion.
         motion_flag: The option of those that names a motion's file, without dashes.
         makes_report: Report on the motion that the arguments ask for; see
-            :class:`thesis_pin.command.verbs.MakeReport`.
+            :class:`thesis_pin.command.planning.MakeReport`.
         report: The public function behind it.
         moves: The motion that the arguments ask for, to be written down, a
             :class:`~thesis_pin.report.exchange.movement.Movement`.

@@ -11,8 +11,8 @@ from thesis_pin.audit.kinds import KINDS, kinds, of_equation
 from thesis_pin.audit.markdown import markdown
 from thesis_pin.audit.places import places
 from thesis_pin.audit.rows import AuditReport, Row
-from thesis_pin.command.audit import _NARROW
 from thesis_pin.command.output import print_table
+from thesis_pin.command.verbs.audit import _NARROW
 from thesis_pin.equations.catalogue import Equation
 
 

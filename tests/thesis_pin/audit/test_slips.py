@@ -12,7 +12,7 @@ from thesis_pin.audit import text as audit_report
 from thesis_pin.audit.markdown import markdown
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.slips import Cause, read_causes
-from thesis_pin.command.audit import _TITLE
+from thesis_pin.command.verbs.audit import _TITLE
 from thesis_pin.errors import SpecificationError
 
 ROBOTS = [

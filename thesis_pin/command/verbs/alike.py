@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING
 
 from thesis_pin.command.flags.figured import chosen, without
 from thesis_pin.command.flags.options import refuse_beside
+from thesis_pin.command.planning import hook, load, planned
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.registry import Robot, found
+from thesis_pin.command.registry import Robot
 from thesis_pin.command.results import (
     Answer,
-    Report,
     deliver,
     give,
     put,
@@ -40,29 +40,9 @@ if TYPE_CHECKING:  # help has to be quick
     from thesis_pin.report.exchange.movement import Movement
 
 
-class MakeReport(Protocol):
-    """What a robot's hook ``makes_report`` is."""
-
-    def __call__(
-        self,
-        arguments: argparse.Namespace,
-        robot: object,
-        samples: Callable[[float], int],
-        progress: Callable[[int, int], None],
-    ) -> Report:
-        """The report on the motion that the arguments ask for.
-
-        Args:
-            arguments: The parsed arguments.
-            robot: The robot they ask for.
-            samples: The motion's duration [s] → number of samples.
-            progress: Told the steps done and their total.
-        """
-
-
 def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion that the robot's own options ask for; see :func:`deliver`."""
-    known: Mapping[str, str] = _hook(robot, robot.figure_numbers) if arguments.figure else {}
+    known: Mapping[str, str] = hook(robot, robot.figure_numbers) if arguments.figure else {}
     names = chosen(arguments, known)
 
     def keep(files: dict[str, bytes]) -> dict[str, bytes]:
@@ -104,7 +84,7 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         from thesis_pin.command.showing.sliders import show_sliders
 
         def page() -> LivePage:
-            made: LivePage = _hook(robot, robot.sliders)(arguments, _load(robot, arguments))
+            made: LivePage = hook(robot, robot.sliders)(arguments, load(robot, arguments))
             return made
 
         return show_sliders(arguments, robot.command, page)
@@ -116,9 +96,9 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
             return scene_of(_paired(robot, arguments, frames, bar))
         scene: Scene | None = None
         if robot.still:
-            scene = _hook(robot, robot.still)(arguments, _load(robot, arguments))
+            scene = hook(robot, robot.still)(arguments, load(robot, arguments))
         if scene is None:
-            scene = _hook(robot, robot.scene)(planned(robot, arguments, frames, bar))
+            scene = hook(robot, robot.scene)(planned(robot, arguments, frames, bar))
         return scene
 
     return show_scene(arguments, robot.command, make)
@@ -185,9 +165,9 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
             raise BadInput("--servos belongs to ticks", remedy="Add --as ticks")
         if arguments.units is not None and form == "joint-trajectory":
             raise BadInput("a joint trajectory is in SI", remedy="Leave --units out")
-        loaded = _load(robot, arguments)
+        loaded = load(robot, arguments)
         with warned():
-            motion: Movement = _hook(robot, robot.moves)(arguments, loaded)
+            motion: Movement = hook(robot, robot.moves)(arguments, loaded)
         servos = USUAL
         if arguments.servos is not None:
             servos = read_servos(arguments.servos, motion.joints)
@@ -211,7 +191,7 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Inverse kinematics of one pose."""
-    return give(arguments, lambda: _hook(robot, robot.solves)(arguments, _load(robot, arguments)))
+    return give(arguments, lambda: hook(robot, robot.solves)(arguments, load(robot, arguments)))
 
 
 def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
@@ -219,10 +199,10 @@ def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     from thesis_pin.report.info import told
 
     def answer() -> Answer:
-        loaded = _load(robot, arguments)
-        document = _hook(robot, robot.info)(loaded)
+        loaded = load(robot, arguments)
+        document = hook(robot, robot.info)(loaded)
         if arguments.html:
-            pages.append(_hook(robot, robot.info_page)(loaded))
+            pages.append(hook(robot, robot.info_page)(loaded))
         return Answer(lambda: document, lambda: told(document))
 
     pages: list[bytes] = []
@@ -238,10 +218,10 @@ def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         from thesis_pin.model.loading import check_urdf
         from thesis_pin.report.writers import json_bytes
 
-        specification = _hook(robot, robot.specification)(arguments.specification)
-        text: str = _hook(robot, robot.urdf)(specification, arguments.inertia)
+        specification = hook(robot, robot.specification)(arguments.specification)
+        text: str = hook(robot, robot.urdf)(specification, arguments.inertia)
         check_urdf(text, where=specification.name)
-        made = _hook(robot, robot.files)(specification)
+        made = hook(robot, robot.files)(specification)
         files = {name: content.encode() for name, content in made.items()}
     document = {
         "schema": f"{robot.command}/urdf",
@@ -262,30 +242,7 @@ def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def audit(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """A verdict on each printed equation of the thesis."""
-    from thesis_pin.command.audit import run_verb
+    from thesis_pin.command.verbs.audit import run_verb
 
     refuse_beside(arguments, "equation", ("every",))
-    return run_verb(arguments, _hook(robot, robot.thesis))
-
-
-def _hook(robot: Robot, name: str) -> Any:
-    """One of the robot's functions, imported when it is needed."""
-    return found(robot.name_of(name))
-
-
-def _load(robot: Robot, arguments: argparse.Namespace) -> Any:
-    with warned(strict=getattr(arguments, "strict", False)):
-        return _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
-
-
-def planned(
-    robot: Robot,
-    arguments: argparse.Namespace,
-    samples: Callable[[float], int],
-    progress: Callable[[int, int], None],
-) -> Report:
-    """The report on the motion that the arguments ask for; see :class:`MakeReport`."""
-    make: MakeReport = _hook(robot, robot.makes_report)
-    loaded = _load(robot, arguments)
-    with warned():
-        return make(arguments, loaded, samples, progress)
+    return run_verb(arguments, hook(robot, robot.thesis))

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, TypedDict, cast
 from thesis_pin.command.flags.drawn_as import add_figures
 from thesis_pin.command.flags.numbers import add_count, add_number
 from thesis_pin.command.flags.options import add_jobs, add_json
+from thesis_pin.command.planning import planned
 from thesis_pin.command.registry import Robot, Words, found
 from thesis_pin.command.results import Report, deliver
 from thesis_pin.command.running import ExitCode
-from thesis_pin.command.verbs import planned
 from thesis_pin.command.warned import warned
 from thesis_pin.numeric.workers import silent
 

@@ -7,13 +7,13 @@ import argparse
 import numpy as np
 from numpy.typing import NDArray
 
-from thesis_pin.command.any_robot import loaded
 from thesis_pin.command.flags.drawn_as import figure_style
 from thesis_pin.command.flags.numbers import quantity
 from thesis_pin.command.output import print_parts
 from thesis_pin.command.progress import Bar
 from thesis_pin.command.results import put, write_results
 from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.verbs.any_robot import loaded
 from thesis_pin.command.warned import warned
 from thesis_pin.errors import BadInput
 from thesis_pin.loops.checking.assembly import assembly

@@ -6,7 +6,6 @@ import argparse
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from thesis_pin.command import simulating, verbs
 from thesis_pin.command.flags import options, sweeps
 from thesis_pin.command.flags.figured import add_figure
 from thesis_pin.command.registry import Robot, Verb, Words, found
@@ -16,6 +15,7 @@ from thesis_pin.command.showing.meshcat import add_meshcat
 from thesis_pin.command.showing.words import add_sliders
 from thesis_pin.command.sizing import finding as sizing
 from thesis_pin.command.sizing.words import add_free, add_kind, add_lists, add_output
+from thesis_pin.command.verbs import alike, simulate
 
 
 def _verb(
@@ -62,7 +62,7 @@ def report_verb(
         add_beside_robot,
         add_align,
     )
-    run = partial(verbs.report, what=f"working out the {name}")
+    run = partial(alike.report, what=f"working out the {name}")
     return _verb(robot, name, (help, description, example), robot.report, run, *add)
 
 
@@ -78,14 +78,14 @@ def view_verb(robot: Robot, help: str, description: str, example: str) -> Verb:
         add_beside_robot,
         add_align,
     )
-    return _verb(robot, "view", (help, description, example), robot.scene, verbs.view, *add)
+    return _verb(robot, "view", (help, description, example), robot.scene, alike.view, *add)
 
 
 def convert_verb(robot: Robot, description: str, example: str) -> Verb:
     """The verb that writes a motion in another form."""
     add = (robot.motion, options.add_convert)
     texts = ("write a motion in another form, unit or program's format", description, example)
-    return _verb(robot, "convert", texts, robot.movement, verbs.convert, *add)
+    return _verb(robot, "convert", texts, robot.movement, alike.convert, *add)
 
 
 def size_verb(
@@ -153,7 +153,7 @@ def sweep_verb(
         sweeps.add_wishes,
         sweeps.add_running,
     )
-    run = partial(_late, "thesis_pin.command.sweeping:run")
+    run = partial(_late, "thesis_pin.command.verbs.sweep:run")
     return _verb(robot, "sweep", (help, description, example), robot.sweep, run, *add)
 
 
@@ -182,8 +182,8 @@ def simulate_verb(
         engine: Add what the robot's conditions have besides those of every robot.
         samples: Of the report that the simulation is held against.
     """
-    add = (robot.motion, engine, simulating.add_simulation)
-    run = partial(simulating.simulate, samples=samples)
+    add = (robot.motion, engine, simulate.add_simulation)
+    run = partial(simulate.simulate, samples=samples)
     texts = (help, description, example)
     return _verb(robot, "simulate", texts, robot.simulation, run, *add)
 
@@ -194,7 +194,7 @@ def ik_verb(
     """The verb for inverse kinematics; ``pose`` adds the words of its pose."""
     add = (pose, partial(options.add_json, what="the branches"))
     texts = (help, description, example)
-    return _verb(robot, "ik", texts, robot.inverse_kinematics, verbs.ik, *add)
+    return _verb(robot, "ik", texts, robot.inverse_kinematics, alike.ik, *add)
 
 
 def info_verb(robot: Robot, example: str) -> Verb:
@@ -205,7 +205,7 @@ def info_verb(robot: Robot, example: str) -> Verb:
         example,
     )
     json = partial(options.add_json, what="it")
-    return _verb(robot, "info", texts, robot.info, verbs.info, json, options.add_info)
+    return _verb(robot, "info", texts, robot.info, alike.info, json, options.add_info)
 
 
 def urdf_verb(robot: Robot, help: str, description: str) -> Verb:
@@ -218,7 +218,7 @@ def urdf_verb(robot: Robot, help: str, description: str) -> Verb:
 
     texts = (help, description, "urdf --out my_robot")
     json = partial(options.add_json, what="names and sizes of the files")
-    return _verb(robot, "urdf", texts, robot.files, verbs.urdf, out, json)
+    return _verb(robot, "urdf", texts, robot.files, alike.urdf, out, json)
 
 
 def audit_verb(robot: Robot, example: str) -> Verb:
@@ -229,6 +229,6 @@ def audit_verb(robot: Robot, example: str) -> Verb:
         "A computed verdict on every printed equation of the thesis.",
         example,
         robot.name_of(robot.audit),
-        partial(verbs.audit, robot),
+        partial(alike.audit, robot),
         (options.add_audit,),
     )

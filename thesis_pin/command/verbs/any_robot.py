@@ -14,7 +14,7 @@ from thesis_pin.command.showing.beside import ANY, TWO, Beside, reports, scene_o
 from thesis_pin.command.showing.sliders import any_robot, show_sliders
 from thesis_pin.command.sizing.delivering import deliver as deliver_smallest
 from thesis_pin.command.sizing.finding import bounded, check_words, deliver_sizes
-from thesis_pin.command.verbs import show_scene
+from thesis_pin.command.verbs.alike import show_scene
 from thesis_pin.command.warned import warned
 from thesis_pin.display.counted import counted
 from thesis_pin.errors import BadInput, ModelWarning
