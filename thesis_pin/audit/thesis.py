@@ -28,7 +28,7 @@ class Ground:
     Attributes:
         states: The states they are judged at, in words.
         references: Equation → what its symbols must equal, where it has to hold.
-        claims: The checks in code, by name; each is run once, several equations may share it.
+        claims: The checks in code, by name.
         effect: Failing equation → what following its print does, by quantity.
     """
 
@@ -125,12 +125,11 @@ class _Judge:
     def __init__(self, thesis: Thesis, equations: Catalogue, with_effects: bool) -> None:
         self.name, self.equations, self.with_effects = thesis.name, equations, with_effects
         self.ground = thesis.ground(equations)
-        self.claims = {name: functools.cache(claim) for name, claim in self.ground.claims.items()}
 
     def row(self, equation: Equation) -> Row:
         """The audit's answer on one equation."""
         environment = self.ground.references(equation)
-        row = judge(self.equations, equation, environment, self.claims, self.name)
+        row = judge(self.equations, equation, environment, self.ground.claims, self.name)
         if not row.failed or row.effect:
             return row
         effect = self.ground.effect(equation) if self.with_effects else {}

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from thesis_pin.audit import kinds, places
+from thesis_pin.audit.reading import Reading
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Verdict
 from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import Environment, evaluate
@@ -58,7 +59,8 @@ class ClaimResult:
     effect: Effect = field(default_factory=dict)
 
 
-Claims = Mapping[str, Callable[[], ClaimResult]]
+Claims = Mapping[str, Callable[[Equation], ClaimResult]]
+"""Checks in code by name; each gets its equation and evaluates what is printed there."""
 
 
 def verdict(printed: float, mended: float | None, *, physical: bool) -> Verdict:
@@ -144,14 +146,22 @@ def judge(
         why=equation.why,
         note=equation.note,
         cause=equation.cause,
+        line=equation.line,
+        surviving=equation.surviving,
+        rebuilt=equation.rebuilt,
     )
     if equation.illegible:
-        return _with(row, verdict="illegible", reason=equation.illegible)
+        return _lost(catalogue, equation, environment, row)
     if equation.not_checkable:
         return _with(row, reason=equation.not_checkable)
     if equation.claim:
-        result = claims[equation.claim]()
+        reading = Reading.of(equation)
+        result = claims[equation.claim](reading)
         answer = verdict(result.printed, result.corrected, physical=True)
+        if reading.unread and answer == "holds":
+            unread = ", ".join(map(str, reading.unread))
+            reason = f"the check doesn't read member {unread}, and what isn't read can't hold"
+            return _with(row, check=equation.claim, verdict="unexplained", reason=reason)
         return _with(
             row,
             check=equation.claim,
@@ -178,6 +188,20 @@ def judge(
         residual_corrected=mended.value if mended else None,
         reason=printed.reason or (mended.reason if mended else ""),
         places=tuple(_places(equation)),
+    )
+
+
+def _lost(catalogue: Catalogue, equation: Equation, environment: Environment, row: Row) -> Row:
+    """The answer on a line that can't be read: what follows for it from the rest, if anything."""
+    if not equation.rebuilt:
+        return _with(row, verdict="illegible", reason=equation.illegible)
+    found = residual(catalogue, equation, equation.rebuilt, environment, equation.left)
+    return _with(
+        row,
+        check="identity",
+        verdict="rebuilt" if found.value < HOLDS else "unexplained",
+        residual_corrected=found.value,
+        reason=found.reason or equation.illegible,
     )
 
 
