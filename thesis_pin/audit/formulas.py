@@ -17,8 +17,9 @@ _DOTS = {"˙": "\u0307", "¨": "\u0308"}
 _BRACKETS = frozenset("()[]|‖")
 _WORDS = frozenset({"sin", "cos", "tan", "sec", "csc", "cot", "arctan", "log", "exp"})
 _LEAVES = frozenset({"mi", "mn", "mo", "mtext"})
+_SCRIPTED = frozenset({"msub", "msup", "msubsup"})
 _BREAKS = frozenset("=+−×")
-_LINE = 28
+_LINE = 40
 """Characters after which a formula may go on in a new line."""
 
 
@@ -70,6 +71,8 @@ def _short(node: Element) -> Element:
         new.extend(one for one in _flat(node) if one.tag != "mo" or one.text)
         return new
     new.extend(_one(child) for child in node)
+    if node.tag in _SCRIPTED:
+        new[1:] = [_script(part) for part in new[1:]]
     lonely = node.tag == "msup" and not len(new[0]) and not new[0].text
     return new[1] if lonely else new
 
@@ -81,6 +84,14 @@ def _one(node: Element) -> Element:
     row = _node("mrow")
     row.extend(_flat(node))
     return row[0] if len(row) == 1 else row
+
+
+def _script(node: Element) -> Element:
+    """A script in one node where it is all letters, digits, commas and signs."""
+    plain = all(part.tag in _LEAVES and not part.attrib for part in node)
+    if node.tag == "mrow" and plain and len(node):
+        return _node("mn", "".join(part.text or "" for part in node))
+    return node
 
 
 def _leaf(node: Element) -> Element:
@@ -107,7 +118,7 @@ def _dotted(node: Element) -> Element | None:
     tall ones such as θ, so theirs stand above them.
     """
     base, accent = _one(node[0]), _DOTS.get(node[1].text or "")
-    letter = base[0] if base.tag in ("msub", "msup", "msubsup") else base
+    letter = base[0] if base.tag in _SCRIPTED else base
     if not accent or letter.tag not in ("mi", "mn"):
         return None
     one = unicodedata.normalize("NFC", (letter.text or "") + accent)
@@ -127,8 +138,12 @@ def _merged(row: Sequence[Element]) -> list[Element]:
     found: list[Element] = []
     for node in row:
         last = found[-1] if found else node
-        alike = last is not node and node.tag == last.tag and node.attrib == last.attrib
-        if alike and (node.tag == "mi" or (node.tag == "mn" and _bracket(last, node))):
+        base = node[0] if node.tag in _SCRIPTED else node
+        alike = last is not node and (base.tag, base.attrib) == (last.tag, last.attrib)
+        if alike and base.tag == "mi":
+            base.text = f"{last.text}{base.text}"
+            found[-1] = node
+        elif alike and node.tag == "mn" and _bracket(last, node):
             last.text = f"{last.text}{node.text}"
         else:
             found.append(node)

@@ -23,6 +23,10 @@ from thesis_pin.equations.uses import Uses
 from thesis_pin.pages.player import render, web_file
 from thesis_pin.report.tables import Table
 
+_PAGES = 2000
+"""Characters of LaTeX from which a correction stands as source: it repeats pages of print."""
+
+
 def page(report: AuditReport, uses: Uses | None = None) -> str:
     """A self-contained page: formulas as MathML, filters, no network.
 
@@ -55,7 +59,10 @@ def page(report: AuditReport, uses: Uses | None = None) -> str:
         index=list(_index(failures)),
         groups=[
             ("Lines that fail, the worst effect first", articles(failures)),
-            ("All other lines, as in the thesis", articles([r for r in report.rows if not r.failed])),
+            (
+                "All other lines, as in the thesis",
+                articles([r for r in report.rows if not r.failed]),
+            ),
         ],
         coverage=Table("Section by section", ("section", "lines", "computed"), sections),
         report_style=web_file("report.css"),
@@ -75,7 +82,7 @@ class _Article:
         verdict, style: Its verdict, and the same as a class.
         formula: What is printed.
         entries: Label and content of what is said of it.
-        uses: Ids and names of the lines it uses.
+        uses: Names of the lines it uses.
     """
 
     id: str
@@ -85,12 +92,10 @@ class _Article:
     style: str
     formula: str
     entries: list[tuple[str, object]]
-    uses: list[tuple[str, str]]
+    uses: list[str]
 
     @classmethod
-    def of(
-        cls, row: Row, cause: str, uses: list[tuple[str, str]], markup: type[str]
-    ) -> _Article:
+    def of(cls, row: Row, cause: str, uses: list[str], markup: type[str]) -> _Article:
         return cls(
             row.id,
             _name(row.id),
@@ -107,8 +112,8 @@ def _name(identity: str) -> str:
     return identity.split(":", 1)[1]
 
 
-def _links(row: Row, uses: Uses, known: set[str]) -> list[tuple[str, str]]:
-    return [(name, _name(name)) for name in uses.get(row.id, ()) if name in known]
+def _links(row: Row, uses: Uses, known: set[str]) -> list[str]:
+    return [_name(name) for name in uses.get(row.id, ()) if name in known]
 
 
 def _index(failures: Sequence[Row]) -> Iterator[tuple[str, list[tuple[str, str]]]]:
@@ -125,11 +130,19 @@ def _printed(row: Row) -> Iterator[str]:
         yield ("<math><mo>=</mo></math> " if k else "") + mathml(text)
 
 
+def _correction(text: str) -> str:
+    """A correction as a formula, or as its source where that takes pages."""
+    if len(text) < _PAGES:
+        return mathml(text)
+    said = f"its source, {len(text)} characters; the places below say where it differs"
+    return f"<details><summary>{said}</summary><code>{html.escape(text)}</code></details>"
+
+
 def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, object]]:
     """Labels and contents; what comes as markup isn't escaped again."""
     for number, text in sorted(row.corrected.items()):
         label = "left side" if number == 0 else f"member {number}"
-        yield f"corrected, {label}", markup(mathml(text)) if text else "(nothing)"
+        yield f"corrected, {label}", markup(_correction(text)) if text else "(nothing)"
     if row.failed or row.residual_corrected is not None:
         residuals = {"as printed": row.residual_printed, "corrected": row.residual_corrected}
         said = [f"{k} {residual_text(v)}" for k, v in residuals.items() if v is not None]

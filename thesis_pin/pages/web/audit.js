@@ -5,7 +5,8 @@ const boxes = [...document.querySelectorAll('.filters input[type=checkbox]')];
 const GREEK = { alpha: 'α', beta: 'β', gamma: 'γ', delta: 'δ', theta: 'θ', lambda: 'λ', tau: 'τ', phi: 'φ', varphi: 'φ', psi: 'ψ', omega: 'ω' };
 // θ̇_{21}, \dot{\theta}_{21} and theta21 are the same to a reader who searches.
 function plain(text) {
-  return text.normalize('NFKD').toLowerCase().replace(/[\u0300-\u036f_^{}\\]/g, '')
+  return text.replace(/[˙¨]|\\d?dot|\\(math|bold)[a-z]+/g, '').normalize('NFKD').toLowerCase()
+    .replace(/[\u0300-\u036f_^{}\\]/g, '')
     .replace(/alpha|beta|gamma|delta|theta|lambda|tau|varphi|phi|psi|omega/g, (name) => GREEK[name]);
 }
 const texts = new Map();
@@ -43,20 +44,27 @@ function follow() {
   row.scrollIntoView();
 }
 addEventListener('hashchange', follow);
+// The page names what a line uses; here the names become links, and the other way round.
+const robot = rows[0]?.id.split(':')[0];
 const users = new Map();
-for (const link of document.querySelectorAll('article > .links a')) {
-  const row = link.closest('article'), used = link.getAttribute('href').slice(1);
-  users.set(used, [...users.get(used) ?? [], row]);
+function link(line, names) {
+  for (const name of names) {
+    const one = document.createElement('a');
+    one.href = `#${robot}:${name}`;
+    one.textContent = name;
+    line.append(one, ' ');
+  }
 }
-for (const [id, found] of users) {
-  const line = document.createElement('p'), row = document.getElementById(id);
+for (const line of document.querySelectorAll('article > .links')) {
+  const names = line.textContent.trim().split(/\s+/).slice(1), id = line.parentElement.id;
+  for (const name of names) users.set(name, [...users.get(name) ?? [], id.slice(robot.length + 1)]);
+  line.textContent = 'uses ';
+  link(line, names);
+}
+for (const [name, found] of users) {
+  const line = document.createElement('p');
   line.className = 'links';
   line.append(`used by ${found.length}: `);
-  for (const user of found) {
-    const link = document.createElement('a');
-    link.href = `#${user.id}`;
-    link.textContent = user.id.slice(user.id.indexOf(':') + 1);
-    line.append(link, ' ');
-  }
-  row?.append(line);
+  link(line, found);
+  document.getElementById(`${robot}:${name}`).append(line);
 }
