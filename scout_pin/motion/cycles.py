@@ -226,7 +226,7 @@ def _variants(gait: Gait, steps: dict[str, float], times: int) -> Variants | Non
     one, length = gait.variants, gait.end - gait.start
     if one is None:
         return None
-    from scout_pin.motion.variants import RateJump
+    from scout_pin.motion.jumps import RateJump
 
     late = float(np.nextafter(gait.end, -np.inf))
     curves, seams = {}, []

@@ -20,6 +20,7 @@ import numpy as np
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.contact import Phase, Phased, check_stance
+from scout_pin.motion.jumps import RateJump
 from thesis_pin.display.brief import Brief
 from thesis_pin.errors import TrajectoryError, WrongShape
 from thesis_pin.model.made_for import MadeFor
@@ -35,7 +36,7 @@ from thesis_pin.numeric.trajectory import BodyMotion
 from thesis_pin.tolerances import TOLERANCES
 
 if TYPE_CHECKING:  # exact gaits need no smoothing
-    from scout_pin.motion.variants import RateJump, Rows, Variants
+    from scout_pin.motion.variants import Rows, Variants
 
 BODIES = ("torso", "left_foot", "right_foot")
 
@@ -187,8 +188,6 @@ class Gait(Phased):
 
         A foot's lift-off and landing count too: a foot can't start in an instant.
         """
-        from scout_pin.motion.variants import RateJump
-
         unit = self._unit(time_unit)
         found = []
         if self.variants is not None:

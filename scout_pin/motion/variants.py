@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from scout_pin.motion.jumps import RateJump
 from thesis_pin.numeric.piecewise import Piecewise
 from thesis_pin.smoothing.resolution import Sampled
 
@@ -28,23 +29,6 @@ class Rows:
         """File and lines of the samples next to a time."""
         k = int(np.clip(np.searchsorted(self.t, t), 1, len(self.t) - 1))
         return f"{self.file}:{self.lines[k - 1]}–{self.lines[k]}"
-
-
-@dataclass(frozen=True)
-class RateJump:
-    """A planned rate that changes in an instant: it would take an infinite force.
-
-    Attributes:
-        t: Time in the gait's unit.
-        body: One of :data:`scout_pin.motion.gait.BODIES`.
-        coordinate: One of :data:`scout_pin.coordinates.POSE_NAMES`.
-        size: Jump [m/s] or [rad/s].
-    """
-
-    t: float
-    body: str
-    coordinate: str
-    size: float
 
 
 @dataclass(frozen=True)

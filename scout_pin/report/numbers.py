@@ -27,7 +27,7 @@ from thesis_pin.tolerances import TOLERANCES
 
 if TYPE_CHECKING:  # exact gaits leave nothing open
     from scout_pin.dynamics.variants import Drawn
-    from scout_pin.motion.variants import RateJump
+    from scout_pin.motion.jumps import RateJump
     from scout_pin.report.uncertainty.headlines import Headlines
 
 

@@ -11,7 +11,7 @@ from scout_pin.motion.collisions import Collisions, Touch
 from scout_pin.motion.swings import Swing
 
 if TYPE_CHECKING:  # it brings smoothing, which exact gaits don't need
-    from scout_pin.motion.variants import RateJump
+    from scout_pin.motion.jumps import RateJump
 
 
 def swing(one: Swing, unit: float) -> dict[str, object]:

@@ -12,6 +12,7 @@ HEAVY = {
     *("pydantic", "scipy", "rich", "yaml", "matplotlib", "shapely", "yourdfpy", "trimesh"),
     *("lxml", "meshcat", "numpy.ma", "plotly", "jinja2", "urllib.request", "tomllib"),
     *("multiprocessing", "html", "thesis_pin.report.figures", "thesis_pin.report.curves"),
+    *("thesis_pin.smoothing.noise", "thesis_pin.smoothing.resolution"),
 }
 IK = ("ik", "left", "--position", "-0.0445", "-0.02", "-0.22")
 TOOL = ("ik", "0.45", "0", "0.05", "0", "10", "0")

@@ -6,8 +6,9 @@ import math
 
 from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.rows import HOLDS, AuditReport, Row
+from thesis_pin.audit.slips import Slip
 
-SCHEMA, VERSION = "thesis-pin/audit", 2
+SCHEMA, VERSION = "thesis-pin/audit", 3
 
 
 def document(report: AuditReport) -> dict[str, object]:
@@ -54,10 +55,22 @@ def row_document(row: Row) -> dict[str, object]:
     """One row as JSON; what doesn't apply to it is null."""
     said = {name: list(x) if isinstance(x, tuple) else x for name, x in vars(row).items()}
     said["corrected"] = {str(k): text for k, text in row.corrected.items()}
-    for name in ("corrected", "attribution", "why", "reason", "effect", "note", "cause", "check"):
+    said["slips"] = [_slip(slip) for slip in row.slips]
+    for name in (
+        *("corrected", "attribution", "why", "reason", "effect", "note", "cause", "check"),
+        *("line", "severity", "no_effect"),
+    ):
         said[name] = said[name] or None
     residuals = {"printed": row.residual_printed, "corrected": row.residual_corrected}
     for name, value in residuals.items():
         finite = value is not None and math.isfinite(value)
         said[f"residual_{name}"] = value if finite else None
+    return said
+
+
+def _slip(slip: Slip) -> dict[str, object]:
+    """A slip as JSON; one that can't be evaluated has no residual."""
+    said = {**vars(slip), "neighbours": list(slip.neighbours)}
+    if slip.residual is not None and not math.isfinite(slip.residual):
+        said["residual"] = None
     return said

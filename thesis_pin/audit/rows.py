@@ -8,23 +8,31 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from thesis_pin.audit.kinds import KINDS
-from thesis_pin.audit.slips import Cause
+from thesis_pin.audit.slips import Cause, Slip
 from thesis_pin.display.brief import Brief
 from thesis_pin.display.cell import Cell
 
-Verdict = Literal["holds", "misprint", "wrong", "illegible", "not checkable", "unexplained"]
+Verdict = Literal[
+    "holds", "misprint", "wrong", "illegible", "rebuilt", "not checkable", "unexplained"
+]
 VERDICTS: tuple[Verdict, ...] = (
-    *("holds", "misprint", "wrong", "illegible", "not checkable", "unexplained"),
+    *("holds", "misprint", "wrong", "illegible", "rebuilt", "not checkable", "unexplained"),
 )
 """``misprint``: the print fails and its correction holds; ``wrong``: the printed
-statement is physically wrong and the right one holds; ``unexplained``: it fails
+statement is physically wrong and the right one holds; ``rebuilt``: the print is lost
+and what follows from the rest holds, which says nothing of the print; ``unexplained``: it fails
 and nothing given in its place holds. No finished audit has one of the last."""
+
+NO_VERDICT: tuple[Verdict, ...] = ("illegible", "rebuilt", "not checkable")
+"""Verdicts that say nothing of the print."""
 
 HOLDS = 3e-8
 """Residual below which two sides are equal. It stands in the middle (in powers of ten) of
 the gap that both audits leave: rounding stays under 1e-9 on every processor tried, the
 smallest slip found is above 1e-6; tests hold the gap open on both sides."""
 
+
+Severity = Literal["changes a result", "notation only", ""]
 
 Effect = dict[str, float | str]
 """What following a printed line does: a number, or why there is none, by quantity."""
@@ -51,6 +59,12 @@ class Row(Brief):
         note: What a reader should know.
         cause: Slip shared by several equations.
         check: How it was decided: "identity" at the audit's states, or the claim's name.
+        line: Line of the thesis's source text where it begins; 0 if the data don't say.
+        severity: "changes a result" or "notation only" for a failing line, else "".
+        slips: Every difference of print and correction, each with what it alone does.
+        no_effect: Why a failing line has no effect; "" if it has one.
+        surviving: What of an illegible line can still be read.
+        rebuilt: What follows for it from the rest.
     """
 
     id: str
@@ -71,6 +85,12 @@ class Row(Brief):
     note: str = ""
     cause: str = ""
     check: str = ""
+    line: int = 0
+    severity: Severity = ""
+    slips: tuple[Slip, ...] = ()
+    no_effect: str = ""
+    surviving: tuple[str, ...] = ()
+    rebuilt: tuple[str, ...] = ()
 
     @property
     def failed(self) -> bool:
@@ -188,7 +208,7 @@ class AuditReport(Brief):
         result = []
         for name in names:
             rows = [row for row in self.rows if row.section == name]
-            open_ = [row for row in rows if row.verdict in ("illegible", "not checkable")]
+            open_ = [row for row in rows if row.verdict in NO_VERDICT]
             gaps = tuple((row.id, row.reason) for row in open_)
             result.append(Section(name, len(rows), len(rows) - len(open_), gaps))
         return tuple(result)

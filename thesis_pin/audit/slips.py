@@ -1,4 +1,4 @@
-"""Slips that several printed lines share, each explained once, in a file beside the equations."""
+"""Slips: each difference of print and correction, and causes that several lines share."""
 
 from __future__ import annotations
 
@@ -7,6 +7,31 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from thesis_pin.model.specification import Key, Strict, read_toml
+
+
+@dataclass(frozen=True)
+class Slip:
+    """One difference of print and correction.
+
+    Attributes:
+        member: Number of the member; 0 is the left side.
+        start: Number of its first symbol (or column) that differs, from 1.
+        printed, corrected: What stands there and what should; "" for nothing.
+        neighbours: What stands before and after it in the print.
+        term: Which term of the member, as "term 3 of 8"; "" if it has one alone.
+        kind: One of :data:`thesis_pin.audit.kinds.KINDS`.
+        residual: Of the corrected line with this slip alone put back; None if it can't be
+            told apart from the others.
+    """
+
+    member: int
+    start: int
+    printed: str
+    corrected: str
+    neighbours: tuple[str, str] = ("", "")
+    term: str = ""
+    kind: str = ""
+    residual: float | None = None
 
 
 @dataclass(frozen=True)

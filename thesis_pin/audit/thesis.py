@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from thesis_pin.audit.rows import AuditReport, Effect, Row
 from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.verdicts import Claims, judge
+from thesis_pin.audit.verdicts import TROUBLES, Claims, judge, what
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
 from thesis_pin.numeric.checks import whole
@@ -28,7 +28,7 @@ class Ground:
     Attributes:
         states: The states they are judged at, in words.
         references: Equation → what its symbols must equal, where it has to hold.
-        claims: The checks in code, by name; each is run once, several equations may share it.
+        claims: The checks in code, by name.
         effect: Failing equation → what following its print does, by quantity.
     """
 
@@ -125,18 +125,23 @@ class _Judge:
     def __init__(self, thesis: Thesis, equations: Catalogue, with_effects: bool) -> None:
         self.name, self.equations, self.with_effects = thesis.name, equations, with_effects
         self.ground = thesis.ground(equations)
-        self.claims = {name: functools.cache(claim) for name, claim in self.ground.claims.items()}
 
     def row(self, equation: Equation) -> Row:
         """The audit's answer on one equation."""
         environment = self.ground.references(equation)
-        row = judge(self.equations, equation, environment, self.claims, self.name)
+        row = judge(self.equations, equation, environment, self.ground.claims, self.name)
         if not row.failed or row.effect:
             return row
-        effect = self.ground.effect(equation) if self.with_effects else {}
+        effect = self._effect(equation) if self.with_effects else {}
         if not effect and row.residual_printed == math.inf:
             effect = {"this line": "can't be computed"}
         return replace(row, effect=effect)
+
+    def _effect(self, equation: Equation) -> Effect:
+        try:
+            return self.ground.effect(equation)
+        except TROUBLES as error:
+            return {"the law of motion": f"can't be computed, {what(error)}"}
 
 
 # -- several processes ------------------------------------------------------------------

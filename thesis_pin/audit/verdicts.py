@@ -16,16 +16,26 @@ from typing import Any
 import numpy as np
 
 from thesis_pin.audit import kinds, places
+from thesis_pin.audit.reading import Reading
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Verdict
 from thesis_pin.equations import frames
 from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
 from thesis_pin.equations.formula import FormulaError, FrameError
 from thesis_pin.equations.values import Value
+from thesis_pin.errors import BadInput
 
 _FLOOR = 1e-3  # what counts as zero is zero against this
 _OTHER_FRAME = 1.0
 """Residual of a member seen from another frame whose numbers happen to agree."""
+
+TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
+"""What a line that can't be read or evaluated raises: it is that line's error alone."""
+
+
+def what(error: Exception) -> str:
+    """Why a line can't be evaluated, in words."""
+    return error.what if isinstance(error, BadInput) else f"can't be evaluated: {error}"
 
 
 @dataclass(frozen=True)
@@ -61,7 +71,8 @@ class ClaimResult:
     effect: Effect = field(default_factory=dict)
 
 
-Claims = Mapping[str, Callable[[], ClaimResult]]
+Claims = Mapping[str, Callable[[Equation], ClaimResult]]
+"""Checks in code by name; each gets its equation and evaluates what is printed there."""
 
 
 def verdict(printed: float, mended: float | None, *, physical: bool) -> Verdict:
@@ -83,12 +94,12 @@ def difference(left: Value, right: Value) -> float:
     """Largest difference of two values, relative to the larger of them.
 
     Raises:
-        FormulaError: They have different shapes.
+        FormulaError: They have different shapes, or are seen from different frames.
     """
     if min(left.rank, right.rank) >= 0 and (left.rank != right.rank or left.tail != right.tail):
         raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
     if not frames.same(left.frames, right.frames):
-        raise FrameError(f"is {right.describe()} where {left.describe()} belongs")
+        raise FrameError(f"is {right.seen()} where {left.seen()} belongs")
     gap = float(np.abs(left.array - right.array).max())
     if not math.isfinite(gap):
         raise FormulaError("isn't finite")
@@ -115,23 +126,23 @@ def residual(
             continue
         try:
             values.append(max(_member(catalogue, left, member, environment)))
-        except FormulaError as error:
+        except TROUBLES as error:
             values.append(_without_frames(catalogue, left, member, environment, error))
-            reasons.append(f"member {number} {error.what}" if len(members) > 1 else error.what)
+            reasons.append(f"member {number} {what(error)}" if len(members) > 1 else what(error))
     return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
 
 
 def _without_frames(
-    catalogue: Catalogue, left: str, member: str, environment: Environment, error: FormulaError
+    catalogue: Catalogue, left: str, member: str, environment: Environment, error: Exception
 ) -> float:
     """Residual of a member that raised: of its numbers, if only its frames don't fit."""
     if not isinstance(error, FrameError):
         return math.inf
     try:
         found = max(_member(catalogue, left, member, Unframed(environment)))
-        return found if found > HOLDS else _OTHER_FRAME
-    except FormulaError:
+    except TROUBLES:
         return math.inf
+    return found if found > HOLDS else _OTHER_FRAME
 
 
 def _member(
@@ -162,14 +173,25 @@ def judge(
         why=equation.why,
         note=equation.note,
         cause=equation.cause,
+        line=equation.line,
+        surviving=equation.surviving,
+        rebuilt=equation.rebuilt,
     )
     if equation.illegible:
-        return _with(row, verdict="illegible", reason=equation.illegible)
+        return _lost(catalogue, equation, environment, row)
     if equation.not_checkable:
         return _with(row, reason=equation.not_checkable)
     if equation.claim:
-        result = claims[equation.claim]()
+        reading = Reading.of(equation)
+        try:
+            result = _claim(claims, equation)(reading)
+        except TROUBLES as error:
+            return _with(row, check=equation.claim, verdict="unexplained", reason=what(error))
         answer = verdict(result.printed, result.corrected, physical=True)
+        if reading.unread and answer == "holds":
+            unread = ", ".join(map(str, reading.unread))
+            reason = f"the check doesn't read member {unread}, and what isn't read can't hold"
+            return _with(row, check=equation.claim, verdict="unexplained", reason=reason)
         return _with(
             row,
             check=equation.claim,
@@ -196,6 +218,26 @@ def judge(
         residual_corrected=mended.value if mended else None,
         reason=printed.reason or (mended.reason if mended else ""),
         places=tuple(_places(equation)),
+    )
+
+
+def _claim(claims: Claims, equation: Equation) -> Callable[[Equation], ClaimResult]:
+    if equation.claim not in claims:
+        raise FormulaError(f"names no check: {equation.claim!r} isn't one of {', '.join(claims)}")
+    return claims[equation.claim]
+
+
+def _lost(catalogue: Catalogue, equation: Equation, environment: Environment, row: Row) -> Row:
+    """The answer on a line that can't be read: what follows for it from the rest, if anything."""
+    if not equation.rebuilt:
+        return _with(row, verdict="illegible", reason=equation.illegible)
+    found = residual(catalogue, equation, equation.rebuilt, environment, equation.left)
+    return _with(
+        row,
+        check="identity",
+        verdict="rebuilt" if found.value < HOLDS else "unexplained",
+        residual_corrected=found.value,
+        reason=found.reason or equation.illegible,
     )
 
 

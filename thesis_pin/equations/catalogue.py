@@ -59,6 +59,12 @@ class Equation(Strict):
         kind: Kind of the slip, where the difference of the formulas doesn't show it;
             see :data:`thesis_pin.audit.kinds.KINDS`.
         illegible: What is missing in the text, if it can't be read.
+        surviving: What of an illegible line can still be read, LaTeX.
+        rebuilt: What follows for an illegible line from the rest of the thesis, LaTeX.
+        line: Line of the thesis's source text where the statement begins, from 1; 0 if not said.
+        misread: Member number → the member with all slips mended but those of its statement,
+            where ``right`` says another statement.
+        no_effect: Why following the print changes nothing, where that can't be computed.
         not_checkable: Why nothing can be computed, if so.
         closed: Whether it holds only where the mechanism's loops are closed.
         defines: Symbol that stands for the first factor of the member before the last, as
@@ -80,6 +86,11 @@ class Equation(Strict):
     cause: str = ""
     kind: Literal["frame", ""] = ""
     illegible: str = ""
+    surviving: Members = ()
+    rebuilt: Members = ()
+    line: Annotated[int, Field(ge=0)] = 0
+    misread: Replacements = Field(default_factory=dict)
+    no_effect: str = ""
     not_checkable: str = ""
     closed: bool = False
     defines: str = ""
@@ -97,10 +108,13 @@ class Equation(Strict):
     def members(self, edition: Edition) -> tuple[str, ...]:
         """Members as printed or as they should be.
 
-        A number beyond the last member adds one; a member mended to "" is left out.
+        A number beyond the last member adds one; a member mended to "" is left out. Of a
+        line that is lost, what follows for it from the rest.
         """
         if edition == "printed":
             return self.printed
+        if self.rebuilt:
+            return self.rebuilt
         count = max(len(self.printed), *self.mending, 0) if self.mending else len(self.printed)
         listed = [
             self.mending.get(k, self.printed[k - 1] if k <= len(self.printed) else "")
@@ -131,6 +145,10 @@ class EquationFile(Strict):
                 yield key, "a correction needs attribution and why", equation.id
             if equation.kind and not equation.mending:
                 yield (*key, "kind"), "there is no correction to be of a kind", equation.id
+            if (equation.rebuilt or equation.surviving) and not equation.illegible:
+                yield key, "only an illegible line is rebuilt", equation.id
+            if not set(equation.misread) <= set(equation.right):
+                yield (*key, "misread"), "belongs to members that `right` mends", equation.id
             if equation.corrected and equation.right:
                 yield key, "either misprinted (corrected) or wrong (right), not both", equation.id
 
@@ -190,7 +208,7 @@ class Catalogue:
         """First definition of each symbol: ("" or "∂", name, dots) → equation and indices."""
         found: dict[tuple[str, str, int], Definition] = {}
         for equation in self.equations:
-            if equation.claim or not (equation.printed or equation.mending):
+            if equation.claim or not (equation.printed or equation.mending or equation.rebuilt):
                 continue
             for text in filter(None, (equation.left, equation.defines)):
                 try:

@@ -9,7 +9,7 @@ exact to rounding and cost no subtraction.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -68,20 +68,11 @@ class Movable(Environment, Protocol):
         """The same environment one imaginary step along a coordinate, its rate, or time."""
 
 
-@dataclass(frozen=True)
 class Unframed:
-    """An environment without its frames: what numbers a formula that mixes them gives.
+    """An environment without its frames: what numbers a formula that mixes them gives."""
 
-    Attributes:
-        environment: The environment.
-    """
-
-    environment: Environment
-
-    @property
-    def columns(self) -> int:
-        """As the environment has them."""
-        return self.environment.columns
+    def __init__(self, environment: Environment) -> None:
+        self.environment, self.columns = environment, environment.columns
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
         """Numbers of a symbol."""

@@ -38,8 +38,13 @@ class Value:
         """In words, for messages."""
         if self.rank <= 0:
             return "a scalar" if self.rank == 0 else "zero"
-        plain = f"vector of {self.tail[0]}" if self.rank == 1 else "{}×{} matrix".format(*self.tail)
-        return f"a {plain}{fr.described(self.frames)}"
+        if self.rank == 1:
+            return f"a vector of {self.tail[0]}"
+        return f"a {self.tail[0]}×{self.tail[1]} matrix"
+
+    def seen(self) -> str:
+        """In words, with its frames."""
+        return self.describe() + fr.described(self.frames)
 
     def within(self, frames: Frames) -> Value:
         """The same numbers, seen from a frame or turning between two."""
@@ -77,7 +82,7 @@ def add(first: Value, second: Value) -> Value:
         raise FormulaError(f"adds {first.describe()} and {second.describe()}")
     frames = fr.same(first.frames, second.frames)
     if not frames:
-        raise FrameError(f"adds {second.describe()} to {first.describe()}")
+        raise FrameError(f"adds {second.seen()} to {first.seen()}")
     return Value(first.array + second.array, first.rank, frames)
 
 
@@ -107,7 +112,7 @@ def _joined(first: Value, second: Value) -> Frames:
     frames = fr.joined(first.frames, second.frames)
     if frames:
         return frames
-    raise FrameError(f"multiplies {first.describe()} by {second.describe()}")
+    raise FrameError(f"multiplies {first.seen()} by {second.seen()}")
 
 
 def _spread(array: np.ndarray, rank: int) -> np.ndarray:
@@ -125,9 +130,7 @@ def cross(first: Value, second: Value) -> Value:
     a, b = first.array, second.array
     frames = fr.same(first.frames, second.frames)
     if not frames:
-        raise FrameError(
-            f"takes the vector product of {first.describe()} and {second.describe()}"
-        )
+        raise FrameError(f"takes the vector product of {first.seen()} and {second.seen()}")
     parts = [a[..., k - 2] * b[..., k - 1] - a[..., k - 1] * b[..., k - 2] for k in range(3)]
     return Value(np.stack(parts, axis=-1), 1, frames)
 
@@ -203,7 +206,7 @@ def _beside(cells: list[Value]) -> Frames:
     for cell in cells:
         found = fr.same(frames, fr.rows(cell.frames))
         if not found:
-            raise FrameError(f"puts {cell.describe()} beside columns{fr.described(frames)}")
+            raise FrameError(f"puts {cell.seen()} beside columns{fr.described(frames)}")
         frames = found
     return frames
 

@@ -9,7 +9,7 @@ Source: Pollard thesis, 2.4.1, 2.7.1, 3.2, 3.4, appendix A.
 
 from __future__ import annotations
 
-from thesis_pin.equations.formula import Node, Sum, Symbol, symbols
+from thesis_pin.equations.formula import Node, Sum, Symbol
 from thesis_pin.equations.frames import (
     ANY,
     Frames,

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from scout_pin.coordinates import POSE_NAMES
 from scout_pin.motion.gait import BODIES, Gait
+from scout_pin.motion.jumps import RateJump
 from scout_pin.motion.resolution.feet import Moved, Moving, Stance, foot, foot_noise, stances
 from scout_pin.motion.tables import GaitSamples, phases_of
-from scout_pin.motion.variants import Change, RateJump, Variants
+from scout_pin.motion.variants import Change, Variants
 from scout_pin.specification import SIDES
 from thesis_pin.errors import TrajectoryError
 from thesis_pin.files import name_as_text

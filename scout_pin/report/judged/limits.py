@@ -17,7 +17,7 @@ from thesis_pin.numeric.inequalities import Intervals
 from thesis_pin.tolerances import TOLERANCES
 
 if TYPE_CHECKING:
-    from scout_pin.motion.variants import RateJump
+    from scout_pin.motion.jumps import RateJump
 
 SPEEDS = (0.2, 5.0)
 """How many times faster than given a gait is looked at."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from scout_pin.thesis.claims import dynamics, robot, tables
+from thesis_pin.audit.reading import apart_from_text
 from thesis_pin.audit.verdicts import Claims
 from thesis_pin.equations.catalogue import Catalogue
 
@@ -14,4 +15,5 @@ def claims(catalogue: Catalogue, states: int) -> Claims:
         catalogue: The equations, whose printed numbers are read.
         states: Random states used for the law of motion.
     """
-    return tables.claims(catalogue) | robot.claims(catalogue) | dynamics.claims(states)
+    found = tables.claims(catalogue) | robot.claims(catalogue) | dynamics.claims(states)
+    return {name: apart_from_text(check) for name, check in found.items()}

@@ -132,7 +132,15 @@ def test_the_page_shows_both_tables(report):
 
 def test_all_verdicts_fit_eighty_columns(monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "80")
-    verdicts = ("holds", "misprint", "wrong", "illegible", "not checkable", "unexplained")
+    verdicts = (
+        "holds",
+        "misprint",
+        "wrong",
+        "illegible",
+        "rebuilt",
+        "not checkable",
+        "unexplained",
+    )
     rows = tuple(Row(f"robot:{v}:a", "", (), "a", ("b",), {}, v) for v in verdicts for _ in "12")
     chapters = audit_report.chapter_table(AuditReport("Thesis", rows, (), "", {}))
     narrow = [_NARROW.get(heading, heading) for heading in chapters.columns]

@@ -114,11 +114,41 @@ def test_illegible_and_uncheckable_lines_keep_their_reasons():
 
 
 def test_a_claim_is_judged_by_its_residuals():
-    claims = {"law": lambda: ClaimResult(0.5, 1e-16, "half is missing", {"force [N]": 4.0})}
+    claims = {"law": reads(0.5, 1e-16, "half is missing", {"force [N]": 4.0})}
     result = row(claims, claim="law", printed="0", right="1", **MENDED)
     assert (result.verdict, result.effect) == ("wrong", {"force [N]": 4.0})
-    claims["law"] = lambda: ClaimResult(0.0)
+    claims["law"] = reads(0.0)
     assert row(claims, claim="law", printed="0").verdict == "holds"
+
+
+def reads(*result):
+    """A claim that looks at every member and finds the same whatever they are."""
+
+    def claim(equation):
+        list(equation.printed)
+        return ClaimResult(*result)
+
+    return claim
+
+
+def test_a_claim_that_does_not_read_its_text_can_not_say_holds():
+    claims = {"law": lambda equation: ClaimResult(float(len(equation.printed[0])) * 0)}
+    assert row(claims, claim="law", printed="0").verdict == "holds"
+    unread = row(claims, claim="law", printed=("0", "1"))
+    assert unread.verdict == "unexplained"
+    assert "member 2" in unread.reason
+    deaf = {"law": lambda equation: ClaimResult(0.0 * len(equation.members("corrected")))}
+    assert row(deaf, claim="law", printed="0").verdict == "unexplained"
+
+
+def test_a_lost_line_that_follows_from_the_rest_is_rebuilt_and_nothing_more():
+    lost = {"printed": (), "illegible": "the page is torn", "surviving": "a", "line": 7}
+    rebuilt = row(rebuilt="a b", **lost)
+    assert (rebuilt.verdict, rebuilt.reason) == ("rebuilt", "the page is torn")
+    assert (rebuilt.surviving, rebuilt.rebuilt, rebuilt.line) == (("a",), ("a b",), 7)
+    assert rebuilt.residual_printed is None
+    assert row(rebuilt="a a", **lost).verdict == "unexplained"
+    assert row(**lost).verdict == "illegible"
 
 
 @pytest.fixture

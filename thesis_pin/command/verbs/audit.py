@@ -16,7 +16,11 @@ if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
     from thesis_pin.audit.thesis import Thesis
     from thesis_pin.equations.catalogue import Catalogue
 
-_NARROW = {"not checkable": "not\ncheckable", "unexplained": "un-\nexplained"}
+_NARROW = {
+    "illegible": "il-\nlegible",
+    "not checkable": "not\ncheckable",
+    "unexplained": "un-\nexplained",
+}
 """Headings on two lines: all verdicts fit 80 columns."""
 _TITLE = 31
 """Characters of a failure's title, so that its row fits 80 columns."""
