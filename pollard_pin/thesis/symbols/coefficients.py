@@ -44,7 +44,7 @@ class Coefficients(Positions):
         """Numbers away from zero that only their name decides."""
         generator = np.random.default_rng(zlib.crc32(name.encode()))
         size = (*shape, self.state.size)
-        return generator.uniform(0.5, 2.0, size) * generator.choice([-1.0, 1.0], size)
+        return np.asarray(generator.uniform(0.5, 2.0, size) * generator.choice([-1.0, 1.0], size))
 
     def _free(self, name: str, i: str) -> np.ndarray:
         """A free coefficient, on its way along the directions that are asked for."""
@@ -130,10 +130,11 @@ class Coefficients(Positions):
             for i in ("1", "2") if row.side else ("",):
                 total = self._not_named(row)
                 for k, name in enumerate(row.variables, start=1):
-                    total = total + self._free(f"V_{row.first + k}", i)[..., None, :] * (
-                        _unit(name) if name in POSE else self._turn(row, own_name(name, i), found)
-                    )
-                found[own_name(row.angle, i)] = total / self._free(f"V_{row.first}", i)[..., None, :]
+                    own = own_name(name, i)
+                    by = _unit(name) if name in POSE else self._turn(row, own, found)
+                    total = total + self._free(f"V_{row.first + k}", i)[..., None, :] * by
+                below = self._free(f"V_{row.first}", i)[..., None, :]
+                found[own_name(row.angle, i)] = total / below
         return found
 
     def _turn(self, row: Rate, name: str, found: dict[str, np.ndarray]) -> np.ndarray:
@@ -150,7 +151,7 @@ class Coefficients(Positions):
 
 
 def _unit(name: str) -> np.ndarray:
-    return np.eye(6)[POSE.index(name)][:, None]
+    return np.asarray(np.eye(6)[POSE.index(name)][:, None])
 
 
 def _place(letter: str, number: int) -> tuple[Rate, int] | None:
@@ -180,15 +181,15 @@ def substitutes(catalogue: Catalogue, equation: Equation) -> bool:
     if equation.claim or not equation.printed:
         return False
     try:
-        left = nt.symbols(catalogue.parse(equation.left))
+        left = nt.symbols(catalogue.parse(equation.left)) - {_BY}
+        if not all(_is_result(symbol) for symbol in left):
+            return False
         members = (*equation.printed, *equation.mending.values())
-        used = set().union(*(nt.symbols(catalogue.parse(text)) for text in members))
+        used = set().union(*(nt.symbols(catalogue.parse(text)) for text in members)) - {_BY}
     except FormulaError:
         return False
-    if not any(_COEFFICIENT.match(symbol.name) for symbol in used):
-        return False
-    named = all(_is_result(symbol) for symbol in left - {_BY})
-    return named and all(_is_known(symbol) for symbol in used - {_BY})
+    names_any = any(_COEFFICIENT.match(symbol.name) for symbol in used)
+    return names_any and all(_is_known(symbol) for symbol in used)
 
 
 _BY = Symbol("q", "j")
