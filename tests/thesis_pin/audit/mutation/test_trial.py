@@ -46,7 +46,7 @@ def test_what_changes_a_value_is_caught_on_both_sides():
 
 
 def test_what_says_the_same_whatever_the_symbols_are_is_an_identity():
-    zero = trials(left="0", printed="b - b")
+    zero = trials(left="0", printed="(b - b) a_1")
     assert answers(zero, "sign") == {"caught", "identity"}
 
 
