@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from thesis_pin.audit.rows import AuditReport, Effect, Row
 from thesis_pin.audit.slips import Cause
@@ -54,6 +55,7 @@ class Thesis:
         causes: Each slip that several lines share, by its name in the data.
         beyond: Equations → what lies outside the audit, and why.
         effects: What the effects are, as lines for the document.
+        spanish: File with its texts in Spanish; see :mod:`thesis_pin.audit.errata.phrases`.
     """
 
     name: str
@@ -64,11 +66,17 @@ class Thesis:
     causes: Mapping[str, Cause]
     beyond: Callable[[Catalogue], tuple[tuple[str, str], ...]]
     effects: tuple[str, ...]
+    spanish: Path | None = None
 
     @property
     def document_command(self) -> str:
         """What regenerates the checked-in document."""
         return f"{self.robot}-pin audit --markdown docs/audit/{self.robot}.md"
+
+    def errata_command(self, language: str) -> str:
+        """What regenerates the checked-in errata, in English ("en") or Spanish ("es")."""
+        file = f"{self.robot}_errata.md" if language == "en" else f"{self.robot}_erratas.es.md"
+        return f"{self.robot}-pin audit --language {language} --errata docs/audit/{file}"
 
     def audit(
         self,

@@ -10,6 +10,9 @@ from pathlib import Path
 
 from thesis_pin.model.specification import Key, Strict, read_toml
 
+SPANISH = Path(__file__).with_name("spanish.toml")
+"""What every thesis's errata say, in Spanish."""
+
 _FIELD = re.compile(r"\{(\*?)(\w+)\}")
 
 
@@ -69,6 +72,20 @@ class Phrases:
         return said.format(**values) if values else said
 
     def _of(self, text: str) -> str | None:
+        """A sentence, or several with a semicolon or comma between; None if one is unknown."""
+        whole = self._whole(text)
+        if whole is not None:
+            return whole
+        for mark in ("; ", ", "):
+            parts = text.split(mark)
+            for k in range(len(parts) - 1, 0, -1):
+                head = self._whole(mark.join(parts[:k]))
+                tail = None if head is None else self._of(mark.join(parts[k:]))
+                if tail is not None:
+                    return f"{head}{mark}{tail}"
+        return None
+
+    def _whole(self, text: str) -> str | None:
         if not self.table or not re.search("[A-Za-z]", text):
             return text
         if text in self.table:
@@ -78,12 +95,6 @@ class Phrases:
             said = self._filled(other, match.groupdict()) if match else None
             if said is not None:
                 return said
-        for mark in ("; ", ", "):
-            if mark in text:
-                parts = [self._of(part) for part in text.split(mark)]
-                whole = [part for part in parts if part is not None]
-                if len(whole) == len(parts):
-                    return mark.join(whole)
         return None
 
     def _filled(self, other: str, values: Mapping[str, str]) -> str | None:
