@@ -3,8 +3,8 @@
 ``D q̈ + V q̇ + C = A_τ τ + (∂Φ/∂q)ᵀ λ`` in the coordinates (4.2). Two editions:
 "corrected" follows the equations with their corrections, "printed" follows the
 print literally wherever it can be evaluated; where it can't (a symbol that is
-defined nowhere, a matrix with 17 columns) the corrected line stands in, and
-:attr:`ExplicitModel.substituted` lists it.
+defined nowhere, a matrix with 17 columns, a line that is missing from the text) the
+corrected or rebuilt line stands in, and :attr:`ExplicitModel.substituted` lists it.
 
 The equations are in the TOML files beside this module.
 """

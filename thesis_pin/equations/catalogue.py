@@ -108,10 +108,13 @@ class Equation(Strict):
     def members(self, edition: Edition) -> tuple[str, ...]:
         """Members as printed or as they should be.
 
-        A number beyond the last member adds one; a member mended to "" is left out.
+        A number beyond the last member adds one; a member mended to "" is left out. Of a
+        line that is lost, what follows for it from the rest.
         """
         if edition == "printed":
             return self.printed
+        if self.rebuilt:
+            return self.rebuilt
         count = max(len(self.printed), *self.mending, 0) if self.mending else len(self.printed)
         listed = [
             self.mending.get(k, self.printed[k - 1] if k <= len(self.printed) else "")
@@ -205,7 +208,7 @@ class Catalogue:
         """First definition of each symbol: ("" or "∂", name, dots) → equation and indices."""
         found: dict[tuple[str, str, int], Definition] = {}
         for equation in self.equations:
-            if equation.claim or not (equation.printed or equation.mending):
+            if equation.claim or not (equation.printed or equation.mending or equation.rebuilt):
                 continue
             for text in filter(None, (equation.left, equation.defines)):
                 try:

@@ -166,7 +166,7 @@ class EditionEnvironment:
         self, equation: Equation, members: tuple[str, ...], symbol: Symbol, indices: dict[str, str]
     ) -> Value:
         if not members:
-            raise FormulaError("nothing is printed")
+            raise FormulaError(equation.illegible or "nothing is printed")
         node = self.catalogue.parse(members[-1])
         if (
             equation.defines
