@@ -4,6 +4,7 @@ the inertias' use, the ZMP at rest. They hold the explicit model against Pinocch
 
 from __future__ import annotations
 
+import re
 from functools import partial
 
 import numpy as np
@@ -16,25 +17,36 @@ from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import Specification
-from scout_pin.thesis.claims.texts import Check, both, identity
+from scout_pin.thesis.claims.texts import Check, both, identity, statements
 from scout_pin.thesis.explicit import ExplicitModel, Interval, resting, solve_one
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters
-from thesis_pin.audit.reading import apart_from_text
 from thesis_pin.audit.verdicts import ClaimResult, largest_relative
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.tolerances import TOLERANCES
 
 SEED = 20100
+IDENTITY_BELOW = r"[\mathbf{0}_{6 \times 12}; \mathbf{1}_{12}]"
+"""What A_τ should be, as the corrections write it."""
+_PARTIALS = r"\\begin\{bmatrix\} \\frac\{\\partial \\varphi_1\^(\d)\}.*\\ddots.*\^\1\}.*"
+_POSES = r"\\left\[\\begin\{array\}.*|\\begin\{bmatrix\} \\frac\{\\partial \\Phi_1\^0\}.*"
 
 
 def claims(catalogue: Catalogue) -> dict[str, Check]:
     """The checks by name."""
     return {
-        "actuation": apart_from_text(_actuation),
-        "inertias_as_used": apart_from_text(_inertias_as_used),
+        "actuation": statements(
+            _actuation,
+            r"\\text\{the 18×12 matrix of the elements \} A_\{rc\} .*zero elsewhere\}",
+            re.escape(IDENTITY_BELOW),
+        ),
+        "inertias_as_used": statements(
+            _inertias_as_used,
+            r"\\text\{tensors about the centres of gravity, .*",
+            r"\\text\{products of inertia about \} .* then subtract \} m\(\|c\|\^2 1 - c c\^T\)",
+        ),
         "zmp_at_rest": partial(_zmp_at_rest, catalogue),
-        **{f"stance_{k}": apart_from_text(partial(_stance, k)) for k in (1, 2, 3)},
+        **{f"stance_{k}": statements(partial(_stance, k), _PARTIALS, _POSES) for k in (1, 2, 3)},
     }
 
 

@@ -12,14 +12,10 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
-from scout_pin.model import Scout, load
-from scout_pin.motion.files import load_gait
-from scout_pin.motion.gait import Gait
-from scout_pin.motion.trajectory import joint_trajectory
+from scout_pin.thesis.claims.angles import SOLVER, printed_angles
 from scout_pin.thesis.claims.texts import Check, at, beyond, both, pieces, quantity, unreadable
 from scout_pin.thesis.state import LENGTHS, Parameters, State
 from thesis_pin.audit.verdicts import ClaimResult
@@ -27,14 +23,12 @@ from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.numeric.rotations import rotation
 
 _REACH = 0.2  # m, the length every error of a foot's place is compared with
-_SOLVER = 2e-6  # degrees by which the program's own solver stops short of the root
 _POSE = ("x_B", "z_B", "x_i", "theta_B", "phi_B", "psi_B")
 _SPLINES = ("y_B", "y_1", "z_1", "y_2", "z_2")
 
 
 def claims(catalogue: Catalogue) -> dict[str, Check]:
     """The checks by name."""
-    robot = load()
     numbers = functools.cache(partial(Numbers.read, catalogue))
     return {
         "length": lambda equation: _length(numbers(), equation),
@@ -42,24 +36,7 @@ def claims(catalogue: Catalogue) -> dict[str, Check]:
         "constant_angle": lambda equation: _constant_angle(numbers(), equation),
         "neutral_pose": lambda equation: _neutral_pose(numbers(), equation),
         "gait_pose": lambda equation: _gait_pose(numbers(), equation),
-        "constant_angles": _constant_angles,
-        "initial_angles": _initial_angles,
-        "printed_angles": partial(_printed_angles, robot, load_gait("thesis-program")),
     }
-
-
-def printed_angles() -> tuple[np.ndarray, np.ndarray]:
-    """The printed angles [deg] ``(41, 12)`` and half their last digit."""
-    file = Path(__file__).parents[1] / "printed" / "printed_angles.csv"
-    lines = file.read_text(encoding="utf-8").splitlines()
-    rows = [line.split(",")[1:] for line in lines if line[0].isdigit()]
-    half = [[0.5 * 10.0 ** -len(cell.partition(".")[2]) for cell in row] for row in rows]
-    # "0." is Mathematica's machine zero, not a rounded number.
-    exact = [
-        [0.0 if float(cell) == 0 else h for cell, h in zip(row, halves, strict=True)]
-        for row, halves in zip(rows, half, strict=True)
-    ]
-    return np.array(rows, dtype=float), np.array(exact)
 
 
 @dataclass(frozen=True)
@@ -81,7 +58,9 @@ class Numbers:
     @classmethod
     def read(cls, catalogue: Catalogue) -> Numbers:
         """From the rows of B.2, B.3, (5.1) and appendix D."""
-        lengths, angles, pose = {}, {}, {}
+        lengths: dict[str, float] = {}
+        angles: dict[str, float] = {}
+        pose: dict[str, float] = {}
         for name in LENGTHS:
             value, _ = quantity(catalogue[f"scout:B.2:{name}i"].members("corrected")[0])
             lengths |= {f"{name}{i}": value for i in "12"}
@@ -119,7 +98,7 @@ class Numbers:
         """By how much the feet miss their printed places and axes, beyond rounding."""
         degrees, half = printed_angles()
         state, worst = self._state(degrees), 0.0
-        allowed = np.radians(half + _SOLVER)
+        allowed = np.radians(half + SOLVER)
         for i in (1, 2):
             joints = slice(6 * i, 6 * i + 6)
             free = allowed[:, 6 * i - 6 : 6 * i]
@@ -231,60 +210,3 @@ def _gait_pose(numbers: Numbers, equation: Equation) -> ClaimResult:
         return result
     moved = abs(said[0]["x_1"] - numbers.pose["x_1"]) * 1e-3
     return replace(result, note="", effect={"left foot's place [m]": moved})
-
-
-def _constant_angles(equation: Equation) -> ClaimResult:
-    """Angles that stay what is printed in all 41 rows."""
-    degrees, _ = printed_angles()
-    joints = [_joint(name) for name in equation.left.split(", ")]
-
-    def residual(text: str, left: str) -> float:
-        columns = [*joints, *(k + 6 for k in joints)]
-        return float(np.abs(degrees[:, columns] - quantity(text)[0]).max())
-
-    return both(equation, residual)
-
-
-def _joint(name: str) -> int:
-    found = re.fullmatch(r"\\theta_\{([1-6])i\}", name)
-    if not found:
-        raise unreadable(name)
-    return int(found[1]) - 1
-
-
-def _initial_angles(equation: Equation) -> ClaimResult:
-    """The start position's angles, printed once alone and once as t = 0 of the tables."""
-    degrees, _ = printed_angles()
-
-    def residual(text: str, left: str) -> float:
-        found = re.fullmatch(r"\(((?:(?:\\pm |\\mp )?[\d.]+(?:, |(?=\)))){6})\)°", text)
-        if not found:
-            raise unreadable(text)
-        worst = 0.0
-        for leg, upper in enumerate((True, False)):
-            for k, cell in enumerate(found[1].split(", ")):
-                sign, _, digits = cell.rpartition(" ")
-                value = quantity(digits)[0]
-                if sign and (sign == r"\pm") != upper:
-                    value = -value
-                worst = max(worst, abs(degrees[0, 6 * leg + k] - value))
-        return worst
-
-    return both(equation, residual, "as the tables Out[347] to Out[358] have it at t = 0")
-
-
-def _printed_angles(robot: Scout, program: Gait, equation: Equation) -> ClaimResult:
-    """The printed angles come out of the program's splines by closed-form kinematics."""
-    degrees, half = printed_angles()
-    t = np.arange(len(degrees))
-    found = np.degrees(joint_trajectory(robot, program.sample(t.astype(float))).q)
-    gap = np.abs(found - degrees)
-
-    def residual(text: str, left: str) -> float:
-        words = re.fullmatch(r"\\text\{(\d+) angles, t = (\d+) … (\d+)\}", text)
-        if not words:
-            raise unreadable(text)
-        said = tuple(int(x) for x in words.groups())
-        return beyond(gap, half + _SOLVER, 1.0) + float(said != (gap.size, t[0], t[-1]))
-
-    return both(equation, residual, f"{degrees.size} angles, largest gap {gap.max():.1e}°")

@@ -14,6 +14,7 @@ from scout_pin.dynamics.inverse import inverse_dynamics
 from scout_pin.model import load
 from scout_pin.specification import Specification
 from scout_pin.thesis.claims.dynamics import (
+    IDENTITY_BELOW,
     SEED,
     gait_in_thesis_coordinates,
     pinocchio_terms,
@@ -56,10 +57,10 @@ def _law_states() -> Law:
         data = robot.model.createData()
         needed += [pin.rnea(robot.model, data, *one).copy() for one in zip(q, v, a, strict=True)]
         parts.append((Parameters.of(specification, reading), len(q)))
-    motion = (np.concatenate([x, x])[:, None] for x in (q, v, a))
-    still = np.zeros((2 * len(q), 1, 18))
-    torques = np.random.default_rng(SEED).uniform(-1, 1, (2 * len(q), 1, 12))
-    state = State(Parameters.repeat(parts), *motion, still, torques, torques)
+    q, v, a = (np.concatenate([x, x])[:, None] for x in (q, v, a))
+    still = np.zeros_like(q)
+    torques = np.random.default_rng(SEED).uniform(-1, 1, (len(q), 1, 12))
+    state = State(Parameters.repeat(parts), q, v, a, still, torques, torques)
     return Law(state, np.array(needed)[:, None])
 
 
@@ -108,17 +109,17 @@ def _law_of_the_forces(
     result, states = physics(), _law_states()
 
     def residual(text: str, left: str) -> float:
-        both_forces = _SIX_ROWS.sub("", text).replace(_IDENTITY_BELOW, r"\mathbf{A}_\tau")
-        whole = both_forces.replace(_FLOOR, r"\boldsymbol{\Gamma}_k")
-        stated = result.printed if text in equation.printed else result.corrected
-        return max(identity(catalogue, left, whole, states), stated or 0.0)
+        whole = _SIX_ROWS.sub("", text).replace(IDENTITY_BELOW, r"\mathbf{A}_\tau")
+        mended = whole != text and result.corrected is not None
+        stated = result.corrected if mended else result.printed
+        floor = whole.replace(_FLOOR, r"\boldsymbol{\Gamma}_k")
+        return max(identity(catalogue, left, floor, states), stated or 0.0)
 
     judged = both(equation, residual)
     return ClaimResult(judged.printed, judged.corrected, result.note, result.effect)
 
 
 _SIX_ROWS = re.compile(r" \\text\{ with six rows a stance foot\}$")
-_IDENTITY_BELOW = r"[\mathbf{0}_{6 \times 12}; \mathbf{1}_{12}]"
 _FLOOR = r"\left(\frac{\partial \Phi_k^0}{\partial \mathbf{q}} \right)^T \boldsymbol{\lambda}_k^0"
 
 

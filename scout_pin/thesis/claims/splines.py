@@ -20,10 +20,10 @@ from scout_pin.thesis.claims.texts import (
     half_digit,
     identity,
     pieces,
+    statements,
     unreadable,
 )
 from scout_pin.thesis.symbols.splines import PIECES, Splines, spline_coefficients
-from thesis_pin.audit.reading import apart_from_text
 from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
@@ -44,7 +44,11 @@ def claims(catalogue: Catalogue) -> dict[str, Check]:
     exact = load_gait("thesis")
     return {
         "spline": partial(_spline, exact),
-        "table_5_1": apart_from_text(partial(_table, exact)),
+        "table_5_1": statements(
+            partial(_table, exact),
+            r"\\text\{the splines \(5\.2\) to \(5\.6\) go through its values\}",
+            r"\\text\{they go through the nodes that bound their pieces\}",
+        ),
         "program_spline": partial(_program_spline, catalogue),
         "spline_pieces": partial(_pieces_of_c, catalogue),
         "spline_conditions": partial(_conditions, catalogue),

@@ -6,9 +6,10 @@ another number or no longer readable.
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -225,3 +226,29 @@ def both(equation: Equation, residual: Callable[[str, str], float], note: str = 
         reasons.clear()
     printed = largest(equation.printed, equation.left_printed or equation.left)
     return ClaimResult(printed, mended, "; ".join([*reasons, note] if note else reasons))
+
+
+def statements(check: Callable[[], ClaimResult], wrong: str, right: str) -> Check:
+    """A check of a statement in words: whichever of two it is, its residual was worked out.
+
+    Args:
+        check: Finds the residuals of both; run once.
+        wrong: Pattern of the thesis's statement.
+        right: Pattern of the one that holds.
+    """
+    once = functools.cache(check)
+
+    def judged(equation: Equation) -> ClaimResult:
+        result = once()
+
+        def residual(text: str, left: str) -> float:
+            if re.fullmatch(wrong, text):
+                return result.printed
+            if not re.fullmatch(right, text) or result.corrected is None:
+                raise unreadable(text)
+            return result.corrected
+
+        found = both(equation, residual, result.note)
+        return replace(found, effect=result.effect)
+
+    return judged
