@@ -91,7 +91,7 @@ def _outline(catalogue: Catalogue, equation: Equation) -> ClaimResult:
 
     def residual(text: str, left: str) -> float:
         value, half = quantity(text)
-        return beyond(extents - value, half, _SIZE)
+        return beyond(extents - value, half, float(extents.max()))
 
     widths = " and ".join(f"{x * 1e3:.2f}" for x in extents)
     return both(equation, residual, f"the vertices of B.4 are {widths} mm apart")
