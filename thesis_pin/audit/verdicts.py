@@ -138,10 +138,41 @@ def _member(
         yield difference(first, second)
 
 
+def residual_as_said(
+    catalogue: Catalogue,
+    equation: Equation,
+    members: Sequence[str],
+    environments: Sequence[Environment],
+    left: str,
+) -> Residual:
+    """How far members are from the left side in the first environment where they don't hold."""
+    found = Residual(math.inf)
+    for environment in environments:
+        found = residual(catalogue, equation, members, environment, left)
+        if found.value >= HOLDS:
+            break
+    return found
+
+
 def judge(
-    catalogue: Catalogue, equation: Equation, environment: Environment, claims: Claims, thesis: str
+    catalogue: Catalogue,
+    equation: Equation,
+    environment: Environment,
+    claims: Claims,
+    thesis: str,
+    substituted: Environment | None = None,
 ) -> Row:
-    """The audit's answer on one equation."""
+    """The audit's answer on one equation.
+
+    Args:
+        catalogue: The equations.
+        equation: The one to judge.
+        environment: What its symbols must equal.
+        claims: Checks in code.
+        thesis: What it is called.
+        substituted: What its symbols are where what it takes as given is free, if the line
+            is a substitution: it then has to hold there too.
+    """
     number = f" ({', '.join(equation.number)})" if equation.number else ""
     row = Row(
         id=equation.id,
@@ -185,11 +216,12 @@ def judge(
             effect=result.effect,
             places=tuple(_places(equation)),
         )
-    printed = residual(catalogue, equation, equation.printed, environment, row.left)
+    grounds = (environment, substituted) if substituted else (environment,)
+    printed = residual_as_said(catalogue, equation, equation.printed, grounds, row.left)
     mended = None
     if equation.mending or equation.left_printed:
         members = equation.members("corrected")
-        mended = residual(catalogue, equation, members, environment, equation.left)
+        mended = residual_as_said(catalogue, equation, members, grounds, equation.left)
     answer = verdict(printed.value, mended.value if mended else None, physical=bool(equation.right))
     return _with(
         row,
