@@ -26,7 +26,7 @@ def without_effect(equations: Catalogue, equation: Equation, row: Row, effect: E
     if effect:
         return "the law of motion rests on it, and comes out the same with the line as printed"
     if equation.claim:
-        return "it states a fact, and nothing is computed from it"
+        return "a check in code decides it, which measures no effect"
     using = users(equations, equation)
     if not using:
         return "no other line uses what it defines"

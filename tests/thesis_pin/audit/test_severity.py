@@ -52,4 +52,4 @@ def test_a_line_that_nothing_uses_says_so_and_the_datas_reason_comes_first():
     told = LINES[3].model_copy(update={"no_effect": "it is repeated below"})
     assert without_effect(CATALOGUE, told, row(0.2), {}) == "it is repeated below"
     claimed = LINES[3].model_copy(update={"claim": "law"})
-    assert "states a fact" in without_effect(CATALOGUE, claimed, row(0.2), {})
+    assert "check in code" in without_effect(CATALOGUE, claimed, row(0.2), {})
