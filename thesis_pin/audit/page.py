@@ -17,6 +17,7 @@ from thesis_pin.audit.text import (
     place_text,
     residual_text,
     summary_lines,
+    surviving_text,
     used_causes,
 )
 from thesis_pin.equations.uses import Uses
@@ -134,17 +135,23 @@ def _correction(text: str) -> str:
     """A correction as a formula, or as its source where that takes pages."""
     if len(text) < _PAGES:
         return mathml(text)
-    said = f"its source, {len(text)} characters; the places below say where it differs"
+    said = f"its source, {len(text)} characters"
     return f"<details><summary>{said}</summary><code>{html.escape(text)}</code></details>"
 
 
 def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, object]]:
     """Labels and contents; what comes as markup isn't escaped again."""
+    for k, text in enumerate(row.rebuilt, start=1):
+        label = f"rebuilt, member {k}" if len(row.rebuilt) > 1 else "rebuilt"
+        yield label, markup(_correction(text))
+    for text in row.surviving:
+        yield "survives", markup(f"<code>{html.escape(surviving_text(text))}</code>")
     for number, text in sorted(row.corrected.items()):
         label = "left side" if number == 0 else f"member {number}"
         yield f"corrected, {label}", markup(_correction(text)) if text else "(nothing)"
     if row.failed or row.residual_corrected is not None:
-        residuals = {"as printed": row.residual_printed, "corrected": row.residual_corrected}
+        mended = "rebuilt" if row.rebuilt else "corrected"
+        residuals = {"as printed": row.residual_printed, mended: row.residual_corrected}
         said = [f"{k} {residual_text(v)}" for k, v in residuals.items() if v is not None]
         yield "residual", ", ".join(said)
     for place in row.places:
@@ -155,3 +162,5 @@ def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, obj
         ("guess", f"{row.attribution}: {row.why}" if row.attribution else ""),
     )
     yield from ((label, text) for label, text in texts if text)
+    if row.line:
+        yield "line", f"{row.line} of the source text"
