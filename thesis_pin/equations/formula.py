@@ -13,6 +13,10 @@ class FormulaError(BadInput):
     """A formula can't be read or evaluated."""
 
 
+class FrameError(FormulaError):
+    """A formula puts together what is seen from different frames."""
+
+
 class Node:
     """Base of all parts of a formula."""
 
