@@ -71,7 +71,8 @@ def _lost(rows: Sequence[Row]) -> Iterator[str]:
     if not rows:
         return
     yield from ("", "## Lost lines, rebuilt", "", *_LOST, "")
-    yield from ("| line | source line | what is missing | rebuilt from |", "| --- | ---: | --- | --- |")
+    yield "| line | source line | what is missing | rebuilt from |"
+    yield "| --- | ---: | --- | --- |"
     for row in rows:
         cells = (row.id.split(":", 1)[1], str(row.line), row.reason, row.note)
         said = [_cell(cell.removeprefix("rebuilt: ")) for cell in cells]
