@@ -218,7 +218,7 @@ def judge(
             result = _claim(claims, equation)(reading)
         except TROUBLES as error:
             return _with(row, check=equation.claim, verdict="unexplained", reason=what(error))
-        answer = verdict(result.printed, result.corrected, physical=True)
+        answer = verdict(result.printed, result.corrected, physical=bool(equation.right))
         if reading.unread and answer == "holds":
             unread = ", ".join(map(str, reading.unread))
             reason = f"the check doesn't read member {unread}, and what isn't read can't hold"

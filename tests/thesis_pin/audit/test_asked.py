@@ -14,8 +14,8 @@ THESES = {"pollard": pollard, "scout": scout}
     [
         ("scout", "scout:6.2:ZMP_x", ["6.2:ZMP_x"]),
         ("scout", "6.2:zmp_x", ["6.2:ZMP_x"]),
-        ("scout", "ZMP_x", ["6.2:ZMP_x"]),
-        ("scout", "zmp_x", ["6.2:ZMP_x"]),
+        ("scout", "ZMP_x", ["6.2:ZMP_x", "6.2:ZMP_x_at_rest"]),
+        ("scout", "zmp_x", ["6.2:ZMP_x", "6.2:ZMP_x_at_rest"]),
         ("scout", "C.1", ["C:C.1"]),
         ("scout", "(c.1)", ["C:C.1"]),
         ("pollard", "(3.154)", ["3.7:3.154"]),
