@@ -15,9 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from thesis_pin.audit import kinds, places
+from thesis_pin.audit import kinds, places, single
 from thesis_pin.audit.reading import Reading
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Verdict
+from thesis_pin.audit.slips import Slip
 from thesis_pin.equations import frames
 from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
@@ -213,6 +214,13 @@ def judge(
     if equation.not_checkable:
         return _with(row, reason=equation.not_checkable)
     if equation.claim:
+
+        def claimed_alone(changed: Equation) -> float:
+            try:
+                return _claim(claims, equation)(Reading.of(changed)).printed
+            except TROUBLES:
+                return math.inf
+
         reading = Reading.of(equation)
         try:
             result = _claim(claims, equation)(reading)
@@ -233,8 +241,14 @@ def judge(
             reason=result.note,
             effect=result.effect,
             places=tuple(_places(equation)),
+            slips=_slips(catalogue, equation, answer, claimed_alone),
         )
     grounds = (environment, substituted) if substituted else (environment,)
+
+    def printed_alone(changed: Equation) -> float:
+        found = residual_as_said(catalogue, changed, changed.printed, grounds, changed.left)
+        return found.value
+
     printed = residual_as_said(catalogue, equation, equation.printed, grounds, row.left)
     mended = None
     if equation.mending or equation.left_printed:
@@ -250,7 +264,17 @@ def judge(
         residual_corrected=mended.value if mended else None,
         reason=printed.reason or (mended.reason if mended else ""),
         places=tuple(_places(equation)),
+        slips=_slips(catalogue, equation, answer, printed_alone),
     )
+
+
+def _slips(
+    catalogue: Catalogue, equation: Equation, answer: Verdict, residual: single.Test
+) -> tuple[Slip, ...]:
+    """What is wrong with a failing line, each slip by itself; none where nothing mends it."""
+    if answer not in ("misprint", "wrong"):
+        return ()
+    return tuple(single.slips(catalogue, equation, residual))
 
 
 def _claim(claims: Claims, equation: Equation) -> Callable[[Equation], ClaimResult]:

@@ -108,8 +108,9 @@ class Trials:
             return None
 
     def _holds(self, equation: Equation) -> bool:
-        environment = self.ground.references(equation)
-        row = judge(self.equations, equation, environment, self.ground.claims, "")
+        ground = self.ground
+        grounds = ground.references(equation), ground.substituted(equation)
+        row = judge(self.equations, equation, grounds[0], ground.claims, "", grounds[1])
         return row.verdict == "holds"
 
     def _answer(self, equation: Equation, member: int, slip: Planted) -> Answer:
