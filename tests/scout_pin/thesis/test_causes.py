@@ -36,7 +36,7 @@ TURNS += [
         ("ddot-q", {"dot"}, set()),
         ("dotted-capitals", {"dot", "symbol"}, set()),
         ("columns", {"column"}, {"symbol", "dot", "term"}),
-        ("shifted-columns", {"column"}, {"dot", "symbol"}),
+        ("shifted-columns", {"column"}, {"term"}),
         ("old-frames", {"index", "term", "symbol"}, set()),
         ("reaction-torques", {"statement"}, set()),
         ("constraints", {"statement"}, set()),
