@@ -9,10 +9,11 @@ from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 
+from thesis_pin.audit.residuals import TROUBLES, what
 from thesis_pin.audit.rows import AuditReport, Effect, Row
 from thesis_pin.audit.severity import severity, without_effect
 from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.verdicts import TROUBLES, Claims, judge, what
+from thesis_pin.audit.verdicts import Claims, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
 from thesis_pin.numeric.checks import whole

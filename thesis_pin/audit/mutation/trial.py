@@ -11,9 +11,10 @@ from typing import Literal, get_args
 
 from thesis_pin.audit.mutation.random_symbols import RandomSymbols
 from thesis_pin.audit.mutation.slips import SLIPS, Planted, planted
+from thesis_pin.audit.residuals import TROUBLES, difference, residual
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.audit.thesis import Ground
-from thesis_pin.audit.verdicts import TROUBLES, difference, judge, residual
+from thesis_pin.audit.verdicts import judge
 from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol, symbols
