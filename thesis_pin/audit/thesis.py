@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from thesis_pin.audit.rows import AuditReport, Effect, Row
 from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.verdicts import Claims, judge
+from thesis_pin.audit.verdicts import TROUBLES, Claims, judge, what
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
 from thesis_pin.numeric.checks import whole
@@ -132,10 +132,16 @@ class _Judge:
         row = judge(self.equations, equation, environment, self.ground.claims, self.name)
         if not row.failed or row.effect:
             return row
-        effect = self.ground.effect(equation) if self.with_effects else {}
+        effect = self._effect(equation) if self.with_effects else {}
         if not effect and row.residual_printed == math.inf:
             effect = {"this line": "can't be computed"}
         return replace(row, effect=effect)
+
+    def _effect(self, equation: Equation) -> Effect:
+        try:
+            return self.ground.effect(equation)
+        except TROUBLES as error:
+            return {"the law of motion": f"can't be computed, {what(error)}"}
 
 
 # -- several processes ------------------------------------------------------------------

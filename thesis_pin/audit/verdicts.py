@@ -22,8 +22,17 @@ from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.values import Value
+from thesis_pin.errors import BadInput
 
 _FLOOR = 1e-3  # what counts as zero is zero against this
+
+TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
+"""What a line that can't be read or evaluated raises: it is that line's error alone."""
+
+
+def what(error: Exception) -> str:
+    """Why a line can't be evaluated, in words."""
+    return error.what if isinstance(error, BadInput) else f"can't be evaluated: {error}"
 
 
 @dataclass(frozen=True)
@@ -112,9 +121,9 @@ def residual(
             continue
         try:
             values.append(max(_member(catalogue, left, member, environment)))
-        except FormulaError as error:
+        except TROUBLES as error:
             values.append(math.inf)
-            reasons.append(f"member {number} {error.what}" if len(members) > 1 else error.what)
+            reasons.append(f"member {number} {what(error)}" if len(members) > 1 else what(error))
     return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
 
 
@@ -156,7 +165,10 @@ def judge(
         return _with(row, reason=equation.not_checkable)
     if equation.claim:
         reading = Reading.of(equation)
-        result = claims[equation.claim](reading)
+        try:
+            result = _claim(claims, equation)(reading)
+        except TROUBLES as error:
+            return _with(row, check=equation.claim, verdict="unexplained", reason=what(error))
         answer = verdict(result.printed, result.corrected, physical=True)
         if reading.unread and answer == "holds":
             unread = ", ".join(map(str, reading.unread))
@@ -189,6 +201,12 @@ def judge(
         reason=printed.reason or (mended.reason if mended else ""),
         places=tuple(_places(equation)),
     )
+
+
+def _claim(claims: Claims, equation: Equation) -> Callable[[Equation], ClaimResult]:
+    if equation.claim not in claims:
+        raise FormulaError(f"names no check: {equation.claim!r} isn't one of {', '.join(claims)}")
+    return claims[equation.claim]
 
 
 def _lost(catalogue: Catalogue, equation: Equation, environment: Environment, row: Row) -> Row:
