@@ -13,6 +13,18 @@ class FormulaError(BadInput):
     """A formula can't be read or evaluated."""
 
 
+class Unreadable(FormulaError):
+    """A formula isn't in the notation.
+
+    Attributes:
+        position: Number of the character at which that shows, from 0.
+    """
+
+    def __init__(self, what: str, position: int) -> None:
+        self.position = position
+        super().__init__(what, allowed="the notation of notation.lark")
+
+
 class Node:
     """Base of all parts of a formula."""
 
