@@ -18,7 +18,7 @@ import numpy as np
 from thesis_pin.audit import kinds, places
 from thesis_pin.audit.reading import Reading
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Verdict
-from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
+from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.values import Value
@@ -133,7 +133,7 @@ def _member(
     if not member:
         raise FormulaError("is empty")
     sides = catalogue.parse(left), catalogue.parse(member)
-    for indices in index_values(*sides):
+    for indices in catalogue.indices(*sides):
         first, second = (evaluate(side, environment, indices) for side in sides)
         yield difference(first, second)
 

@@ -187,3 +187,13 @@ def symbols(node: object) -> set[Symbol]:
     if isinstance(node, Node):
         return symbols(tuple(vars(node).values()))
     return set()
+
+
+def summed(node: object) -> set[str]:
+    """Index letters that sums in a formula run over."""
+    if isinstance(node, tuple | list):
+        return set().union(*(summed(part) for part in node)) if node else set()
+    if isinstance(node, Node):
+        own = {node.index} if isinstance(node, Series) else set()
+        return own | summed(tuple(vars(node).values()))
+    return set()
