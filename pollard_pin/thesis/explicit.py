@@ -4,7 +4,7 @@
 rates k_n they rest on. Two editions: "corrected" follows the equations with
 their corrections, "printed" follows the print literally wherever it can be
 evaluated. Where a line can't be evaluated its correction stands in, and where
-the text of a coefficient is lost, the exact value from the closed mechanism:
+the text of a coefficient is lost, what follows for it from the rest:
 :attr:`ExplicitModel.substituted` lists both.
 
 The equations are in the TOML files beside this module.
@@ -29,7 +29,7 @@ from pollard_pin.thesis.symbols.bodies import constants_of
 from pollard_pin.thesis.symbols.motion import Drive
 from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.equations.catalogue import Edition
-from thesis_pin.equations.editions import EditionEnvironment
+from thesis_pin.equations.editions import REBUILT, EditionEnvironment
 from thesis_pin.equations.explicit import ExplicitTerms
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.errors import BadInput, UnknownName
@@ -62,8 +62,8 @@ class ExplicitModel(ExplicitTerms[References]):
 
     Attributes:
         substituted: Ids of lines that can't be followed as the edition asks, with the
-            reason: from the start those lost in the scan, and after an evaluation
-            those that it met.
+            reason: from the start the coefficients lost in the scan, and after an
+            evaluation the lines that it met. Empty for the corrected edition.
     """
 
     columns, coordinates, chunk = 6, "pose", 128
@@ -85,7 +85,8 @@ class ExplicitModel(ExplicitTerms[References]):
             )
         self.branch = Branch.parse(branch) if isinstance(branch, str) else branch
         self.constants = constants_of(self.robot.specification, inertia)
-        self.substituted |= lost_coefficients()
+        if edition == "printed":
+            self.substituted |= lost_coefficients()
 
     # -- kinematics --------------------------------------------------------------
 
@@ -244,9 +245,9 @@ def _angle_names() -> list[tuple[str, str]]:
 
 
 def lost_coefficients() -> dict[str, str]:
-    """Coefficients whose text is lost or torn: the exact value stands in for them."""
+    """Coefficients whose text is lost or torn: what is rebuilt stands in for them."""
     return {
-        equation.id: f"{equation.illegible}; the exact value stands in"
+        equation.id: f"{equation.illegible}; {REBUILT}"
         for equation in catalogue().equations
         if equation.illegible and equation.section in "CDE"
     }

@@ -14,6 +14,10 @@ Slot = tuple[str, str, int, str]
 """A symbol's place in a cache: "" or "∂", name, dots, leg."""
 
 
+REBUILT = "what follows from the rest stands in"
+"""Said of a line that is lost and rebuilt."""
+
+
 class UnusablePrint(FormulaError):
     """The one line that is to be followed as printed can't be evaluated."""
 
@@ -30,7 +34,7 @@ class EditionEnvironment:
 
     Attributes:
         substituted: Ids of lines that can't be evaluated, with the reason; their
-            corrected form stood in, or the reference where there is none.
+            corrected or rebuilt form stood in, or the reference where there is none.
     """
 
     def __init__(
@@ -145,7 +149,8 @@ class EditionEnvironment:
             except FormulaError as error:
                 if equation.id in self.printed_only:
                     raise UnusablePrint(error.what) from error
-                self.substituted[equation.id] = error.what
+                rebuilt = f"; {REBUILT}" if equation.rebuilt else ""
+                self.substituted[equation.id] = error.what + rebuilt
         try:
             return self._last(equation, equation.members("corrected"), symbol, indices)
         except FormulaError as error:

@@ -1,33 +1,38 @@
-"""Statements of the thesis that no single identity decides."""
+"""Statements of the thesis that no single identity decides.
+
+Each check evaluates what its equation says, left side and members; what stands in
+their place is held to the same.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from functools import partial
 
-from pollard_pin.thesis.claims import angles, dynamics, path, robot
+from pollard_pin.thesis.claims import angles, dynamics, general, inertia, path, robot
+from pollard_pin.thesis.claims.given import Check
 from pollard_pin.thesis.references import References
 from thesis_pin.audit.verdicts import ClaimResult, Claims
 from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.formula import FormulaError
+
+CHECKS = (angles, robot, inertia, path, dynamics, general)
 
 
 def claims(catalogue: Catalogue, closed: References) -> Claims:
     """All checks by name: the kind of check, ":", and what it is about."""
-    kinds = {**angles.CHECKS, **robot.CHECKS, **path.CHECKS, **dynamics.CHECKS}
-    return {
-        equation.claim: _apart(partial(kinds[equation.claim.split(":")[0]], catalogue), closed)
-        for equation in catalogue.equations
-        if equation.claim
-    }
+    kinds = {kind: check for module in CHECKS for kind, check in module.CHECKS.items()}
+    names = {equation.claim for equation in catalogue.equations if equation.claim}
+    return {name: _with(kinds[name.split(":")[0]], catalogue, closed) for name in names}
 
 
-def _apart(
-    check: Callable[[Equation, References], ClaimResult], closed: References
+def _with(
+    check: Check, catalogue: Catalogue, closed: References
 ) -> Callable[[Equation], ClaimResult]:
-    """A check that reads no more of its equation than it used to."""
-
     def read(equation: Equation) -> ClaimResult:
-        tuple(equation.printed)
-        return check(equation, closed)
+        try:
+            return check(catalogue, closed, equation)
+        except FormulaError as error:
+            return ClaimResult(math.inf, note=error.what)
 
     return read

@@ -12,7 +12,7 @@ import numpy as np
 
 from pollard_pin.kinematics.geometry import USEFUL_BRANCHES
 from pollard_pin.model import Pollard
-from pollard_pin.thesis.claims.robot import Check, Given, thesis_robot, value_of
+from pollard_pin.thesis.claims.given import Check, Given, thesis_robot, value_of
 from pollard_pin.thesis.references import References
 from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
@@ -21,10 +21,12 @@ _DIRECTIONS, _SAMPLES = 150, 961
 
 
 def path_points(catalogue: Catalogue, members: tuple[str, ...]) -> np.ndarray:
-    """The curve at evenly spaced t in (−60π, 60π) [m], shape ``(n, 3)``."""
-    t = np.linspace(-60 * np.pi, 60 * np.pi, _SAMPLES)
-    given = Given(t=t)
-    return np.stack([value_of(catalogue, member, given) for member in members], axis=-1) * 1e-3
+    """The curve at evenly spaced t of its interval, the last member [m], shape ``(n, 3)``."""
+    *curve, interval = members
+    ends = interval.strip().removeprefix("(").removesuffix(")").split(",")
+    first, last = (float(value_of(catalogue, end, Given(pi=np.pi))) for end in ends)
+    given = Given(t=np.linspace(first, last, _SAMPLES))
+    return np.stack([value_of(catalogue, member, given) for member in curve], axis=-1) * 1e-3
 
 
 def best_margins(robot: Pollard, points: np.ndarray) -> np.ndarray:
@@ -43,10 +45,10 @@ def best_margins(robot: Pollard, points: np.ndarray) -> np.ndarray:
     return np.asarray(robot.inverse_kinematics(poses, branches).margin.max(axis=(1, 2)))
 
 
-def _path(catalogue: Catalogue, equation: Equation, closed: References) -> ClaimResult:
+def _path(catalogue: Catalogue, closed: References, equation: Equation) -> ClaimResult:
     """Whether the tip can follow the printed curve with any orientation of the tool."""
     robot = thesis_robot()
-    printed = path_points(catalogue, equation.printed)
+    printed = path_points(catalogue, tuple(equation.printed))
     margins = best_margins(robot, printed)
     moved = path_points(catalogue, equation.members("corrected"))
     upright = robot.inverse_kinematics(np.pad(moved, ((0, 0), (0, 3)))).margin.min()

@@ -108,7 +108,7 @@ def test_the_side_chains_V_57_differentiates_base_frame_differences(i):
 def test_a_plain_arctangent_is_half_a_turn_off_exactly_behind_a_right_angle():
     checked = 0
     for equation in lines("half-circle"):
-        if equation.corrected:  # (2.39), whose tangent has another sign besides
+        if equation.misread:  # (2.39), whose tangent has another sign besides
             continue
         for indices in index_values(catalogue().parse(equation.left)):
             angle = value(equation.left, CLOSED, **indices)
