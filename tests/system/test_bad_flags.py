@@ -293,6 +293,7 @@ CONTRADICTIONS = {
     "pollard-pin info": [["--json", "-", "--html", "-"]],
     "pollard-pin urdf": [],
     "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
+    "thesis-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
     "thesis-pin balance": [
         ["--slope", "95"],
         ["--slope", "5,1,2"],

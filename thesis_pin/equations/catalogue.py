@@ -195,9 +195,7 @@ class Catalogue:
             yield from index_values(*nodes)
             return
         found = {
-            letter
-            for one in nt.symbols(nodes)
-            for letter in set(one.sub + one.sup) - set(one.kept)
+            letter for one in nt.symbols(nodes) for letter in set(one.sub + one.sup) - set(one.kept)
         } - nt.summed(nodes)
         used = [(letter, values) for letter, values in ranges if letter in found]
         for chosen in itertools.product(*(values for _, values in used)):

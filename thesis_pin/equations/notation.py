@@ -355,10 +355,10 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         ):
             waiting.pop(0)
             return Transpose(node)
-        if isinstance(node, Symbol) and isinstance(following, _Group):
-            if node.name in self.notation.functions:
-                waiting.pop(0)
-                return Call(node.name, following.inside, node.dots)
+        called = isinstance(node, Symbol) and node.name in self.notation.functions
+        if isinstance(node, Symbol) and called and isinstance(following, _Group):
+            waiting.pop(0)
+            return Call(node.name, following.inside, node.dots)
         if self._depends(node, following):
             waiting.pop(0)
         return node
@@ -367,10 +367,9 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         """What a function or derivative is of: the factor after it, with a number before it."""
         first = self._next_factor(waiting)
         more = bool(waiting)
-        if mark.kind == "function" and isinstance(first, Number) and more:
-            if isinstance(waiting[0], Symbol | Power):  # cos 2θ
-                second = self._next_factor(waiting)
-                return Product((first, second))
+        multiple = mark.kind == "function" and isinstance(first, Number) and more
+        if multiple and isinstance(waiting[0], Symbol | Power):  # cos 2θ
+            return Product((first, self._next_factor(waiting)))
         loose = isinstance(first, Symbol | Number | Call) and self.notation.factors is not None
         if mark.kind == "derivative" and more and loose:
             raise ValueError("a derivative before several factors: put brackets where they belong")

@@ -13,7 +13,7 @@ from thesis_pin.audit.derivation import coordinates as coordinates_of
 from thesis_pin.audit.derivation import meaning, phrases
 from thesis_pin.audit.derivation.constants import number
 from thesis_pin.audit.derivation.effects import EFFECTS, Effects
-from thesis_pin.audit.derivation.file import DerivationFile, check_formulas, read, two_sided
+from thesis_pin.audit.derivation.file import check_formulas, read, two_sided
 from thesis_pin.audit.derivation.phrases import Phrase
 from thesis_pin.audit.derivation.references import Glossary, Key, References, key
 from thesis_pin.audit.derivation.states import Frames, States
@@ -90,14 +90,41 @@ def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesi
             don't fit the robot.
     """
     robot = model if isinstance(model, ClosedRobot) else load(model)
-    return _Made(file, robot).thesis
+    named = robot.model.name if isinstance(model, ClosedRobot) else str(model)
+    return _Made(file, robot, named).thesis
+
+
+def audit_derivation(
+    file: str | Path,
+    model: str | Path | ClosedRobot,
+    *,
+    only: Iterable[str] | None = None,
+    with_effects: bool = True,
+    progress: Progress | None = None,
+) -> AuditReport:
+    """Hold every equation of a derivation against a robot.
+
+    Args:
+        file: Path of the derivation's TOML file.
+        model: The robot it is about, or the path of its description: a tree of joints of one
+            degree of freedom each.
+        only: Ids to audit; None for all.
+        with_effects: Follow each failing line to see what it does.
+        progress: Wraps the loop over equations.
+
+    Raises:
+        BadInput: A file can't be read, a formula isn't readable, or the words of the header
+            don't fit the robot.
+    """
+    found = thesis(file, model)
+    return found.audit(only=only, with_effects=with_effects, progress=progress)
 
 
 class _Made:
     """What is made of a file and a robot, step by step."""
 
-    def __init__(self, path: str | Path, robot: ClosedRobot) -> None:
-        self.where, self.robot = str(path), robot
+    def __init__(self, path: str | Path, robot: ClosedRobot, model: str) -> None:
+        self.where, self.robot, self.model = str(path), robot, model
         self.file, text = read(path)
         if robot.loops:
             raise BadInput(
@@ -110,13 +137,18 @@ class _Made:
             raise BadInput(f"{robot.model.name} has no joint that moves", where=self.where)
         said = self.file.coordinates
         self.coordinates = coordinates_of.read(said, self.tree.names, self.where)
+        for coupling in robot.couplings:
+            if tied := set(coupling.coefficients) & set(self.coordinates.joints):
+                raise BadInput(
+                    f"{', '.join(sorted(tied))} can't have a coordinate of its own: it follows "
+                    f"another joint ({coupling.name})",
+                    where=f"{self.where}: coordinates",
+                )
         self.notation = self._notation()
         check_formulas(self.file, text, self.notation, self.where)
         self.fixed: set[str] = set()
         self.glossary = self._glossary()
-        for words in (*self.glossary.constants.values(), *self.glossary.symbols.values()):
-            if isinstance(words, Phrase):
-                self._check(words)
+        self._check_words()
 
     # -- the header ------------------------------------------------------------------------
 
@@ -184,18 +216,29 @@ class _Made:
             raise BadInput(f"{words!r} can't be read: {error}", where=where) from None
         return node
 
-    def _check(self, words: Phrase) -> None:
-        meaning.check(words, self.states, self.where)
-        try:
-            value = self.references.meanings.of(words)
-        except FormulaError as error:
-            raise BadInput(f"{words.quantity} {error.what}", where=self.where) from None
-        if words in self.glossary.constants.values() and np.ptp(value.array) > HOLDS:
-            raise BadInput(
-                f"the {words.quantity} isn't constant",
-                where=f"{self.where}: constants",
-                remedy="Say it under [symbols]",
-            )
+    def _check_words(self) -> None:
+        """Refuse what the robot doesn't have, and constants that change."""
+        glossary = self.glossary
+        said = (
+            ("constants", self.file.constants, glossary.constants),
+            ("symbols", self.file.symbols, glossary.symbols),
+        )
+        for table, texts, meant in said:
+            for text, words in zip(texts, meant.values(), strict=True):
+                where = f"{self.where}: {table}.{text}"
+                if not isinstance(words, Phrase):
+                    continue
+                meaning.check(words, self.states, where)
+                try:
+                    value = self.references.meanings.of(words)
+                except FormulaError as error:
+                    raise BadInput(f"{words.quantity} {error.what}", where=where) from None
+                if table == "constants" and np.ptp(value.array) > HOLDS:
+                    raise BadInput(
+                        f"the {words.quantity} isn't constant",
+                        where=where,
+                        remedy="Say it under [symbols]",
+                    )
 
     # -- what judges -------------------------------------------------------------------------
 
@@ -287,6 +330,7 @@ class _Made:
             causes={},
             beyond=lambda equations: (),
             effects=EFFECTS,
+            command=f"thesis-pin audit {self.where} --model {self.model}",
             changes=self.changes,
             second=self.second,
         )

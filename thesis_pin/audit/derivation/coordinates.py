@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thesis_pin.display.counted import counted
 from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.tolerances import TOLERANCES
 
@@ -66,8 +67,8 @@ def read(said: Mapping[str, str], joints: Sequence[str], where: str) -> Coordina
     if few or np.linalg.svd(square, compute_uv=False).min() < TOLERANCES.rank:
         named = ", ".join(joints[k] for k in used)
         raise BadInput(
-            f"{len(rows)} coordinates are made of {len(used)} joints ({named}), which don't follow "
-            "from them",
+            f"{counted(len(rows), 'coordinate')}, made of {counted(len(used), 'joint')} ({named}), "
+            "which don't follow from them",
             where=f"{where}: coordinates",
             allowed="as many coordinates as joints, each independent of the others",
         )
@@ -90,8 +91,11 @@ def _sum(text: str, joints: Sequence[str], where: str) -> tuple[np.ndarray, floa
             continue
         if word[0] in "+-":
             if factor is not None:
-                raise BadInput(f"{text!r}: the number {factor:g} has neither joint nor unit",
-                               where=where, allowed="a joint, deg, rad, m or mm behind it")
+                raise BadInput(
+                    f"{text!r}: the number {factor:g} has neither joint nor unit",
+                    where=where,
+                    allowed="a joint, deg, rad, m or mm behind it",
+                )
             sign, word = (-1.0 if word[0] == "-" else 1.0), word[1:]
         number = re.match(r"(\d+\.?\d*|\.\d+)(.*)", word)
         if number and word not in joints:
@@ -106,8 +110,11 @@ def _sum(text: str, joints: Sequence[str], where: str) -> tuple[np.ndarray, floa
             raise UnknownName("joint", word, list(joints), where=where)
         sign, factor = 1.0, None
     if factor is not None:
-        raise BadInput(f"{text!r}: the number {factor:g} has neither joint nor unit",
-                       where=where, allowed="a joint, deg, rad, m or mm behind it")
+        raise BadInput(
+            f"{text!r}: the number {factor:g} has neither joint nor unit",
+            where=where,
+            allowed="a joint, deg, rad, m or mm behind it",
+        )
     if not row.any():
         raise BadInput(f"{text!r} has no joint in it", where=where, allowed=", ".join(joints))
     return row, constant

@@ -43,9 +43,11 @@ class Effects:
     def of(self, equation: Equation) -> Effect:
         """Changes by quantity, relative; empty where a line gives nothing that a reader uses."""
         left = self.catalogue.parse(equation.left)
-        symbol = next((left.bound(i) for i in self.catalogue.indices(left)), left) if isinstance(
-            left, Symbol
-        ) else None
+        symbol = (
+            next((left.bound(i) for i in self.catalogue.indices(left)), left)
+            if isinstance(left, Symbol)
+            else None
+        )
         if symbol is not None and not self.right.known(symbol):
             return self._through_users(equation)
         phrase = self._phrase(symbol) if symbol is not None else None
@@ -100,9 +102,10 @@ class Effects:
         if rates is None and phrase.quantity not in _FORCES:
             return None
         if phrase.entry:
-            whole = np.zeros((*np.shape(a)[:-1], *(n,) * len(phrase.entry)))
-            whole[(..., *(k - 1 for k in phrase.entry))] = gap
-            gap = whole
+            row = np.eye(n)[phrase.entry[-1] - 1]
+            gap = np.broadcast_to(gap, a.shape[:1])[..., None] * row
+            if len(phrase.entry) > 1:
+                gap = gap[..., None, :] * np.eye(n)[phrase.entry[0] - 1][:, None]
         return gap if rates is None else times(gap, rates)
 
     def _lagrange(self, energy: Node) -> np.ndarray:

@@ -73,12 +73,23 @@ class DerivationFile(EquationFile):
                 yield ("equation", k, "id"), what, one.id
             if one.claim or one.defines or one.closed:
                 yield ("equation", k), "claim, defines and closed belong to the two theses", one.id
-            if not (one.illegible or one.not_checkable) and not one.left and len(one.printed) < 2:
-                yield ("equation", k, "left"), "missing: an equation has two sides", one.id
+            if not (one.illegible or one.not_checkable):
+                yield from _two_sides(("equation", k), one)
         tables = (self.coordinates, self.constants, self.symbols)
         listed = [symbol for table in tables for symbol in table]
         for symbol in sorted({one for one in listed if listed.count(one) > 1}):
             yield ("symbols", symbol), "said twice", symbol
+
+
+def _two_sides(place: Key, one: Equation) -> Iterator[tuple[Key, str, object]]:
+    if not one.left and len(one.printed) < len("ab"):
+        yield (*place, "left"), "missing: an equation has two sides", one.id
+    empty = [n for n, text in enumerate(one.printed, start=1) if not text.strip()]
+    if any(n not in one.mending for n in empty):
+        yield (*place, "printed"), "nothing is printed there", one.id
+    every = "".join((one.left, *one.printed))
+    if every.strip() and not re.search("[a-zA-Z]", every):
+        yield place, "an equation of nothing: there is no symbol in it", every
 
 
 def read(path: str | Path) -> tuple[DerivationFile, str]:
@@ -123,30 +134,32 @@ def _check(
     try:
         sides = notation.parse(formula)
     except Unreadable as error:
-        _refuse(error.what, formula, error.position, text, where, line, identity)
+        what = "the formula can't be read"
+        _refuse(what, formula, error.position, text, where, line, identity)
     except FormulaError as error:
-        _refuse(error.what, formula, 0, text, where, line, identity)
+        _refuse(error.what, formula, None, text, where, line, identity)
     if len(sides) > 1:
         what = "the formula has an = where one side belongs"
         _refuse(what, formula, plain(formula).find("="), text, where, line, identity)
 
 
 def _refuse(
-    what: str, formula: str, at: int, text: str, where: str, line: int, identity: str
+    what: str, formula: str, at: int | None, text: str, where: str, line: int, identity: str
 ) -> NoReturn:
+    """Raise the error on a formula, with a mark below the place if that is known."""
     start = text.find(formula, sum(map(len, text.split("\n")[: line - 1])) + line - 1)
     place = f"{where}:{line}"
     if start >= 0:
-        position = start + at
+        position = start + (at or 0)
         line = text.count("\n", 0, position) + 1
         place = f"{where}:{line}:{position - text.rfind(chr(10), 0, position)}"
-    first = max(0, at - _ROOM)
-    shown = re.sub(r"\s", " ", formula[first : at + _ROOM])
+    first = max(0, (at or 0) - _ROOM)
+    shown = re.sub(r"\s", " ", formula[first : (at or 0) + _ROOM])
     cut = "…" if first else ""
-    mark = " " * (len(cut) + at - first) + "^"
+    mark = "" if at is None else "\n  " + " " * (len(cut) + at - first) + "^"
     raise BadInput(
-        f"{re.sub(' near .*', '', what, flags=re.DOTALL)} ({identity})\n  {cut}{shown}\n  {mark}\n",
+        f"{what} ({identity})\n  {cut}{shown}{mark}\n"
+        "docs/your_derivation.md lists what can be read. If it is printed like that, say in "
+        "`corrected` what should stand there",
         where=place,
-        allowed="what docs/your_derivation.md lists",
-        remedy="If it is printed like that, say in `corrected` what should stand there",
     )

@@ -60,7 +60,7 @@ class Meanings:
 
     def _whole(self, phrase: Phrase) -> Value:
         quantity = phrase.quantity
-        if quantity in POINTS or quantity.startswith("angular ") and "jacobian" not in quantity:
+        if quantity in POINTS or (quantity.startswith("angular ") and "jacobian" not in quantity):
             return self._vector(phrase)
         if quantity in JACOBIANS:
             return matrix(self._jacobian(phrase))
@@ -88,17 +88,20 @@ class Meanings:
             return matrix(self.mass_matrix())
         if quantity == "coriolis matrix":
             return matrix(self.christoffel())
+        return vector(self._force(quantity))
+
+    def _force(self, quantity: str) -> np.ndarray:
+        """A term of the equations of motion, shape ``(N, n)``."""
+        s = self.states
+        if quantity in ("inertial force", "momentum"):
+            return times(self.mass_matrix(), s.a if quantity == "inertial force" else s.v)
+        if quantity == "torque":
+            return self._forces(s.motion.force())
         weight = self._forces(s.resting.force())
-        return vector(
-            {
-                "gravity vector": lambda: weight,
-                "bias vector": lambda: self._forces(s.coasting.force()),
-                "coriolis vector": lambda: self._forces(s.coasting.force()) - weight,
-                "inertial force": lambda: times(self.mass_matrix(), s.a),
-                "torque": lambda: self._forces(s.motion.force()),
-                "momentum": lambda: times(self.mass_matrix(), s.v),
-            }[quantity]()
-        )
+        if quantity == "gravity vector":
+            return weight
+        bias = self._forces(s.coasting.force())
+        return bias if quantity == "bias vector" else bias - weight
 
     def mass_matrix(self) -> np.ndarray:
         """By the coordinates, shape ``(N, n, n)``."""
@@ -237,4 +240,7 @@ def entry(value: Value, numbers: tuple[int, ...]) -> Value:
     if len(numbers) != len(tail) or any(n > size for n, size in zip(numbers, tail, strict=True)):
         listed = ", ".join(map(str, numbers))
         raise FormulaError(f"has no entry {listed}: it is {value.describe()}")
-    return scalar(value.array[(..., *(n - 1 for n in numbers))])
+    found = value.array
+    for number in reversed(numbers):
+        found = np.take(found, number - 1, axis=-1)
+    return scalar(found)

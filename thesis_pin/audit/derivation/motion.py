@@ -51,7 +51,11 @@ class Motion:
         zero = np.zeros((len(q), 3), dtype=np.result_type(q, v, a))
         self.rotation = {WORLD: np.broadcast_to(np.eye(3), (len(q), 3, 3))}
         self.omega, self.alpha = {WORLD: zero}, {WORLD: zero}
-        self._origin, self._velocity, self._acceleration = {WORLD: zero}, {WORLD: zero}, {WORLD: zero}
+        self._origin, self._velocity, self._acceleration = (
+            {WORLD: zero},
+            {WORLD: zero},
+            {WORLD: zero},
+        )
         self._turn: list[np.ndarray] = []
         self._slide: list[np.ndarray] = []
         for k in range(len(tree.names)):
@@ -99,7 +103,9 @@ class Motion:
 
     def angular(self, joint: int) -> np.ndarray:
         """Jacobian of a body's angular velocity, shape ``(N, 3, joints)``."""
-        jacobian = np.zeros((*self.omega[joint].shape, len(self.tree.names)), self.omega[joint].dtype)
+        jacobian = np.zeros(
+            (*self.omega[joint].shape, len(self.tree.names)), self.omega[joint].dtype
+        )
         for k in self.carriers(joint):
             jacobian[..., k] = self._turn[k]
         return jacobian

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from dataclasses import dataclass
 
@@ -98,6 +99,8 @@ def parse(text: str, where: str) -> Phrase:
         if word == "entry" and rest and all(one.isdigit() for one in rest):
             found["entry"] = tuple(map(int, rest))
             rest = []
+        elif not found and key is None and _near(joined):
+            raise UnknownName("quantity", text, QUANTITIES, where=where)
         elif key is None or not rest or (key in found and key != "of"):
             raise BadInput(
                 f"{text!r} can't be understood at {word!r}",
@@ -109,6 +112,12 @@ def parse(text: str, where: str) -> Phrase:
     phrase = Phrase(quantity, **found)  # type: ignore[arg-type]
     _check(phrase, text, where)
     return phrase
+
+
+def _near(text: str) -> bool:
+    """Whether another quantity resembles the first words."""
+    words = " ".join(text.lower().split()[:2])
+    return bool(difflib.get_close_matches(words, QUANTITIES, n=1, cutoff=0.8))
 
 
 def _check(phrase: Phrase, text: str, where: str) -> None:

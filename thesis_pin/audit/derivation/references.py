@@ -123,27 +123,23 @@ class References:
         glossary = self._shared.glossary
         name = glossary.find(symbol)
         s = self.states
-        if name in glossary.coordinates:
-            if symbol.dots > len("xva") - 1:
-                return None
-            return scalar((s.x, s.v, s.a)[symbol.dots][..., glossary.coordinates[name]])
+        if name is None:
+            return self._otherwise(symbol, indices)
         if name in glossary.constants:
             given = glossary.constants[name]
             if symbol.dots:
                 return ZERO
             return self.meanings.of(given) if isinstance(given, Phrase) else scalar(given)
-        if name is not None:
-            given_by = glossary.symbols[name]
-            if isinstance(given_by, Phrase) and given_by.quantity == "coordinates":
-                if symbol.dots > len("xva") - 1:
-                    return None
-                return entry(vector((s.x, s.v, s.a)[symbol.dots]), given_by.entry)
-            if symbol.dots:
-                return self._dotted(symbol, indices)
-            if isinstance(given_by, Phrase):
-                return self.meanings.of(given_by)
-            return evaluate(given_by, self, {})
-        return self._otherwise(symbol, indices)
+        series = (s.x, s.v, s.a)[symbol.dots] if symbol.dots < len("xva") else None
+        if name in glossary.coordinates:
+            number = glossary.coordinates[name]
+            return None if series is None else scalar(np.take(series, number, axis=-1))
+        meant = glossary.symbols[name]
+        if isinstance(meant, Phrase) and meant.quantity == "coordinates":
+            return None if series is None else entry(vector(series), meant.entry)
+        if symbol.dots:
+            return self._dotted(symbol, indices)
+        return self.meanings.of(meant) if isinstance(meant, Phrase) else evaluate(meant, self, {})
 
     def _otherwise(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
         """A symbol that the file's header names in part, or not at all."""
@@ -159,8 +155,15 @@ class References:
         return scalar(np.pi) if symbol.name == "pi" else None
 
     def _dotted(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
-        plain = Symbol(symbol.base, symbol.sub, symbol.sup, symbol.dots - 1, symbol.primes,
-                       symbol.bold, symbol.kept)
+        plain = Symbol(
+            symbol.base,
+            symbol.sub,
+            symbol.sup,
+            symbol.dots - 1,
+            symbol.primes,
+            symbol.bold,
+            symbol.kept,
+        )
         return self.partial(plain, None, indices)
 
     def _entry(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
@@ -228,6 +231,7 @@ class References:
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """Derivative by time, a coordinate, its rate or acceleration, or by all of them."""
+
         def value(here: References) -> Value:
             return evaluate(of, here, indices)
 
@@ -235,7 +239,7 @@ class References:
             return self._derivative(value, None, 0)
         glossary = self._shared.glossary
         name = glossary.find(by)
-        if name in glossary.coordinates:
+        if name is not None and name in glossary.coordinates:
             return self._derivative(value, glossary.coordinates[name], by.dots)
         given = glossary.symbols.get(name) if name else None
         if isinstance(given, Phrase) and given.quantity == "coordinates" and not given.entry:
@@ -257,10 +261,7 @@ class References:
         total: np.ndarray | float = 0.0
         rank = -1
         for step, weight in _STENCIL.items():
-            ends = [
-                of(self._at(along, order, complex(sign * step * _REACH)))
-                for sign in (1, -1)
-            ]
+            ends = [of(self._at(along, order, complex(sign * step * _REACH))) for sign in (1, -1)]
             rank = max(rank, *(one.rank for one in ends))
             total = total + weight * (ends[0].array - ends[1].array) / _REACH
         return ZERO if rank < 0 else Value(np.asarray(total), rank)

@@ -90,11 +90,11 @@ class States:
         n = coordinates.count
         generator = np.random.default_rng(_SEED)
         sizes = (_REACH, _RATE, _FORCE, _JERK)
-        moved = [generator.uniform(-size, size, (_GENERAL + n, n)) for size in sizes]
+        x, v, a, jerk = (generator.uniform(-size, size, (_GENERAL + n, n)) for size in sizes)
         for k in range(n):
-            for one in moved:
+            for one in (x, v, a, jerk):
                 one[_GENERAL + k, np.arange(n) != k] = 0.0
-        return cls(tree, frames, coordinates, gravity, *moved)
+        return cls(tree, frames, coordinates, gravity, x, v, a, jerk)
 
     def stepped(self, along: int | None, order: int, size: complex) -> States:
         """The states a step on.

@@ -1,5 +1,4 @@
-"""Pinocchio's tree of joints as arrays: placements, axes, masses.
-"""
+"""Pinocchio's tree of joints as arrays: placements, axes, masses."""
 
 from __future__ import annotations
 

@@ -15,13 +15,12 @@ KINDS = ("masses", "inertias", "lengths")
 """What can be varied."""
 
 
-def varied(
-    tree: Tree, frames: Frames, kinds: Iterable[str], count: int
-) -> tuple[Tree, Frames]:
+def varied(tree: Tree, frames: Frames, kinds: Iterable[str], count: int) -> tuple[Tree, Frames]:
     """So many robots with the directions of one, and other sizes.
 
     Args:
-        tree, frames: The robot.
+        tree: The robot.
+        frames: Its frames.
         kinds: What changes, of :data:`KINDS`.
         count: How many there are to be.
     """

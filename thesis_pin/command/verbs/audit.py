@@ -26,6 +26,18 @@ _TITLE = 31
 """Characters of a failure's title, so that its row fits 80 columns."""
 
 
+def derivation(arguments: argparse.Namespace) -> ExitCode:
+    """A verdict on each printed equation of anyone's derivation."""
+    from thesis_pin.audit.derivation.auditing import thesis
+    from thesis_pin.command.flags.options import refuse_beside
+    from thesis_pin.command.warned import warned
+
+    refuse_beside(arguments, "equation", ("every",))
+    with warned():
+        found = thesis(arguments.file, arguments.model)
+    return run_verb(arguments, found)
+
+
 def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     """Run the verb; returns the exit code."""
     from thesis_pin.audit import text as faces
@@ -38,7 +50,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     from thesis_pin.report.writers import json_bytes
 
     only = (
-        known(arguments.equation, thesis.catalogue(), thesis.robot)
+        known(arguments.equation, thesis.catalogue(), thesis)
         if arguments.equation is not None
         else None
     )
@@ -90,7 +102,7 @@ def _without_verdict(report: AuditReport) -> Iterator[tuple[str, str]]:
             yield f"  {section.name}: {next(way for way in ways if len(way) < 20)}", reason
 
 
-def known(identity: str, catalogue: Catalogue, robot: str) -> list[str]:
+def known(identity: str, catalogue: Catalogue, thesis: Thesis) -> list[str]:
     """The full ids of what is asked for: an id, a printed number or a symbol.
 
     A number can stand beside several lines, and a symbol can be defined in several places.
@@ -98,7 +110,7 @@ def known(identity: str, catalogue: Catalogue, robot: str) -> list[str]:
     Raises:
         BadInput: There is none; names the nearest.
     """
-    listed = list(catalogue.by_id)
+    listed, robot = list(catalogue.by_id), thesis.robot
     full = identity if identity.startswith(f"{robot}:") else f"{robot}:{identity}"
     if full in listed:
         return [full]
@@ -112,5 +124,5 @@ def known(identity: str, catalogue: Catalogue, robot: str) -> list[str]:
         f"no equation is called {identity!r}",
         where="--equation",
         allowed=f"an id such as {', '.join(near) or listed[0]}",
-        remedy=f"{robot}-pin audit --json - lists all ids",
+        remedy=f"{thesis.audit_command} --json - lists all ids",
     )
