@@ -16,6 +16,7 @@ from pollard_pin.thesis.effects import Effects
 from pollard_pin.thesis.references import LoopReferences, OpenReferences, References
 from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
+from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.audit.text import ranges
 from thesis_pin.audit.thesis import Ground, Thesis
@@ -62,6 +63,11 @@ class Environments:
         """For appendix A, which names the loops' Jacobians."""
         return LoopReferences.at(states(closed=True))
 
+    @functools.cached_property
+    def coefficients(self) -> Coefficients:
+        """With free V and G, where nothing vanishes."""
+        return Coefficients(states(closed=False))
+
     def of(self, equation: Equation) -> Environment:
         """Where an equation has to hold.
 
@@ -98,11 +104,20 @@ def ground(equations: Catalogue) -> Ground:
     described = (
         f"States: {_STATES} open ones, where nothing of the loops is assumed, and {_STATES} closed "
         "ones for equations that need the loops; each on a random robot with unequal side chains "
-        "and β54 ≠ 0, angles on the whole circle, both side chains."
+        "and β54 ≠ 0, angles on the whole circle, both side chains. Lines that name coefficients "
+        "or make some of others also hold where all of them are free and none vanishes."
     )
     closed = environments.closed
+
+    def substituted(equation: Equation) -> Environment | None:
+        return environments.coefficients if substitutes(equations, equation) else None
+
     return Ground(
-        described, environments.of, claims(equations, closed), Effects(equations, closed).of
+        described,
+        environments.of,
+        claims(equations, closed),
+        Effects(equations, closed).of,
+        substituted,
     )
 
 

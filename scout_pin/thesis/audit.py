@@ -25,11 +25,19 @@ NUMBERS = (
     *(f"C.{k}" for k in range(1, 6)),
 )
 BEYOND = (
-    ("chapters 1 and 2, appendix A", "no equations of the robot: its field, its making, a census"),
+    ("chapter 1, appendix A", "no equations of the robot: its field, a census"),
+    ("chapter 2 but for its equal lengths, B.1", "how the robot is built, and of what parts"),
     ("figures 3.1 to 5.3", "drawings; figure 5.2 and C.1 are checked through their numbers"),
-    ("B.1, B.2", "a parts list and lengths: data, checked where they are used"),
-    ("formulas inside sentences", "they repeat displayed ones"),
-    ("appendix D's drawing commands", "they show the robot and compute nothing about it"),
+    (
+        "formulas inside sentences",
+        "those that say something of their own have rows; the others repeat displayed ones, name "
+        "a symbol, or are rules of algebra",
+    ),
+    (
+        "the commands of the programs",
+        "appendix D's show the robot, figure C.1's solve (C.3) to (C.5); their numbers, functions "
+        "and results have rows",
+    ),
 )
 EFFECTS = (
     "Effects say what a reader meets who follows that one line and is right elsewhere:",

@@ -40,11 +40,11 @@ def kinds(before: str, after: str) -> tuple[str, ...]:
 def of_equation(equation: Equation) -> tuple[str, ...]:
     """Kinds of all differences between an equation's print and its correction.
 
-    A claim's correction is another statement, whatever else is mended in its formula.
+    What is given as right is another statement, whatever else is mended in its formula.
     """
     if equation.right or equation.kind:
         return (equation.kind or "statement",)
-    found = ["statement"] if equation.claim else []
+    found: list[str] = []
     if equation.left_printed:
         found += kinds(equation.left_printed, equation.left)
     for number, text in equation.corrected.items():

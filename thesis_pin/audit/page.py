@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import html
-import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from thesis_pin.audit.formulas import mathml
+from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.text import (
     VERDICT_NOTE,
@@ -16,24 +17,39 @@ from thesis_pin.audit.text import (
     place_text,
     residual_text,
     summary_lines,
+    surviving_text,
     used_causes,
 )
+from thesis_pin.equations.uses import Uses
 from thesis_pin.pages.player import render, web_file
 from thesis_pin.report.tables import Table
 
+_PAGES = 2000
+"""Characters of LaTeX from which a correction stands as source: it repeats pages of print."""
 
-def page(report: AuditReport) -> str:
-    """A self-contained page: formulas as MathML, filters, no network."""
+
+def page(report: AuditReport, uses: Uses | None = None) -> str:
+    """A self-contained page: formulas as MathML, filters, no network.
+
+    Args:
+        report: The audit.
+        uses: What each line uses, for links; see :mod:`thesis_pin.equations.uses`.
+    """
     from markupsafe import Markup
 
-    order = {row.id: k for k, row in enumerate(report.failures)}
     titles = {name: cause.title for name, cause in report.causes.items()}
-    articles = [
-        _Article.of(row, titles.get(row.cause, ""), Markup)
-        for row in sorted(report.rows, key=lambda row: order.get(row.id, len(order)))
-    ]
+    known = {row.id for row in report.rows}
+    links = {} if uses is None else uses
+
+    def articles(rows: Sequence[Row]) -> list[_Article]:
+        return [
+            _Article.of(row, titles.get(row.cause, ""), _links(row, links, known), Markup)
+            for row in rows
+        ]
+
     sections = [(s.name, str(s.rows), str(s.checked)) for s in report.sections]
     shown = [chapter_table(report), kind_table(report)]
+    failures = report.failures
     return render(
         "audit.html",
         report=report,
@@ -41,7 +57,14 @@ def page(report: AuditReport) -> str:
         reading=" ".join((*VERDICT_NOTE, *report.effects)).replace("*", ""),
         tables=[replace(one, title=one.title.capitalize()) for one in shown if one.rows],
         causes=[(cause, len(rows)) for cause, rows in used_causes(report)],
-        rows=articles,
+        index=list(_index(failures)),
+        groups=[
+            ("Lines that fail, the worst effect first", articles(failures)),
+            (
+                "All other lines, as in the thesis",
+                articles([r for r in report.rows if not r.failed]),
+            ),
+        ],
         coverage=Table("Section by section", ("section", "lines", "computed"), sections),
         report_style=web_file("report.css"),
         audit_style=web_file("audit.css"),
@@ -51,40 +74,86 @@ def page(report: AuditReport) -> str:
 
 @dataclass(frozen=True)
 class _Article:
-    """One equation as the template shows it."""
+    """One equation as the template shows it.
+
+    Attributes:
+        id: Its id, which is also its anchor.
+        name: The id without the robot.
+        number: Numbers printed beside it.
+        verdict, style: Its verdict, and the same as a class.
+        formula: What is printed.
+        entries: Label and content of what is said of it.
+        uses: Names of the lines it uses.
+    """
 
     id: str
-    source: str
+    name: str
+    number: str
     verdict: str
     style: str
-    search: str
+    formula: str
     entries: list[tuple[str, object]]
+    uses: list[str]
 
     @classmethod
-    def of(cls, row: Row, cause: str, markup: type[str]) -> _Article:
-        searched = (row.id, row.note, row.reason, row.why, cause, *row.places, *row.kinds)
+    def of(cls, row: Row, cause: str, uses: list[str], markup: type[str]) -> _Article:
         return cls(
             row.id,
-            row.source,
+            _name(row.id),
+            ", ".join(f"({number})" for number in row.number),
             row.verdict,
             row.verdict.replace(" ", "-"),
-            " ".join(searched).lower(),
+            markup(" ".join(_printed(row))),
             list(_entries(row, cause, markup)),
+            uses,
         )
+
+
+def _name(identity: str) -> str:
+    return identity.split(":", 1)[1]
+
+
+def _links(row: Row, uses: Uses, known: set[str]) -> list[str]:
+    return [_name(name) for name in uses.get(row.id, ()) if name in known]
+
+
+def _index(failures: Sequence[Row]) -> Iterator[tuple[str, list[tuple[str, str]]]]:
+    """Failing lines by kind of slip: what the kind is, and ids and names of its lines."""
+    for kind, what in KINDS.items():
+        found = [(row.id, _name(row.id)) for row in failures if kind in row.kinds]
+        if found:
+            yield f"{kind}: {what}", found
+
+
+def _printed(row: Row) -> Iterator[str]:
+    """The printed equation, member by member."""
+    for k, text in enumerate(text for text in (row.left, *row.printed) if text):
+        yield ("<math><mo>=</mo></math> " if k else "") + mathml(text)
+
+
+def _correction(text: str) -> str:
+    """A correction as a formula, or as its source where that takes pages."""
+    if len(text) < _PAGES:
+        return mathml(text)
+    said = f"its source, {len(text)} characters"
+    return f"<details><summary>{said}</summary><code>{html.escape(text)}</code></details>"
 
 
 def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, object]]:
     """Labels and contents; what comes as markup isn't escaped again."""
-    yield "printed", markup(" = ".join(mathml(text) for text in (row.left, *row.printed) if text))
+    for k, text in enumerate(row.rebuilt, start=1):
+        label = f"rebuilt, member {k}" if len(row.rebuilt) > 1 else "rebuilt"
+        yield label, markup(_correction(text))
+    for text in row.surviving:
+        yield "survives", markup(f"<code>{html.escape(surviving_text(text))}</code>")
     for number, text in sorted(row.corrected.items()):
         label = "left side" if number == 0 else f"member {number}"
-        yield f"corrected, {label}", markup(mathml(text)) if text else "(nothing)"
-    for label, value in (
-        ("residual printed", row.residual_printed),
-        ("residual corrected", row.residual_corrected),
-    ):
-        if value is not None:
-            yield label, residual_text(value)
+        yield f"corrected, {label}", markup(_correction(text)) if text else "(nothing)"
+    if row.failed or row.residual_corrected is not None:
+        mended = "rebuilt" if row.rebuilt else "corrected"
+        residuals = {"as printed": row.residual_printed, mended: row.residual_corrected}
+        said = [f"{k} {residual_text(v)}" for k, v in residuals.items() if v is not None]
+        yield "residual", ", ".join(said)
     for place in row.places:
         yield "where", markup(f"<code>{html.escape(place_text(place))}</code>")
     texts = (
@@ -93,30 +162,5 @@ def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, obj
         ("guess", f"{row.attribution}: {row.why}" if row.attribution else ""),
     )
     yield from ((label, text) for label, text in texts if text)
-
-
-_ROW = re.compile(r"<mrow>(<(m[ions])(?: [^>]*)?>[^<]*</\2>)</mrow>")
-
-
-def _shortened(markup: str) -> str:
-    """The same formula in three quarters of the bytes: a page has thousands of them."""
-    markup = markup.replace(' xmlns="http://www.w3.org/1998/Math/MathML" display="inline"', "")
-
-    def character(match: re.Match[str]) -> str:
-        found = chr(int(match[1], 16))
-        return match[0] if found in "<>&" else found
-
-    return _ROW.sub(r"\1", re.sub(r"&#x([0-9A-Fa-f]+);", character, markup))
-
-
-def mathml(formula: str) -> str:
-    """A formula as MathML; one that is broken in print is shown as its source."""
-    from latex2mathml.converter import convert
-
-    loose = re.sub(r"\\(left|right)\s*\.|\\[bB]igg?[lr]?|\\(left|right)(?![a-z])", "", formula)
-    for text in (formula, loose):
-        try:
-            return _shortened(convert(text))
-        except Exception:  # the converter has no common base class of its errors
-            continue
-    return f"<code>{html.escape(formula)}</code>"
+    if row.line:
+        yield "line", f"{row.line} of the source text"

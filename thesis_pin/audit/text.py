@@ -39,6 +39,19 @@ def effect_text(row: Row) -> str:
     return "; ".join(parts)
 
 
+SURVIVES = 600
+"""Characters of a torn line that are shown at once; Pollard's G_92 has 87 000."""
+
+
+def surviving_text(text: str) -> str:
+    """What survives of a torn line; only its ends where it is long."""
+    if len(text) > SURVIVES:
+        head, _, _ = text[: SURVIVES // 3].rpartition(" ")
+        _, _, tail = text[-SURVIVES // 3 :].partition(" ")
+        text = f"{head} [of {len(text)} characters] {tail}"
+    return f"… {text} …"
+
+
 def grouped(rows: Iterable[Row]) -> list[tuple[str, list[Row]]]:
     """Rows that share a cause together, in the order of each group's first row."""
     groups: dict[str, list[Row]] = {}
@@ -148,17 +161,25 @@ def explain(row: Row, cause: Cause | None = None) -> Iterator[tuple[str, str]]:
         cause: The slip it shares with other equations.
     """
     yield "equation", f"{row.id} ({row.source})"
+    if row.line:
+        yield "line", f"{row.line} of the source text"
     yield "verdict", row.verdict + (f", by the {row.attribution}" if row.attribution else "")
     yield "printed", row.left
     for member in row.printed:
         yield "", f"= {member}"
+    for text in row.surviving:
+        yield "survives", surviving_text(text)
+    for text in row.rebuilt:
+        yield "rebuilt", f"= {text}"
     for number, text in sorted(row.corrected.items()):
         label = "left side" if number == 0 else f"member {number}"
         yield "corrected", f"{label}: {text or '(nothing)'}"
     if row.residual_printed is not None:
         yield "residual", f"as printed {residual_text(row.residual_printed)}"
     if row.residual_corrected is not None:
-        yield "", f"corrected {residual_text(row.residual_corrected)}"
+        way = "rebuilt" if row.rebuilt else "corrected"
+        label = "residual" if row.residual_printed is None else ""
+        yield label, f"{way} {residual_text(row.residual_corrected)}"
     for place in row.places:
         yield "where", place_text(place)
     if row.kinds:

@@ -30,12 +30,15 @@ class Ground:
         references: Equation → what its symbols must equal, where it has to hold.
         claims: The checks in code, by name.
         effect: Failing equation → what following its print does, by quantity.
+        substituted: Equation → what its symbols are where those that it takes as given are
+            free, so that nothing vanishes; None for a line that is no substitution.
     """
 
     states: str
     references: Callable[[Equation], Environment]
     claims: Claims
     effect: Callable[[Equation], Effect]
+    substituted: Callable[[Equation], Environment | None] = lambda equation: None
 
 
 @dataclass(frozen=True)
@@ -138,7 +141,8 @@ class _Judge:
     def row(self, equation: Equation) -> Row:
         """The audit's answer on one equation."""
         environment = self.ground.references(equation)
-        row = judge(self.equations, equation, environment, self.ground.claims, self.name)
+        ground, free = self.ground, self.ground.substituted(equation)
+        row = judge(self.equations, equation, environment, ground.claims, self.name, free)
         if not row.failed or row.effect:
             return row
         effect = self._effect(equation) if self.with_effects else {}

@@ -18,13 +18,16 @@ import numpy as np
 from thesis_pin.audit import kinds, places
 from thesis_pin.audit.reading import Reading
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Verdict
+from thesis_pin.equations import frames
 from thesis_pin.equations.catalogue import Catalogue, Equation
-from thesis_pin.equations.evaluation import Environment, evaluate
-from thesis_pin.equations.formula import FormulaError
+from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
+from thesis_pin.equations.formula import FormulaError, FrameError
 from thesis_pin.equations.values import Value
 from thesis_pin.errors import BadInput
 
 _FLOOR = 1e-3  # what counts as zero is zero against this
+_OTHER_FRAME = 1.0
+"""Residual of a member seen from another frame whose numbers happen to agree."""
 
 TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
 """What a line that can't be read or evaluated raises: it is that line's error alone."""
@@ -41,7 +44,7 @@ class Residual:
 
     Attributes:
         value: Largest difference over all states, relative to the larger side;
-            infinity if the formula can't be evaluated.
+            infinity if the formula can't be evaluated, 1 if nothing but its frames differ.
         members: The same for each member.
         reason: Why it can't be evaluated.
     """
@@ -91,10 +94,12 @@ def difference(left: Value, right: Value) -> float:
     """Largest difference of two values, relative to the larger of them.
 
     Raises:
-        FormulaError: They have different shapes.
+        FormulaError: They have different shapes, or are seen from different frames.
     """
     if min(left.rank, right.rank) >= 0 and (left.rank != right.rank or left.tail != right.tail):
         raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
+    if not frames.same(left.frames, right.frames):
+        raise FrameError(f"is {right.seen()} where {left.seen()} belongs")
     gap = float(np.abs(left.array - right.array).max())
     if not math.isfinite(gap):
         raise FormulaError("isn't finite")
@@ -122,9 +127,22 @@ def residual(
         try:
             values.append(max(_member(catalogue, left, member, environment)))
         except TROUBLES as error:
-            values.append(math.inf)
+            values.append(_without_frames(catalogue, left, member, environment, error))
             reasons.append(f"member {number} {what(error)}" if len(members) > 1 else what(error))
     return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
+
+
+def _without_frames(
+    catalogue: Catalogue, left: str, member: str, environment: Environment, error: Exception
+) -> float:
+    """Residual of a member that raised: of its numbers, if only its frames don't fit."""
+    if not isinstance(error, FrameError):
+        return math.inf
+    try:
+        found = max(_member(catalogue, left, member, Unframed(environment)))
+    except TROUBLES:
+        return math.inf
+    return found if found > HOLDS else _OTHER_FRAME
 
 
 def _member(
@@ -138,10 +156,41 @@ def _member(
         yield difference(first, second)
 
 
+def residual_as_said(
+    catalogue: Catalogue,
+    equation: Equation,
+    members: Sequence[str],
+    environments: Sequence[Environment],
+    left: str,
+) -> Residual:
+    """How far members are from the left side in the first environment where they don't hold."""
+    found = Residual(math.inf)
+    for environment in environments:
+        found = residual(catalogue, equation, members, environment, left)
+        if found.value >= HOLDS:
+            break
+    return found
+
+
 def judge(
-    catalogue: Catalogue, equation: Equation, environment: Environment, claims: Claims, thesis: str
+    catalogue: Catalogue,
+    equation: Equation,
+    environment: Environment,
+    claims: Claims,
+    thesis: str,
+    substituted: Environment | None = None,
 ) -> Row:
-    """The audit's answer on one equation."""
+    """The audit's answer on one equation.
+
+    Args:
+        catalogue: The equations.
+        equation: The one to judge.
+        environment: What its symbols must equal.
+        claims: Checks in code.
+        thesis: What it is called.
+        substituted: What its symbols are where what it takes as given is free, if the line
+            is a substitution: it then has to hold there too.
+    """
     number = f" ({', '.join(equation.number)})" if equation.number else ""
     row = Row(
         id=equation.id,
@@ -169,7 +218,7 @@ def judge(
             result = _claim(claims, equation)(reading)
         except TROUBLES as error:
             return _with(row, check=equation.claim, verdict="unexplained", reason=what(error))
-        answer = verdict(result.printed, result.corrected, physical=True)
+        answer = verdict(result.printed, result.corrected, physical=bool(equation.right))
         if reading.unread and answer == "holds":
             unread = ", ".join(map(str, reading.unread))
             reason = f"the check doesn't read member {unread}, and what isn't read can't hold"
@@ -185,11 +234,12 @@ def judge(
             effect=result.effect,
             places=tuple(_places(equation)),
         )
-    printed = residual(catalogue, equation, equation.printed, environment, row.left)
+    grounds = (environment, substituted) if substituted else (environment,)
+    printed = residual_as_said(catalogue, equation, equation.printed, grounds, row.left)
     mended = None
     if equation.mending or equation.left_printed:
         members = equation.members("corrected")
-        mended = residual(catalogue, equation, members, environment, equation.left)
+        mended = residual_as_said(catalogue, equation, members, grounds, equation.left)
     answer = verdict(printed.value, mended.value if mended else None, physical=bool(equation.right))
     return _with(
         row,

@@ -222,7 +222,9 @@ class Catalogue:
         """First definition of each symbol: ("" or "∂", name, dots) → equation and indices."""
         found: dict[tuple[str, str, int], Definition] = {}
         for equation in self.equations:
-            if equation.claim or not (equation.printed or equation.mending or equation.rebuilt):
+            if equation.claim or equation.not_checkable:
+                continue
+            if not (equation.printed or equation.mending or equation.rebuilt):
                 continue
             for text in filter(None, (equation.left, equation.defines)):
                 try:

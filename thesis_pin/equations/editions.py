@@ -8,6 +8,7 @@ from thesis_pin.equations import formula as nt
 from thesis_pin.equations.catalogue import Catalogue, Edition, Equation
 from thesis_pin.equations.evaluation import Movable, evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.frames import ANY
 from thesis_pin.equations.values import Value, imaginary, transpose
 
 Slot = tuple[str, str, int, str]
@@ -78,13 +79,16 @@ class EditionEnvironment:
         return other
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
-        """Value of a symbol from its definition, or the reference if it has none."""
+        """Value of a symbol from its definition, or the reference if it has none.
+
+        A follower of the print computes numbers and keeps no account of frames.
+        """
         found = self._defined("", symbol, indices)
         if found is not None:
             return found
         if symbol.dots and ("", symbol.name, symbol.dots - 1) in self.catalogue.definitions:
             return self.partial(replace(symbol, dots=symbol.dots - 1), None, indices)
-        return self.references.lookup(symbol, indices)
+        return self.references.lookup(symbol, indices).within(ANY)
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """Derivative from its definition, else by a complex step through all definitions."""

@@ -9,12 +9,14 @@ exact to rounding and cost no subtraction.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from dataclasses import replace
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.frames import ANY, Frames
 from thesis_pin.equations.values import (
     ZERO,
     Value,
@@ -51,11 +53,34 @@ class Environment(Protocol):
         """Derivative by a coordinate, or by time if ``by`` is None."""
 
 
+@runtime_checkable
+class Framed(Protocol):
+    """An environment that knows which frames an elementary rotation turns between."""
+
+    def turning(self, axis: str, argument: Node, indices: dict[str, str]) -> Frames:
+        """Frames of a rotation by a formula about "x", "y" or "z": ANY if no joint turns so."""
+
+
 class Movable(Environment, Protocol):
     """An environment whose states can take a complex step."""
 
     def moved(self, along: str | None, rates: bool) -> Movable:
         """The same environment one imaginary step along a coordinate, its rate, or time."""
+
+
+class Unframed:
+    """An environment without its frames: what numbers a formula that mixes them gives."""
+
+    def __init__(self, environment: Environment) -> None:
+        self.environment, self.columns = environment, environment.columns
+
+    def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
+        """Numbers of a symbol."""
+        return self.environment.lookup(symbol, indices).within(ANY)
+
+    def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
+        """Numbers of a derivative."""
+        return self.environment.partial(of, by, indices).within(ANY)
 
 
 def evaluate(node: Node, environment: Environment, indices: dict[str, str]) -> Value:
@@ -120,7 +145,7 @@ def _signed(sign: str, value: Value, indices: dict[str, str]) -> Value:
     if sign in ("\\pm", "\\mp"):
         upper = indices.get("±", "+") == "+"
         sign = "+" if upper == (sign == "\\pm") else "-"
-    return value if sign == "+" else Value(-value.array, value.rank)
+    return value if sign == "+" else replace(value, array=-value.array)
 
 
 _ROTATIONS = {"R_x": "x", "R_y": "y", "R_z": "z", "T_z4": "x", "T_z5": "y", "T_z6": "z"}
@@ -154,9 +179,12 @@ def _call(node: nt.Call, environment: Environment, indices: dict[str, str]) -> V
         return scalar(_ELEMENTARY[name](x))
     if name in _ROTATIONS:
         turned = rotation(_ROTATIONS[name], x)
-        return matrix(turned if name[0] == "R" else transform(turned, np.zeros(3)))
+        if name[0] == "T":
+            return matrix(transform(turned, np.zeros(3)))
+        return Value(turned, 2, _turning(node, environment, indices))
     if name in _TURNINGS:
-        return matrix(rotation_derivative(_TURNINGS[name], x))
+        slope = rotation_derivative(_TURNINGS[name], x)
+        return Value(slope, 2, _turning(node, environment, indices))
     if name in _TRANSLATIONS:
         shift = np.zeros((*x.shape, 3), dtype=x.dtype)
         shift[..., _TRANSLATIONS[name]] = x
@@ -167,12 +195,19 @@ def _call(node: nt.Call, environment: Environment, indices: dict[str, str]) -> V
     raise FormulaError(f"unknown function {name!r}")
 
 
+def _turning(node: nt.Call, environment: Environment, indices: dict[str, str]) -> Frames:
+    if isinstance(environment, Framed):
+        return environment.turning(node.function[-1], node.argument, indices)
+    return ANY
+
+
 def _derivative(
     of: Node, by: Node | None, environment: Environment, indices: dict[str, str]
 ) -> Value:
     if isinstance(of, nt.Call) and of.argument == by and of.function in _ROTATIONS:
         angle = evaluate(of.argument, environment, indices)
-        return matrix(rotation_derivative(_ROTATIONS[of.function], angle.array))
+        slope = rotation_derivative(_ROTATIONS[of.function], angle.array)
+        return Value(slope, 2, _turning(of, environment, indices))
     if isinstance(of, nt.Transpose):
         return transpose(_derivative(of.of, by, environment, indices))
     if by is None or isinstance(by, Symbol):

@@ -25,6 +25,10 @@ class Unreadable(FormulaError):
         super().__init__(what, allowed="the notation of notation.lark")
 
 
+class FrameError(FormulaError):
+    """A formula puts together what is seen from different frames."""
+
+
 class Node:
     """Base of all parts of a formula."""
 

@@ -11,6 +11,7 @@ from typing import Self
 
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.frames import ANY, Frames
 from thesis_pin.equations.values import Value, imaginary
 
 
@@ -40,8 +41,16 @@ class Symbols:
             if value is None:
                 dots = "˙" * symbol.dots
                 raise FormulaError(f"the symbol {symbol.name}{dots} isn't defined anywhere")
-            self._values[key] = value
+            self._values[key] = value.within(self._frames(symbol, value, i))
         return self._values[key]
+
+    def turning(self, axis: str, argument: Node, indices: dict[str, str]) -> Frames:
+        """Frames of a rotation by a formula about "x", "y" or "z": ANY if no joint turns so."""
+        return ANY
+
+    def _frames(self, symbol: Symbol, value: Value, i: str) -> Frames:
+        """What a symbol's value is seen from or turns between."""
+        return value.frames
 
     def _find(self, symbol: Symbol, i: str) -> Value | None:
         """Value of a symbol on leg or chain i; None if it isn't defined."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thesis_pin.equations.formula import FormulaError
+from thesis_pin.equations import frames as fr
+from thesis_pin.equations.formula import FormulaError, FrameError
+from thesis_pin.equations.frames import ANY, Frames
 
 STEP = 1e-30
 """Complex step: small enough that its square vanishes, so derivatives are exact."""
@@ -19,10 +21,13 @@ class Value:
     Attributes:
         array: Numbers of shape ``(*batch, *tail)``.
         rank: Number of tail axes: 0, 1 or 2; −1 for a zero of any shape.
+        frames: What a vector is seen from, a rotation turns between; see
+            :mod:`thesis_pin.equations.frames`.
     """
 
     array: np.ndarray
     rank: int
+    frames: Frames = ANY
 
     @property
     def tail(self) -> tuple[int, ...]:
@@ -36,6 +41,14 @@ class Value:
         if self.rank == 1:
             return f"a vector of {self.tail[0]}"
         return f"a {self.tail[0]}×{self.tail[1]} matrix"
+
+    def seen(self) -> str:
+        """In words, with its frames."""
+        return self.describe() + fr.described(self.frames)
+
+    def within(self, frames: Frames) -> Value:
+        """The same numbers, seen from a frame or turning between two."""
+        return replace(self, frames=frames)
 
 
 ZERO = Value(np.zeros(()), -1)
@@ -58,7 +71,7 @@ def matrix(array: np.ndarray) -> Value:
 
 def imaginary(value: Value) -> Value:
     """The derivative that a complex step left in a value."""
-    return ZERO if value.rank == -1 else Value(np.imag(value.array) / STEP, value.rank)
+    return ZERO if value.rank == -1 else replace(value, array=np.imag(value.array) / STEP)
 
 
 def add(first: Value, second: Value) -> Value:
@@ -67,7 +80,10 @@ def add(first: Value, second: Value) -> Value:
         return second if first.rank == -1 else first
     if first.rank != second.rank or first.tail != second.tail:
         raise FormulaError(f"adds {first.describe()} and {second.describe()}")
-    return Value(first.array + second.array, first.rank)
+    frames = fr.same(first.frames, second.frames)
+    if not frames:
+        raise FrameError(f"adds {second.seen()} to {first.seen()}")
+    return Value(first.array + second.array, first.rank, frames)
 
 
 def multiply(first: Value, second: Value) -> Value:
@@ -75,20 +91,28 @@ def multiply(first: Value, second: Value) -> Value:
     if first.rank == -1 or second.rank == -1:
         return ZERO
     if first.rank == 0:
-        return Value(_spread(first.array, second.rank) * second.array, second.rank)
+        return replace(second, array=_spread(first.array, second.rank) * second.array)
     if second.rank == 0:
-        return Value(first.array * _spread(second.array, first.rank), first.rank)
+        return replace(first, array=first.array * _spread(second.array, first.rank))
     a, b = first.array, second.array
     if first.rank == 1:
         if second.rank == 2 and second.tail[0] == 1:
-            return matrix(a[..., :, None] * b)
+            return Value(a[..., :, None] * b, 2, _joined(first, second))
         raise FormulaError(f"multiplies {first.describe()} by {second.describe()}")
     if first.tail[1] != second.tail[0]:
         raise FormulaError(f"multiplies {first.describe()} by {second.describe()}")
+    frames = _joined(first, second)
     if second.rank == 1:
         result = np.matmul(a, b[..., None])[..., 0]
-        return scalar(result[..., 0]) if first.tail[0] == 1 else vector(result)
-    return matrix(np.matmul(a, b))
+        return scalar(result[..., 0]) if first.tail[0] == 1 else Value(result, 1, frames)
+    return Value(np.matmul(a, b), 2, frames)
+
+
+def _joined(first: Value, second: Value) -> Frames:
+    frames = fr.joined(first.frames, second.frames)
+    if frames:
+        return frames
+    raise FrameError(f"multiplies {first.seen()} by {second.seen()}")
 
 
 def _spread(array: np.ndarray, rank: int) -> np.ndarray:
@@ -104,19 +128,23 @@ def cross(first: Value, second: Value) -> Value:
             f"takes the vector product of {first.describe()} and {second.describe()}"
         )
     a, b = first.array, second.array
+    frames = fr.same(first.frames, second.frames)
+    if not frames:
+        raise FrameError(f"takes the vector product of {first.seen()} and {second.seen()}")
     parts = [a[..., k - 2] * b[..., k - 1] - a[..., k - 1] * b[..., k - 2] for k in range(3)]
-    return vector(np.stack(parts, axis=-1))
+    return Value(np.stack(parts, axis=-1), 1, frames)
 
 
 def transpose(value: Value) -> Value:
     """Transpose; a vector becomes a row and a row a vector. Never conjugates."""
     if value.rank <= 0:
         return value
+    frames = fr.swapped(value.frames)
     if value.rank == 1:
-        return matrix(value.array[..., None, :])
+        return Value(value.array[..., None, :], 2, frames)
     if value.tail[0] == 1:
-        return vector(value.array[..., 0, :])
-    return matrix(np.swapaxes(value.array, -1, -2))
+        return Value(value.array[..., 0, :], 1, frames)
+    return Value(np.swapaxes(value.array, -1, -2), 2, frames)
 
 
 def power(value: Value, exponent: int | str) -> Value:
@@ -128,7 +156,7 @@ def power(value: Value, exponent: int | str) -> Value:
     if value.rank == 2 and exponent == -1 and value.tail[0] != value.tail[1]:
         raise FormulaError(f"inverts {value.describe()}, which has no inverse")
     if value.rank == 2 and exponent == -1:
-        return matrix(np.linalg.inv(value.array))
+        return Value(np.linalg.inv(value.array), 2, fr.swapped(value.frames))
     raise FormulaError(f"raises {value.describe()} to the power {exponent}")
 
 
@@ -169,7 +197,18 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
         lines.append(np.concatenate(parts, axis=-1))
     if len({line.shape[-1] for line in lines}) > 1:
         raise FormulaError("puts rows of different length one below the other")
-    return matrix(np.concatenate(lines, axis=-2))
+    return Value(np.concatenate(lines, axis=-2), 2, _beside(cells))
+
+
+def _beside(cells: list[Value]) -> Frames:
+    """What vectors beside and below each other are seen from."""
+    frames = ANY
+    for cell in cells:
+        found = fr.same(frames, fr.rows(cell.frames))
+        if not found:
+            raise FrameError(f"puts {cell.seen()} beside columns{fr.described(frames)}")
+        frames = found
+    return frames
 
 
 def _stacked(cells: list[Value]) -> Value:

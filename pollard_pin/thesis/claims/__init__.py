@@ -6,15 +6,12 @@ their place is held to the same.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from functools import partial
 
 from pollard_pin.thesis.claims import angles, dynamics, general, inertia, path, robot
-from pollard_pin.thesis.claims.given import Check
 from pollard_pin.thesis.references import References
-from thesis_pin.audit.verdicts import ClaimResult, Claims
-from thesis_pin.equations.catalogue import Catalogue, Equation
-from thesis_pin.equations.formula import FormulaError
+from thesis_pin.audit.verdicts import Claims
+from thesis_pin.equations.catalogue import Catalogue
 
 CHECKS = (angles, robot, inertia, path, dynamics, general)
 
@@ -23,16 +20,4 @@ def claims(catalogue: Catalogue, closed: References) -> Claims:
     """All checks by name: the kind of check, ":", and what it is about."""
     kinds = {kind: check for module in CHECKS for kind, check in module.CHECKS.items()}
     names = {equation.claim for equation in catalogue.equations if equation.claim}
-    return {name: _with(kinds[name.split(":")[0]], catalogue, closed) for name in names}
-
-
-def _with(
-    check: Check, catalogue: Catalogue, closed: References
-) -> Callable[[Equation], ClaimResult]:
-    def read(equation: Equation) -> ClaimResult:
-        try:
-            return check(catalogue, closed, equation)
-        except FormulaError as error:
-            return ClaimResult(math.inf, note=error.what)
-
-    return read
+    return {name: partial(kinds[name.split(":")[0]], catalogue, closed) for name in names}

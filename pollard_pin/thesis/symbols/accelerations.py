@@ -95,7 +95,7 @@ def accelerating(state: State) -> State:
     return replace(state, accelerations={**pose, **found})
 
 
-_FIRST = {
+FIRST = {
     **{"theta_21": 1, "theta_43": 8, "theta_54": 16, "theta_1817": 24, "theta_1716": 32},
     **{"theta_1615": 40, "theta_21i": 47, "theta_65i": 54, "theta_76i": 62, "theta_1110i": 70},
     **{"theta_109i": 78, "theta_98i": 86},
@@ -134,6 +134,8 @@ _TANGENTS: dict[str, tuple[_Part, _Part]] = {
 _ROOTS = {angle: below for angle, (_, below) in _TANGENTS.items()}
 _ROOTS["theta_1716"] = _entry("b", 1, 1)
 """Angle → what the thesis's denominator is the cube of."""
+ROOTED = frozenset(_ROOTS)
+"""Angles whose acceleration has a G for its denominator, the one before its first."""
 
 
 def coefficient(state: State, name: str, i: str) -> np.ndarray | None:
@@ -143,7 +145,7 @@ def coefficient(state: State, name: str, i: str) -> np.ndarray | None:
         chain = i if row.angle.endswith("i") else ""
         if row.angle.endswith("i") and not i:
             continue
-        first, root = _FIRST[row.angle], np.ones(state.size)
+        first, root = FIRST[row.angle], np.ones(state.size)
         if row.angle in _ROOTS:
             root = _ROOTS[row.angle](state, chain)
             if number == first - 1:

@@ -11,12 +11,14 @@ from typing import Self
 import numpy as np
 
 from pollard_pin.thesis.state import CHAIN_0, JOINTS, POSE, State, own_name
+from pollard_pin.thesis.symbols import frames
 from pollard_pin.thesis.symbols.bodies import BODIES, centre, origin, own_frame, turned
 from pollard_pin.thesis.symbols.loops import PATHS, between, placement
 from pollard_pin.thesis.symbols.positions import Positions
 from pollard_pin.thesis.symbols.rates import derivative, explicit_rates, joint_rates, moving
 from thesis_pin.equations.dual import dual
 from thesis_pin.equations.formula import Node, Symbol
+from thesis_pin.equations.frames import Frames
 from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
 
 SIDE_I = ("theta_21i", "theta_65i", "theta_76i")
@@ -114,6 +116,15 @@ class MotionSymbols(Positions):
         """Derivative along the rates of all joints."""
         return derivative(of, self.state, {name: self.state.rates[name] for name in JOINTS})
 
+    # -- frames ----------------------------------------------------------------
+
+    def turning(self, axis: str, argument: Node, indices: dict[str, str]) -> Frames:
+        """Frames of a rotation by an angle of the mechanism or the pose."""
+        return frames.of_rotation(axis, argument, indices)
+
+    def _frames(self, symbol: Symbol, value: Value, i: str) -> Frames:
+        return frames.of_symbol(symbol, value.tail, i)
+
     # -- geometry --------------------------------------------------------------
 
     @staticmethod
@@ -182,7 +193,7 @@ class MotionSymbols(Positions):
 
     def _axis(self, symbol: Symbol, i: str) -> Value | None:
         column = "ijk".index(symbol.base)
-        if symbol.sup in ("", symbol.sub) and (symbol.sup or symbol.sub == "0"):
+        if frames.own_axis(symbol, i):
             return vector(np.eye(3)[column])
         frame = (symbol.sub, i) if symbol.sub in PATHS else self._frame(symbol.sub)
         if frame is None or symbol.dots or symbol.sup != "0":

@@ -128,6 +128,11 @@ class Rate:
     pose: int
     relation: _Relation
 
+    @property
+    def side(self) -> bool:
+        """Whether each side chain has one."""
+        return self.angle.endswith("i")
+
 
 _ANGLES_0 = ("psi", "theta", "phi", "theta_21", "theta_54")
 _ANGLES_I = ("theta_21", "theta_43", "theta_54", "theta_21i", "theta_65i")
@@ -179,8 +184,8 @@ def coefficient(
     """
     letter, number = name[0], int(name[2:])
     for row in RATES:
-        chain = i if row.angle.endswith("i") else ""
-        if row.angle.endswith("i") and not i:
+        chain = i if row.side else ""
+        if row.side and not i:
             continue
         if letter == "V" and row.first <= number <= row.first + len(row.variables):
             below, numerator = row.relation(state, chain)
@@ -238,7 +243,7 @@ def explicit_rates(state: State) -> dict[str, np.ndarray]:
     """
     result: dict[str, np.ndarray] = {}
     for row in RATES:
-        for i in ("1", "2") if row.angle.endswith("i") else ("",):
+        for i in ("1", "2") if row.side else ("",):
             below, numerator = row.relation(state, i)
             found = [
                 numerator({POSE[k]: 1.0, **{name: one[..., k] for name, one in result.items()}})

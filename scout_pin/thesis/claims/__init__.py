@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from scout_pin.thesis.claims import dynamics, robot, tables
-from thesis_pin.audit.reading import apart_from_text
+from scout_pin.thesis.claims import angles, dynamics, gait, law, names, robot, soles, splines
 from thesis_pin.audit.verdicts import Claims
 from thesis_pin.equations.catalogue import Catalogue
 
@@ -15,5 +14,6 @@ def claims(catalogue: Catalogue, states: int) -> Claims:
         catalogue: The equations, whose printed numbers are read.
         states: Random states used for the law of motion.
     """
-    found = tables.claims(catalogue) | robot.claims(catalogue) | dynamics.claims(states)
-    return {name: apart_from_text(check) for name, check in found.items()}
+    rooms = (splines, gait, robot, soles, dynamics, names)
+    found = law.claims(catalogue, states) | angles.claims()
+    return found | {name: check for room in rooms for name, check in room.claims(catalogue).items()}

@@ -1,10 +1,10 @@
-"""Checks of the thesis's dynamics that aren't identities: the law of motion,
-the constraints, the inertias' use. They hold the explicit model against Pinocchio.
+"""Checks of the thesis's dynamics that aren't identities: the actuators, the constraints,
+the inertias' use, the ZMP at rest. They hold the explicit model against Pinocchio.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
 from functools import partial
 
 import numpy as np
@@ -17,33 +17,36 @@ from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import GaitMotion
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.specification import Specification
+from scout_pin.thesis.claims.texts import Check, both, identity, statements
 from scout_pin.thesis.explicit import ExplicitModel, Interval, resting, solve_one
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters
-from thesis_pin.audit.text import residual_text
 from thesis_pin.audit.verdicts import ClaimResult, largest_relative
-from thesis_pin.equations.evaluation import evaluate
-from thesis_pin.equations.formula import Symbol
-from thesis_pin.errors import NoSolution
-from thesis_pin.model.mechanism.inertia import Reading
-from thesis_pin.tolerances import GRAVITY, TOLERANCES
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.tolerances import TOLERANCES
 
 SEED = 20100
+IDENTITY_BELOW = r"[\mathbf{0}_{6 \times 12}; \mathbf{1}_{12}]"
+"""What A_τ should be, as the corrections write it."""
+_PARTIALS = r"\\begin\{bmatrix\} \\frac\{\\partial \\varphi_1\^(\d)\}.*\\ddots.*\^\1\}.*"
+_POSES = r"\\left\[\\begin\{array\}.*|\\begin\{bmatrix\} \\frac\{\\partial \\Phi_1\^0\}.*"
 
 
-def claims(states: int) -> dict[str, Callable[[], ClaimResult]]:
-    """The checks by name.
-
-    Args:
-        states: Random states used for the law of motion.
-    """
+def claims(catalogue: Catalogue) -> dict[str, Check]:
+    """The checks by name."""
     return {
-        "equation_of_motion": partial(_equation_of_motion, states),
-        "printed_law_has_no_solution": _law,
-        "actuation": _actuation,
-        "inertias_as_used": _inertias_as_used,
-        "zmp_at_rest": _zmp_at_rest,
-        **{f"stance_{k}": partial(_stance, k) for k in (1, 2, 3)},
+        "actuation": statements(
+            _actuation,
+            r"\\text\{the 18×12 matrix of the elements \} A_\{rc\} .*zero elsewhere\}",
+            re.escape(IDENTITY_BELOW),
+        ),
+        "inertias_as_used": statements(
+            _inertias_as_used,
+            r"\\text\{tensors about the centres of gravity, .*",
+            r"\\text\{products of inertia about \} .* then subtract \} m\(\|c\|\^2 1 - c c\^T\)",
+        ),
+        "zmp_at_rest": partial(_zmp_at_rest, catalogue),
+        **{f"stance_{k}": statements(partial(_stance, k), _PARTIALS, _POSES) for k in (1, 2, 3)},
     }
 
 
@@ -69,25 +72,7 @@ def gait_in_thesis_coordinates(
     return motion, q, v, a
 
 
-def _equation_of_motion(states: int) -> ClaimResult:
-    """D, V q̇ and C of the corrected thesis against CRBA, Coriolis and gravity terms."""
-    q, v, _ = random_motion(states)
-    worst, notes = 0.0, []
-    readings: tuple[Reading, ...] = ("physical", "printed")
-    for reading in readings:
-        model, robot = ExplicitModel(inertia=reading), load(root="thesis", inertia=reading)
-        mass, velocity, gravity = model.terms(q, v)
-        terms = mass, (velocity @ v[..., None])[..., 0], gravity
-        truth = _pinocchio_terms(robot, q, v)
-        gaps = [largest_relative(a, b) for a, b in zip(terms, truth, strict=True)]
-        worst = max(worst, *gaps)
-        told = [residual_text(gap) for gap in gaps]
-        notes.append(f"{reading}: D {told[0]}, V q̇ {told[1]}, C {told[2]}")
-    note = f"left side against Pinocchio at {states} random states; {'; '.join(notes)}"
-    return ClaimResult(worst, note=note)
-
-
-def _pinocchio_terms(
+def pinocchio_terms(
     robot: Scout, q: np.ndarray, v: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     data, mass, bias, gravity = robot.model.createData(), [], [], []
@@ -169,39 +154,10 @@ def _sole_jacobians(robot: Scout, q: np.ndarray, interval: Interval) -> np.ndarr
     return np.array(found)
 
 
-def _law() -> ClaimResult:
-    """(4.23) as printed for the robot standing still, and corrected along the gait."""
-    robot = load()
-    weight = robot.mass * GRAVITY
-    times = np.linspace(0.5, 39.5, 40)
-    motion, q, v, a = gait_in_thesis_coordinates(robot, times)
-    expected = inverse_dynamics(robot, motion).torque
-    model, gap = ExplicitModel(), 0.0
-    intervals: tuple[tuple[Interval, int], ...] = ((1, 0), (3, 1))
-    for interval, foot in intervals:
-        mine = motion.support[:, foot]
-        torque = model.solve(q[mine], v[mine], a[mine], interval).torque
-        gap = max(gap, float(np.abs(torque - expected[mine]).max()))
-    still = np.zeros(18)
-    try:
-        ExplicitModel(edition="printed").solve(q[0], still, still, 1)
-        left = 0.0
-    except NoSolution as error:
-        left = error.residual
-    return ClaimResult(
-        left / weight,
-        gap / float(np.abs(expected).max()),
-        f"standing still, {left:.4g} N of {weight:.4g} N stay unbalanced; corrected, the gait's "
-        f"torques are those of the contact inverse dynamics"
-        + (f", to {gap:.0e} N·m" if gap > 1e-9 else " to rounding"),
-        {"unbalanced force [N]": left},
-    )
-
-
 def _inertias_as_used() -> ClaimResult:
     """The mass matrix with the printed matrices as centroidal tensors, against the body's."""
     q, _, _ = random_motion(10)
-    truth = _pinocchio_terms(load(root="thesis"), q, np.zeros_like(q))[0]
+    truth = pinocchio_terms(load(root="thesis"), q, np.zeros_like(q))[0]
     used, right = (ExplicitModel(inertia=reading).D(q) for reading in ("printed", "physical"))
     times = np.linspace(0.5, 39.5, 40)
     torques = {}
@@ -217,13 +173,9 @@ def _inertias_as_used() -> ClaimResult:
     )
 
 
-def _zmp_at_rest() -> ClaimResult:
+def _zmp_at_rest(catalogue: Catalogue, equation: Equation) -> ClaimResult:
+    """A component of the zero-moment point of a robot that stands still."""
     q, _, _ = random_motion(20)
     zero = np.zeros_like(q)
     references = References(resting(Parameters.of(Specification.read()), q, zero, zero))
-    centre = evaluate(Symbol("b", "T", "0", bold=True), references, {}).array
-    gap = [
-        np.abs(evaluate(Symbol("ZMP", axis), references, {}).array - centre[..., k]).max()
-        for k, axis in enumerate("xy")
-    ]
-    return ClaimResult(float(max(gap)))
+    return both(equation, lambda text, left: identity(catalogue, left, text, references))

@@ -1,89 +1,152 @@
-"""Checks of appendix B: masses, angles, soles, symmetry, inertias."""
+"""Checks of appendix B and of the numbers that the program of appendix D repeats.
+
+A number is held against another print that rests on it: masses against their sum,
+a link against its twin in the other leg.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 
+from scout_pin.kinematics.inverse import leg_inverse_kinematics
 from scout_pin.model import Scout, load
 from scout_pin.specification import LINK_NAMES, Specification
-from scout_pin.thesis.claims.tables import beyond
+from scout_pin.thesis.claims.texts import (
+    Check,
+    array,
+    beyond,
+    both,
+    components,
+    quantity,
+    statements,
+    unreadable,
+)
 from thesis_pin.audit.verdicts import ClaimResult
-from thesis_pin.equations.catalogue import Catalogue
+from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.errors import NonPhysicalInertia
 from thesis_pin.model.mechanism.inertia import check_physical
+from thesis_pin.numeric.rotations import rotation
+
+_SIZE = 0.1  # m, the length every error of a length is compared with
+_MIRRORS = {"mirrored": np.diag([-1.0, 1.0, 1.0]), "turned": np.diag([-1.0, -1.0, 1.0])}
+"""What takes a left link to its twin: the sagittal plane, or half a turn about the vertical."""
 
 
-def claims(catalogue: Catalogue) -> dict[str, Callable[[], ClaimResult]]:
+def claims(catalogue: Catalogue) -> dict[str, Check]:
     """The checks by name."""
     robot = load()
     return {
-        "mass_sum": partial(_mass_sum, catalogue, robot.specification),
-        "neutral_pose": partial(_neutral_pose, robot),
-        "soles": partial(_soles, robot.specification),
-        "mirror": partial(_mirror, robot),
-        "inertias_as_tensors": partial(_inertias_as_tensors, robot.specification),
+        "mass_sum": partial(_mass_sum, catalogue),
+        "twin_inertia": partial(_twin_inertia, catalogue),
+        "twin_centre": partial(_twin_centre, catalogue),
+        "program_lengths": partial(_program_lengths, catalogue),
+        "program_beta": partial(_program_beta, catalogue),
+        "inertias_as_tensors": statements(
+            partial(_as_tensors, robot.specification),
+            r"\\text\{inertia tensors about \} \\mathbf\{p\}_\{ni\}",
+            r"\\text\{products of inertia about \} .*, off-diagonals positive\}",
+        ),
+        "diagonal_fixes_pose": statements(
+            partial(_diagonal, robot),
+            r"\\text\{the position and the diagonal of \} .* \\text\{ fix the pose.*\}",
+            r"\\text\{all of \} .* \\text\{ has to be compared\}",
+        ),
     }
 
 
-def _mass_sum(catalogue: Catalogue, specification: Specification) -> ClaimResult:
-    printed = float(re.match(r"[\d.]+", catalogue["scout:B.5:m_T"].printed[0])[0]) * 1e-3  # type: ignore[index]
-    return ClaimResult(abs(specification.mass - printed) / printed)
+# -- masses, inertias, centres of mass -------------------------------------------------
 
 
-def _neutral_pose(robot: Scout) -> ClaimResult:
-    feet = robot.neutral_feet().values()
-    return ClaimResult(max(float(np.abs(foot[:3, :3] - np.eye(3)).max()) for foot in feet))
+def _mass_sum(catalogue: Catalogue, equation: Equation) -> ClaimResult:
+    """m_T is the torso's mass and twice that of each link."""
+    rows = {e.left: e.printed[0] for e in catalogue.equations if e.claim == "mass_sum"}
+
+    def residual(text: str, left: str) -> float:
+        said = {left: quantity(x)[0] for left, x in {**rows, equation.left: text}.items()}
+        total = said.pop("m_T")
+        links = sum(2 * mass for name, mass in said.items() if name != "m_B")
+        return abs(said["m_B"] + links - total) / total
+
+    return both(equation, residual, "the masses of B.5 add up to m_T")
 
 
-def _soles(specification: Specification) -> ClaimResult:
-    left, right = (sorted(specification.leg(side).sole) for side in ("left", "right"))
-    gap = np.array(right) - np.array(left) - [18.15e-3, 0.0]
-    return ClaimResult(beyond(gap, 1e-12, 0.1))
-
-
-def _mirror(robot: Scout) -> ClaimResult:
-    """Right links are the left ones mirrored in the sagittal plane, or turned about z."""
-    specification, worst, turned = robot.specification, 0.0, []
-    flip = {"mirrored": np.diag([-1.0, 1.0, 1.0]), "turned": np.diag([-1.0, -1.0, 1.0])}
-    axes = {side: _neutral_axes(specification, side) for side in ("left", "right")}
-    for n in range(6):
-        gaps = {}
-        for kind, change in flip.items():
-            sides = []
-            for side in ("left", "right"):
-                link, R = specification.leg(side).links[n], axes[side][n]
-                tensor = link.centroidal(specification.inertia_convention, "physical")
-                sides.append((R @ np.array(link.com), R @ tensor @ R.T, link.mass))
-            (com, tensor, mass), (other, other_tensor, other_mass) = sides
-            gaps[kind] = max(
-                float(np.abs(change @ com - other).max()) / 0.05,
-                float(np.abs(change @ tensor @ change - other_tensor).max()) / 1e-4,
-                abs(mass - other_mass) / mass,
-            )
-        best = min(gaps, key=lambda kind: gaps[kind])
-        worst = max(worst, gaps[best])
-        if best == "turned":
-            turned.append(LINK_NAMES[n])
-    note = f"turned by 180° about the vertical instead of mirrored: {', '.join(turned) or 'none'}"
-    return ClaimResult(worst, note=note)
-
-
-def _neutral_axes(specification: Specification, side: str) -> list[np.ndarray]:
-    """Axes of the six link frames in the torso's, servos neutral."""
-    from thesis_pin.numeric.rotations import rotation
-
-    turned, frames = np.eye(3), []
-    for axis, angle in zip("zyzzzx", specification.leg(side).beta_deg, strict=True):
+def _axes(catalogue: Catalogue, number: int, leg: str) -> np.ndarray:
+    """Axes of a link's frame in the torso's, servos neutral, by the angles of B.3."""
+    turned = np.eye(3)
+    for n, axis in zip(range(1, number + 1), "zyzzzx", strict=False):
+        angle, _ = quantity(catalogue[f"scout:B.3:beta_{n}{leg}"].printed[0])
         turned = turned @ rotation(axis, np.radians(angle))
-        frames.append(turned)
-    return frames
+    return turned
 
 
-def _inertias_as_tensors(specification: Specification) -> ClaimResult:
+def _link(left: str) -> tuple[int, str]:
+    """Number and leg of the link that a symbol of B.6 or B.7 belongs to."""
+    found = re.fullmatch(
+        r"\\mathbf\{(?:I\}_\{|r\}_\{G)([1-6])([12])\}\^\{(1|3|5|7|9|11)([12])\}", left
+    )
+    if not found or found[2] != found[4] or int(found[3]) != 2 * int(found[1]) - 1:
+        raise unreadable(left)
+    return int(found[1]), found[2]
+
+
+def _other(catalogue: Catalogue, section: str, kind: str, number: int, leg: str) -> str:
+    other = "2" if leg == "1" else "1"
+    name = f"scout:{section}:{kind}{number}{other}^{2 * number - 1}{other}"
+    return catalogue[name].printed[0]
+
+
+def _twin_inertia(catalogue: Catalogue, equation: Equation) -> ClaimResult:
+    """A link's matrix is its twin's, mirrored or turned."""
+    number, leg = _link(equation.left)
+    theirs = array(_other(catalogue, "B.6", "I_", number, leg))
+    kinds: list[str] = []
+
+    def residual(text: str, left: str) -> float:
+        mine = array(text)
+        if mine.shape != (3, 3):
+            raise unreadable(text)
+        tensors = []
+        for matrix, side in ((mine, leg), (theirs, "2" if leg == "1" else "1")):
+            # Off-diagonals are positive products of inertia: a tensor has them negated.
+            tensor = 2 * np.diag(np.diag(matrix)) - matrix
+            axes = _axes(catalogue, number, side)
+            tensors.append(axes @ tensor @ axes.T)
+        first, second = tensors
+        gaps = {
+            kind: float(np.abs(change @ first @ change - second).max())
+            for kind, change in _MIRRORS.items()
+        }
+        kinds.append(min(gaps, key=lambda kind: gaps[kind]))
+        skew = float(np.abs(mine - mine.T).max())
+        return max(gaps[kinds[0]], skew) / float(np.abs(theirs).max())
+
+    result = both(equation, residual)
+    return ClaimResult(result.printed, note=result.note or f"its twin's, {kinds[0]}")
+
+
+def _twin_centre(catalogue: Catalogue, equation: Equation) -> ClaimResult:
+    """A link's centre of mass is its twin's, mirrored or turned."""
+    number, leg = _link(equation.left)
+    other = "2" if leg == "1" else "1"
+    frame = 2 * number - 1
+    text = _other(catalogue, "B.7", "r_G", number, leg)
+    theirs = _axes(catalogue, number, other) @ components(text, f"{frame}{other}")
+    kinds: list[str] = []
+
+    def residual(text: str, left: str) -> float:
+        mine = _axes(catalogue, number, leg) @ components(text, f"{frame}{leg}")
+        gaps = {k: float(np.abs(change @ mine - theirs).max()) for k, change in _MIRRORS.items()}
+        kinds.append(min(gaps, key=lambda kind: gaps[kind]))
+        return gaps[kinds[0]] / float(np.abs(theirs).max())
+
+    result = both(equation, residual)
+    return ClaimResult(result.printed, note=result.note or f"its twin's, {kinds[0]}")
+
+
+def _as_tensors(specification: Specification) -> ClaimResult:
     """How many of the 13 printed matrices no body can have, read either way."""
     bodies = {"torso": specification.torso}
     for side in ("left", "right"):
@@ -102,3 +165,61 @@ def _inertias_as_tensors(specification: Specification) -> ClaimResult:
     tensors, products = impossible.values()
     note = f"impossible as tensors: {', '.join(tensors)}"
     return ClaimResult(len(tensors) / len(bodies), len(products) / len(bodies), note)
+
+
+# -- the program's numbers ------------------------------------------------------------------
+
+
+def _program_lengths(catalogue: Catalogue, equation: Equation) -> ClaimResult:
+    """The program's lengths [mm] are those of B.2."""
+    names = re.findall(r"\\mathtt\{([xyz])(\d)1\}", equation.left)
+    rows = [catalogue[f"scout:B.2:{x}_{n}i"] for x, n in names]
+    theirs = np.array([quantity(row.printed[0])[0] for row in rows])
+
+    def residual(text: str, left: str) -> float:
+        if not re.fullmatch(r"\([\d.]+(, [\d.]+)*\)", text):
+            raise unreadable(text)
+        mine = np.array([float(x) for x in text[1:-1].split(", ")]) * 1e-3
+        if mine.shape != theirs.shape:
+            raise unreadable(text)
+        return beyond(mine - theirs, 1e-12, _SIZE)
+
+    return both(equation, residual)
+
+
+def _program_beta(catalogue: Catalogue, equation: Equation) -> ClaimResult:
+    """The program's constant angles are those of joints 2 to 5."""
+    leg = equation.left[-2]
+    rows = [catalogue[f"scout:B.3:beta_{n}{leg}"] for n in range(2, 6)]
+    theirs = np.array([quantity(row.printed[0])[0] for row in rows])
+
+    def residual(text: str, left: str) -> float:
+        words = re.fullmatch(
+            r"\\text\{the program’s \} \\beta_\{1(?P<leg>\d)\} \\ldots \\beta_\{4(?P=leg)\} = "
+            r"(?P<angles>\d+°(?:, \d+°){3}) "
+            r"\\text\{ are \} \\beta_\{2(?P=leg)\} \\ldots \\beta_\{5(?P=leg)\} "
+            r"\\text\{ of B.3\}",
+            text,
+        )
+        if not words or words["leg"] != leg:
+            raise unreadable(text)
+        mine = np.array([float(x) for x in re.findall(r"\d+(?=°)", words["angles"])])
+        return float(np.abs(mine - theirs).max()) / 360
+
+    return both(equation, residual)
+
+
+def _diagonal(robot: Scout) -> ClaimResult:
+    """A rotation and its transpose have one diagonal; a foot can often reach both."""
+    generator = np.random.default_rng(4)
+    angles = generator.uniform(-0.8, 0.8, (200, 6))
+    poses = robot.leg_forward_kinematics("left", angles)
+    turned = poses.copy()
+    turned[:, :3, :3] = np.swapaxes(poses[:, :3, :3], -1, -2)
+    reached = leg_inverse_kinematics(robot.legs["left"], turned).reachable.any(axis=-1)
+    apart = np.abs(poses - turned).max(axis=(-1, -2))
+    solutions = leg_inverse_kinematics(robot.legs["left"], poses)
+    best = np.where(solutions.reachable, solutions.rotation_residual, np.inf).min(axis=-1)
+    note = f"in {int(reached.sum())} of 200 random poses the transposed rotation is reachable too"
+    wrong = float(apart[reached].max(initial=0.0))
+    return ClaimResult(wrong, float(best.max()), note, {"sole's rotation [-]": wrong})

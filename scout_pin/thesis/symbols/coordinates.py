@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Self
 
 import numpy as np
@@ -9,8 +10,9 @@ import numpy as np
 from scout_pin.thesis.state import BODIES, COORDINATES, State, coordinate_index
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Node, Symbol
+from thesis_pin.equations.frames import rows
 from thesis_pin.equations.symbols import Symbols
-from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
+from thesis_pin.equations.values import ZERO, Value, scalar, vector
 from thesis_pin.tolerances import GRAVITY
 
 # Arguments in the definitions of functions, as in T_z1(x): any number will do.
@@ -41,7 +43,8 @@ class Coordinates(Symbols):
             return self._unit(by) if of.dots == by.dots else ZERO
         if by is not None and by.name == "q":
             columns = self.partial(of, Symbol("q", "j"), indices)
-            return matrix(np.swapaxes(columns.array, 1, -1)[:, None])
+            swapped = np.swapaxes(columns.array, 1, -1)[:, None]
+            return Value(swapped, 2, rows(columns.frames))
         if self.state.perturbed:
             along, rates = None if by is None else by.name, bool(by and by.dots)
             return self._difference(of, along, rates, indices)
@@ -61,7 +64,7 @@ class Coordinates(Symbols):
         ]
         if ends[0].rank == -1:
             return ZERO
-        return Value((ends[0].array - ends[1].array) / 2e-6, ends[0].rank)
+        return replace(ends[0], array=(ends[0].array - ends[1].array) / 2e-6)
 
     def _unit(self, by: Symbol) -> Value:
         """∂q/∂q_j: the unit vectors, with j along axis 1."""

@@ -17,6 +17,28 @@ from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
 from thesis_pin.tolerances import GRAVITY
 
 
+def element(array: np.ndarray, name: str) -> Value | None:
+    """A vector ``(N, 1, n)``, or its element called "3"; "j" is all of them along axis 1."""
+    if not name:
+        return vector(array)
+    if name == "j":
+        return scalar(array[:, 0, :])
+    if not name.isdigit() or not 1 <= int(name) <= array.shape[-1]:
+        return None
+    return scalar(array[..., int(name) - 1])
+
+
+def _rows(array: np.ndarray, name: str) -> Value | None:
+    """A matrix ``(N, n, n)``, or its row called "3"; "j" is all of them along axis 1."""
+    if not name:
+        return matrix(array[:, None])
+    if name == "j":
+        return matrix(array[:, :, None, :])
+    if not name.isdigit() or not 1 <= int(name) <= array.shape[-2]:
+        return None
+    return matrix(array[:, None, int(name) - 1, None, :])
+
+
 class Dynamics(Vectors):
     """What follows from the bodies' Jacobians and masses."""
 
@@ -147,19 +169,13 @@ class Dynamics(Vectors):
         return lagrangian.Terms(*(x[:, 0] for x in vars(terms).values()))
 
     def _of_bb_D(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.sub == "j":
-            return matrix(self.terms.mass[:, :, None, :])
-        return None if symbol.sub else matrix(self.terms.mass[:, None])
+        return _rows(self.terms.mass, symbol.sub)
 
     def _of_bb_V(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.sub == "j":
-            return matrix(self.terms.velocity[:, :, None, :])
-        return None if symbol.sub else matrix(self.terms.velocity[:, None])
+        return _rows(self.terms.velocity, symbol.sub)
 
     def _of_bb_C(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.sub == "j":
-            return scalar(self.terms.gravity)
-        return None if symbol.sub else vector(self.terms.gravity[:, None])
+        return element(self.terms.gravity[:, None], symbol.sub)
 
     def _foot_side(self, i: int, rates: bool) -> np.ndarray:
         """Right-hand sides of (3.16) and (3.24): what the six joints have to supply."""

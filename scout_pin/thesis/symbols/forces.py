@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.thesis.state import BODIES, coordinate_index
-from scout_pin.thesis.symbols.dynamics import Dynamics
+from scout_pin.thesis.symbols.dynamics import Dynamics, element
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.equations.values import Value, matrix, scalar, vector
 
@@ -71,10 +71,10 @@ class Forces(Dynamics):
         return scalar((self.state.tau * self.state.virtual[..., 6:]).sum(-1))
 
     def _of_Q(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.sub or symbol.sup:
+        if symbol.sup or symbol.dots:
             return None
         torso = np.zeros((*self.state.tau.shape[:-1], 6))
-        return vector(np.concatenate([torso, self.state.tau], axis=-1))
+        return element(np.concatenate([torso, self.state.tau], axis=-1), symbol.sub)
 
     def _of_l(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub not in ("1", "2") or symbol.sup != "0" or symbol.dots:
@@ -129,14 +129,23 @@ class Forces(Dynamics):
         return vector(np.stack(np.broadcast_arrays(*rows), axis=-1))
 
     def _of_lambda(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.dots or symbol.sup != "0" or symbol.sub not in ("1", "2", "3"):
+        """λ_k^0 with all its elements, or element n of it, which is λ_n^k."""
+        interval = symbol.sub if symbol.sup == "0" else symbol.sup
+        if symbol.dots or interval not in ("1", "2", "3"):
             return None
-        return vector(self.state.multipliers[..., : 12 if symbol.sub == "2" else 6])
+        multipliers = self.state.multipliers[..., : 12 if interval == "2" else 6]
+        return vector(multipliers) if symbol.sup == "0" else element(multipliers, symbol.sub)
 
     def _of_Gamma(self, symbol: Symbol, i: str) -> Value | None:
-        """Gradient of λ·Φ: the generalized force that does the constraint's virtual work."""
-        if symbol.dots or symbol.sub not in ("1", "2", "3"):
+        """Γ_k with all its elements, or element n of it, which is Γ_n^k."""
+        interval = symbol.sup or symbol.sub
+        if symbol.dots or interval not in ("1", "2", "3"):
             return None
-        phi = self.partial(Symbol("Phi", symbol.sub, "0"), Symbol("q", "j"), {}).array
-        weight = self.lookup(Symbol("lambda", symbol.sub, "0"), {}).array
-        return vector((phi * weight).sum(-1)[:, None, :])
+        force = self.constraint_force(interval)
+        return element(force, symbol.sub) if symbol.sup else vector(force)
+
+    def constraint_force(self, interval: str) -> np.ndarray:
+        """Gradient of λ·Φ: the generalized force that does the constraint's virtual work."""
+        phi = self.partial(Symbol("Phi", interval, "0"), Symbol("q", "j"), {}).array
+        weight = self.lookup(Symbol("lambda", interval, "0"), {}).array
+        return np.asarray((phi * weight).sum(-1)[:, None, :])

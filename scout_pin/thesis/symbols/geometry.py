@@ -6,9 +6,11 @@ import re
 
 import numpy as np
 
+from scout_pin.thesis.symbols import frames
 from scout_pin.thesis.symbols.coordinates import Coordinates
 from thesis_pin.equations.dual import Dual, vee
-from thesis_pin.equations.formula import Symbol
+from thesis_pin.equations.formula import Node, Symbol
+from thesis_pin.equations.frames import Frames
 from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
 
 _UNIT = {"i": np.array([1.0, 0, 0]), "j": np.array([0, 1.0, 0]), "k": np.array([0, 0, 1.0])}
@@ -19,6 +21,13 @@ _EULER_AXES = {"itheta": 0, "jphi": 1, "kpsi": 2}
 
 class Geometry(Coordinates):
     """Rotations, transforms, unit vectors, angles."""
+
+    def turning(self, axis: str, argument: Node, indices: dict[str, str]) -> Frames:
+        """Frames of a rotation by a joint's or an Euler angle."""
+        return frames.of_rotation(axis, argument, indices)
+
+    def _frames(self, symbol: Symbol, value: Value, i: str) -> Frames:
+        return frames.of_symbol(symbol, value.tail)
 
     def _rate(self, frame: Dual) -> np.ndarray:
         """Ṙ Rᵀ of a frame."""
@@ -44,6 +53,8 @@ class Geometry(Coordinates):
 
     def _of_i(self, symbol: Symbol, i: str) -> Value | None:
         letter, sub = symbol.base, symbol.sub
+        if not symbol.sup and frames.own_frame(letter + sub) is None:
+            return None
         if symbol.dots and (sub == "0" or not symbol.sup):
             return ZERO
         if symbol.dots:

@@ -71,7 +71,7 @@ def equation(**fields):
 def test_another_statement_is_one_and_a_frame_is_given_by_the_data():
     assert of_equation(equation(printed="b", right="c")) == ("statement",)
     assert of_equation(equation(printed="b", right="c", kind="frame")) == ("frame",)
-    assert of_equation(equation(printed="-b", corrected="b", claim="law")) == ("sign", "statement")
+    assert of_equation(equation(printed="-b", corrected="b", claim="law")) == ("sign",)
 
 
 def test_a_member_too_many_or_too_few_is_a_term_and_a_left_side_counts():

@@ -84,7 +84,7 @@ def test_the_cause_of_most_lines_comes_first_and_the_page_finds_its_lines():
     page = audit_page.page(many)
     for title, count in (("a slip", 2), ("another", 1)):
         assert f'data-find="{title}">{count} line' in page
-        assert page.count('data-text="robot:1:') == 4
+        assert page.count('<article id="robot:1:') == 4
     assert page.index("a slip") < page.index("another")
     assert SLIP.explanation in page
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from thesis_pin.command.running import ExitCode, free
+from thesis_pin.command.text import say
 from thesis_pin.errors import BadInput
 
 if TYPE_CHECKING:  # the commands' help imports this module and must stay quick
@@ -47,6 +48,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     from thesis_pin.command.output import print_entries, print_parts, print_table, print_text
     from thesis_pin.command.progress import track
     from thesis_pin.command.results import put
+    from thesis_pin.equations.uses import uses
     from thesis_pin.report.writers import json_bytes
 
     only = (
@@ -60,7 +62,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
         progress=lambda rows, total: track(rows, "auditing", total),
     )
     if arguments.html:
-        put(arguments.html, page(report).encode())
+        put(arguments.html, page(report, uses(thesis.catalogue())).encode())
     if arguments.markdown:
         put(arguments.markdown, markdown(report, thesis.document_command).encode())
     if arguments.json:
@@ -102,27 +104,26 @@ def _without_verdict(report: AuditReport) -> Iterator[tuple[str, str]]:
             yield f"  {section.name}: {next(way for way in ways if len(way) < 20)}", reason
 
 
-def known(identity: str, catalogue: Catalogue, thesis: Thesis) -> list[str]:
-    """The full ids of what is asked for: an id, a printed number or a symbol.
-
-    A number can stand beside several lines, and a symbol can be defined in several places.
+def known(name: str, catalogue: Catalogue, thesis: Thesis) -> list[str]:
+    """The full ids of what is asked for; says on standard error what was assumed.
 
     Raises:
         BadInput: There is none; names the nearest.
     """
-    listed, robot = list(catalogue.by_id), thesis.robot
-    full = identity if identity.startswith(f"{robot}:") else f"{robot}:{identity}"
-    if full in listed:
-        return [full]
-    number = identity.strip("()")
-    found = [one.id for one in catalogue.equations if number in one.number]
-    found = found or [name for name in listed if name.split(":", 2)[2] == identity]
+    from thesis_pin.audit.asked import asked
+
+    robot = thesis.robot
+    found, said = asked(name, catalogue, robot)
+    if said:
+        say(said)
     if found:
         return found
+    listed = list(catalogue.by_id)
+    full = name if name.startswith(f"{robot}:") else f"{robot}:{name}"
     near = difflib.get_close_matches(full, listed, n=5, cutoff=0.5)
     raise BadInput(
-        f"no equation is called {identity!r}",
+        f"no equation is called {name!r}",
         where="--equation",
-        allowed=f"an id such as {', '.join(near) or listed[0]}",
+        allowed=f"an id such as {', '.join(near) or listed[0]}, a number, a symbol or a section",
         remedy=f"{thesis.audit_command} --json - lists all ids",
     )

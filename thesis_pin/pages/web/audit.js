@@ -1,17 +1,29 @@
-// Which equations of the audit are shown: by verdict, and by what they contain.
+// Which equations of the audit are shown: by verdict, and by what they contain; what uses a line.
 const rows = [...document.querySelectorAll('article')];
 const find = document.getElementById('find'), shown = document.getElementById('shown');
 const boxes = [...document.querySelectorAll('.filters input[type=checkbox]')];
+const GREEK = { alpha: 'α', beta: 'β', gamma: 'γ', delta: 'δ', theta: 'θ', lambda: 'λ', tau: 'τ', phi: 'φ', varphi: 'φ', psi: 'ψ', omega: 'ω' };
+// θ̇_{21}, \dot{\theta}_{21} and theta21 are the same to a reader who searches.
+function plain(text) {
+  return text.replace(/[˙¨]|\\d?dot|\\(math|bold)[a-z]+/g, '').normalize('NFKD').toLowerCase()
+    .replace(/[\u0300-\u036f_^{}\\]/g, '')
+    .replace(/alpha|beta|gamma|delta|theta|lambda|tau|varphi|phi|psi|omega/g, (name) => GREEK[name]);
+}
+const texts = new Map();
+function contains(row, words) {
+  if (!texts.has(row)) texts.set(row, plain(`${row.id} ${row.textContent}`));
+  return words.every((word) => texts.get(row).includes(word));
+}
 function filter() {
-  const wanted = new Set(boxes.filter((box) => box.checked).map((box) => box.value));
-  const text = find.value.toLowerCase();
+  const wanted = new Set(boxes.filter((box) => box.checked).map((box) => box.value.replace(' ', '-')));
+  const words = plain(find.value).split(/\s+/).filter(Boolean);
   let count = 0;
   for (const row of rows) {
-    const fits = wanted.has(row.dataset.verdict) && row.dataset.text.includes(text);
-    row.hidden = !fits;
-    count += fits;
+    row.hidden = !(wanted.has(row.classList[0]) && contains(row, words));
+    count += !row.hidden;
   }
   shown.textContent = count;
+  for (const group of document.querySelectorAll('.group')) group.hidden = !group.querySelector('article:not([hidden])');
 }
 find.oninput = filter;
 for (const box of boxes) box.onchange = filter;
@@ -22,4 +34,37 @@ for (const button of document.querySelectorAll('.card button')) {
     document.getElementById('equations').scrollIntoView();
   };
 }
-filter();
+// A link leads to its line whatever is filtered away.
+function follow() {
+  const row = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (!row?.hidden) return;
+  find.value = '';
+  for (const box of boxes) box.checked = true;
+  filter();
+  row.scrollIntoView();
+}
+addEventListener('hashchange', follow);
+// The page names what a line uses; here the names become links, and the other way round.
+const robot = rows[0]?.id.split(':')[0];
+const users = new Map();
+function link(line, names) {
+  for (const name of names) {
+    const one = document.createElement('a');
+    one.href = `#${robot}:${name}`;
+    one.textContent = name;
+    line.append(one, ' ');
+  }
+}
+for (const line of document.querySelectorAll('article > .links')) {
+  const names = line.textContent.trim().split(/\s+/).slice(1), id = line.parentElement.id;
+  for (const name of names) users.set(name, [...users.get(name) ?? [], id.slice(robot.length + 1)]);
+  line.textContent = 'uses ';
+  link(line, names);
+}
+for (const [name, found] of users) {
+  const line = document.createElement('p');
+  line.className = 'links';
+  line.append(`used by ${found.length}: `);
+  link(line, found);
+  document.getElementById(`${robot}:${name}`).append(line);
+}

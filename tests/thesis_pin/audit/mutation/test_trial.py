@@ -1,0 +1,99 @@
+"""A slip is caught, an identity, another name for the same thing, or missed."""
+
+import numpy as np
+import pytest
+
+from thesis_pin.audit.mutation.trial import Trials, with_slip
+from thesis_pin.audit.thesis import Ground
+from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.formula import FormulaError
+from thesis_pin.equations.notation import Notation
+from thesis_pin.equations.values import scalar
+
+
+class World:
+    """a_1 = a_2 = 2 at every state, b = 3, z_1 = z_2 = 0."""
+
+    columns = 6
+
+    def lookup(self, symbol, indices):
+        values = {"a_1": 2.0, "a_2": 2.0, "b": 3.0, "z_1": 0.0, "z_2": 0.0, "c": 6.0}
+        if symbol.name not in values or symbol.dots:
+            raise FormulaError(f"the symbol {symbol.name} isn't defined anywhere")
+        return scalar(np.full(4, values[symbol.name]))
+
+    def partial(self, of, by, indices):
+        raise FormulaError("no derivatives here")
+
+
+def trials(claims=None, **fields):
+    equation = Equation(**{"id": "robot:1:c", "left": "c", **fields})
+    others = Equation(id="robot:1:o", left="a_1", printed=("a_2", "z_1", "z_2"))
+    catalogue = Catalogue([equation, others], Notation())
+    ground = Ground("", lambda equation: World(), claims or {}, lambda equation: {})
+    return list(Trials(catalogue, ground).of(equation))
+
+
+def answers(found, kind):
+    return {trial.answer for trial in found if trial.kind == kind}
+
+
+def test_what_changes_a_value_is_caught_on_both_sides():
+    found = trials(printed="a_1 b")
+    assert answers(found, "sign") == answers(found, "factor") == answers(found, "dot") == {"caught"}
+    assert {trial.member for trial in found if trial.kind == "factor"} == {0, 1}
+
+
+def test_what_says_the_same_whatever_the_symbols_are_is_an_identity():
+    zero = trials(left="0", printed="(b - b) a_1")
+    assert answers(zero, "sign") == {"caught", "identity"}
+
+
+def test_another_name_of_the_same_thing_is_told_apart_from_a_miss():
+    found = trials(printed="a_1 b")
+    index = {trial.said: trial.answer for trial in found if trial.kind == "index"}
+    assert {answer for said, answer in index.items() if "1 → 2" in said} == {"same"}
+    assert {answer for said, answer in index.items() if "1 → 2" not in said} == {"caught"}
+
+
+def test_a_term_that_vanishes_is_missed():
+    found = trials(printed="a_1 b + z_1 b")
+    assert "missed" in answers(found, "term dropped")
+    assert "missed" in answers(found, "factor")
+    assert {t.answer for t in found if "z_[1 → 2]" in t.said} <= {"missed"}
+
+
+def test_a_line_that_does_not_hold_is_not_tried():
+    assert trials(printed="a_1 a_1") == []
+
+
+def test_a_check_that_does_not_evaluate_its_text_misses_what_is_planted():
+    def deaf(equation):
+        list(equation.printed)
+        return ClaimResult(0.0)
+
+    def reads(equation):
+        return ClaimResult(abs(float(equation.printed[0]) - 18.15))
+
+    assert answers(trials({"law": deaf}, claim="law", left="x", printed="18.15"), "digit") == {
+        "missed"
+    }
+    found = trials({"law": reads}, claim="law", left="x", printed="18.15")
+    assert answers(found, "digit") == {"caught"}
+    assert {t.answer for t in found if t.member == 1} == {"caught"}
+
+
+def test_the_choice_of_slips_depends_on_nothing_but_the_line():
+    assert trials(printed="a_1 b + b - b") == trials(printed="a_1 b + b - b")
+
+
+@pytest.mark.parametrize("member", [0, 1, 2])
+def test_a_slip_is_put_into_its_member_alone(member):
+    class Slip:
+        text = "x"
+
+    equation = Equation(id="robot:1:c", left="c", printed=("a", "b"))
+    changed = with_slip(equation, member, Slip())
+    sides = [changed.left, *changed.printed]
+    assert [k for k, text in enumerate(sides) if text == "x"] == [member]

@@ -1,0 +1,1 @@
+"""Slips put into lines that hold, to see whether the audit notices them."""
