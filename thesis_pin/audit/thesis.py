@@ -9,9 +9,11 @@ from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 
+from thesis_pin.audit.residuals import TROUBLES, what
 from thesis_pin.audit.rows import AuditReport, Effect, Row
+from thesis_pin.audit.severity import severity, without_effect
 from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.verdicts import TROUBLES, Claims, judge, what
+from thesis_pin.audit.verdicts import Claims, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
 from thesis_pin.numeric.checks import whole
@@ -143,12 +145,14 @@ class _Judge:
         environment = self.ground.references(equation)
         ground, free = self.ground, self.ground.substituted(equation)
         row = judge(self.equations, equation, environment, ground.claims, self.name, free)
-        if not row.failed or row.effect:
+        if not row.failed or not self.with_effects:
             return row
-        effect = self._effect(equation) if self.with_effects else {}
+        effect = row.effect or self._effect(equation)
+        nothing = without_effect(self.equations, equation, row, effect)
         if not effect and row.residual_printed == math.inf:
             effect = {"this line": "can't be computed"}
-        return replace(row, effect=effect)
+        weight = severity(row, effect, nothing)
+        return replace(row, effect=effect, no_effect=nothing, severity=weight)
 
     def _effect(self, equation: Equation) -> Effect:
         try:

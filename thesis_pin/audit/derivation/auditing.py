@@ -19,9 +19,9 @@ from thesis_pin.audit.derivation.references import Glossary, Key, References, ke
 from thesis_pin.audit.derivation.states import Frames, States
 from thesis_pin.audit.derivation.tree import Tree
 from thesis_pin.audit.derivation.varied import KINDS, varied
+from thesis_pin.audit.residuals import TROUBLES, residual
 from thesis_pin.audit.rows import HOLDS, AuditReport, Row
 from thesis_pin.audit.thesis import Ground, Progress, Thesis
-from thesis_pin.audit.verdicts import TROUBLES, residual
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
