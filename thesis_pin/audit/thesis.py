@@ -56,6 +56,7 @@ class Thesis:
         causes: Each slip that several lines share, by its name in the data.
         beyond: Equations → what lies outside the audit, and why.
         effects: What the effects are, as lines for the document.
+        command: What runs the audit, where it isn't ``ROBOT-pin audit``.
     """
 
     name: str
@@ -66,11 +67,19 @@ class Thesis:
     causes: Mapping[str, Cause]
     beyond: Callable[[Catalogue], tuple[tuple[str, str], ...]]
     effects: tuple[str, ...]
+    command: str = ""
+
+    @property
+    def audit_command(self) -> str:
+        """What runs the audit."""
+        return self.command or f"{self.robot}-pin audit"
 
     @property
     def document_command(self) -> str:
         """What regenerates the checked-in document."""
-        return f"{self.robot}-pin audit --markdown docs/audit/{self.robot}.md"
+        if self.command:
+            return f"{self.command} --markdown FILE"
+        return f"{self.audit_command} --markdown docs/audit/{self.robot}.md"
 
     def audit(
         self,
