@@ -303,6 +303,11 @@ CONTRADICTIONS = {
         ["--language", "es"],
         ["--errata", "-", "--equation", "4.1"],
     ],
+    "thesis-pin audit": [
+        ["--equation", "G_1", "--every"],
+        ["--equation", "nowhere"],
+        ["--markdown", "-", "--html", "-"],
+    ],
     "thesis-pin balance": [
         ["--slope", "95"],
         ["--slope", "5,1,2"],

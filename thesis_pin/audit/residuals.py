@@ -10,7 +10,7 @@ import numpy as np
 
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations import frames
-from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
+from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
 from thesis_pin.equations.formula import FormulaError, FrameError
 from thesis_pin.equations.values import Value
@@ -106,7 +106,7 @@ def _member(
     if not member:
         raise FormulaError("is empty")
     sides = catalogue.parse(left), catalogue.parse(member)
-    for indices in index_values(*sides):
+    for indices in catalogue.indices(*sides):
         first, second = (evaluate(side, environment, indices) for side in sides)
         yield difference(first, second)
 

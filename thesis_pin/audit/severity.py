@@ -6,7 +6,7 @@ import math
 
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Severity
 from thesis_pin.equations import formula as nt
-from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
+from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.formula import FormulaError, Symbol
 
 
@@ -59,7 +59,7 @@ def users(equations: Catalogue, equation: Equation) -> list[str]:
     node = node.of if isinstance(node, nt.Transpose) else node
     if not isinstance(node, Symbol):
         return []
-    own = {node.bound(indices).name for indices in index_values(node)}
+    own = {node.bound(indices).name for indices in equations.indices(node)}
     found = []
     for other, names in equations.used_names.items():
         if other != equation.id and own & names:

@@ -58,6 +58,7 @@ class Thesis:
         beyond: Equations → what lies outside the audit, and why.
         effects: What the effects are, as lines for the document.
         spanish: File with its texts in Spanish; see :mod:`thesis_pin.audit.errata.phrases`.
+        command: What runs the audit, where it isn't ``ROBOT-pin audit``.
     """
 
     name: str
@@ -69,16 +70,26 @@ class Thesis:
     beyond: Callable[[Catalogue], tuple[tuple[str, str], ...]]
     effects: tuple[str, ...]
     spanish: Path | None = None
+    command: str = ""
+
+    @property
+    def audit_command(self) -> str:
+        """What runs the audit."""
+        return self.command or f"{self.robot}-pin audit"
 
     @property
     def document_command(self) -> str:
         """What regenerates the checked-in document."""
-        return f"{self.robot}-pin audit --markdown docs/audit/{self.robot}.md"
+        if self.command:
+            return f"{self.command} --markdown FILE"
+        return f"{self.audit_command} --markdown docs/audit/{self.robot}.md"
 
     def errata_command(self, language: str) -> str:
         """What regenerates the checked-in errata, in English ("en") or Spanish ("es")."""
+        if self.command:
+            return f"{self.command} --language {language} --errata FILE"
         file = f"{self.robot}_errata.md" if language == "en" else f"{self.robot}_erratas.es.md"
-        return f"{self.robot}-pin audit --language {language} --errata docs/audit/{file}"
+        return f"{self.audit_command} --language {language} --errata docs/audit/{file}"
 
     def audit(
         self,

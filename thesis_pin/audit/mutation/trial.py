@@ -15,7 +15,7 @@ from thesis_pin.audit.residuals import TROUBLES, difference, residual
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.audit.thesis import Ground
 from thesis_pin.audit.verdicts import judge
-from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
+from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol, symbols
 
@@ -141,7 +141,7 @@ class Trials:
             return False
         environment = self.ground.references(equation)
         try:
-            for indices in index_values(*gone, *come):
+            for indices in self.equations.indices(*gone, *come):
                 old, new = (evaluate(symbol, environment, indices) for symbol in (*gone, *come))
                 if not old.array.any() or difference(old, new) >= HOLDS:
                     return False
