@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 from scout_pin.specification import Specification
@@ -97,5 +99,6 @@ THESIS = Thesis(
     causes=CAUSES,
     beyond=beyond,
     effects=EFFECTS,
+    spanish=Path(__file__).with_name("spanish.toml"),
 )
 audit = THESIS.audit

@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from thesis_pin.audit.residuals import TROUBLES, what
 from thesis_pin.audit.rows import AuditReport, Effect, Row
@@ -57,6 +58,7 @@ class Thesis:
         causes: Each slip that several lines share, by its name in the data.
         beyond: Equations → what lies outside the audit, and why.
         effects: What the effects are, as lines for the document.
+        spanish: File with its texts in Spanish; see :mod:`thesis_pin.audit.errata.phrases`.
         command: What runs the audit, where it isn't ``ROBOT-pin audit``.
     """
 
@@ -68,6 +70,7 @@ class Thesis:
     causes: Mapping[str, Cause]
     beyond: Callable[[Catalogue], tuple[tuple[str, str], ...]]
     effects: tuple[str, ...]
+    spanish: Path | None = None
     command: str = ""
 
     @property
@@ -81,6 +84,13 @@ class Thesis:
         if self.command:
             return f"{self.command} --markdown FILE"
         return f"{self.audit_command} --markdown docs/audit/{self.robot}.md"
+
+    def errata_command(self, language: str) -> str:
+        """What regenerates the checked-in errata, in English ("en") or Spanish ("es")."""
+        if self.command:
+            return f"{self.command} --language {language} --errata FILE"
+        file = f"{self.robot}_errata.md" if language == "en" else f"{self.robot}_erratas.es.md"
+        return f"{self.audit_command} --language {language} --errata docs/audit/{file}"
 
     def audit(
         self,
