@@ -237,7 +237,8 @@ def entry(value: Value, numbers: tuple[int, ...]) -> Value:
     if not numbers:
         return value
     tail = value.tail
-    if len(numbers) != len(tail) or any(n > size for n, size in zip(numbers, tail, strict=True)):
+    fits = len(numbers) == len(tail)
+    if not fits or any(not 1 <= n <= size for n, size in zip(numbers, tail, strict=True)):
         listed = ", ".join(map(str, numbers))
         raise FormulaError(f"has no entry {listed}: it is {value.describe()}")
     found = value.array

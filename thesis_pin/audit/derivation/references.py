@@ -254,7 +254,7 @@ class References:
     def _derivative(
         self, of: Callable[[References], Value], along: int | None, order: int
     ) -> Value:
-        if along is not None and not (along < self.columns and order < len("xva")):
+        if along is not None and not (0 <= along < self.columns and order < len("xva")):
             raise FormulaError("differentiates by a coordinate that there isn't")
         if not self.states.perturbed:
             return imaginary(of(self._at(along, order, 0j)))
