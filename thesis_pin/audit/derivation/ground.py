@@ -8,15 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
-from thesis_pin.audit.derivation import coordinates as coordinates_of
 from thesis_pin.audit.derivation import meaning
-from thesis_pin.audit.derivation.file import check_formulas, read, two_sided
-from thesis_pin.audit.derivation.header import glossary, notation
-from thesis_pin.audit.derivation.phrases import Phrase
+from thesis_pin.audit.derivation.moving import coordinates as coordinates_of
+from thesis_pin.audit.derivation.moving.states import Frames, States
+from thesis_pin.audit.derivation.moving.tree import Tree
+from thesis_pin.audit.derivation.moving.varied import KINDS, varied
 from thesis_pin.audit.derivation.references import References
-from thesis_pin.audit.derivation.states import Frames, States
-from thesis_pin.audit.derivation.tree import Tree
-from thesis_pin.audit.derivation.varied import KINDS, varied
+from thesis_pin.audit.derivation.said.file import check_formulas, read, two_sided
+from thesis_pin.audit.derivation.said.header import glossary, notation
+from thesis_pin.audit.derivation.said.phrases import Phrase
 from thesis_pin.audit.residuals import TROUBLES
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.catalogue import Catalogue, Equation

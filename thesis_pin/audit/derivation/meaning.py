@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from thesis_pin.audit.derivation.motion import Point, times
-from thesis_pin.audit.derivation.phrases import ENERGIES, JACOBIANS, POINTS, Phrase
-from thesis_pin.audit.derivation.states import States
-from thesis_pin.audit.derivation.tree import WORLD
+from thesis_pin.audit.derivation.moving.motion import Point, times
+from thesis_pin.audit.derivation.moving.states import States
+from thesis_pin.audit.derivation.moving.tree import WORLD
+from thesis_pin.audit.derivation.said.phrases import ENERGIES, JACOBIANS, POINTS, Phrase
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.values import Value, matrix, scalar, vector
 from thesis_pin.errors import BadInput

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from thesis_pin.audit.derivation import phrases
-from thesis_pin.audit.derivation.constants import number
-from thesis_pin.audit.derivation.file import DerivationFile
-from thesis_pin.audit.derivation.phrases import Phrase
-from thesis_pin.audit.derivation.references import Glossary, Key, key
+from thesis_pin.audit.derivation.said import phrases
+from thesis_pin.audit.derivation.said.constants import number
+from thesis_pin.audit.derivation.said.file import DerivationFile
+from thesis_pin.audit.derivation.said.glossary import Glossary, Key, key
+from thesis_pin.audit.derivation.said.phrases import Phrase
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
 from thesis_pin.equations.notation import Notation
 from thesis_pin.errors import BadInput
