@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.rows import HOLDS, VERDICTS, AuditReport, Row
@@ -26,16 +26,16 @@ def place_text(place: str) -> str:
     return re.sub(r"(?<=\bstatement): .*", "", place)
 
 
-def effect_text(row: Row) -> str:
-    """What following the print does, in words."""
+def effect_text(row: Row, say: Callable[[str], str] = str) -> str:
+    """What following the print does, in words; ``say`` puts them into another language."""
     parts = []
     for name, value in row.effect.items():
         if isinstance(value, str):
-            parts.append(f"{name}: {value}")
+            parts.append(f"{say(name)}: {say(value)}")
         else:
             quantity, _, unit = name.rstrip("]").partition(" [")
-            amount = f"{value:.2g} {unit.replace('-', '')}" if value >= HOLDS else "none"
-            parts.append(f"{quantity} {amount}".rstrip())
+            size = f"{value:.2g} {unit.replace('-', '')}".rstrip()
+            parts.append(f"{say(quantity)} {size if value >= HOLDS else say('none')}")
     return "; ".join(parts)
 
 

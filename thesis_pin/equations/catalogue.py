@@ -244,22 +244,6 @@ class Catalogue:
                     found.setdefault(key, (equation, own))
         return found
 
-    @cached_property
-    def used_names(self) -> dict[str, frozenset[str]]:
-        """Names of the symbols in each line's members, as they should be, by the line's id."""
-        found = {}
-        for equation in self.equations:
-            names: set[str] = set()
-            for text in equation.members("corrected"):
-                try:
-                    node = self.parse(text)
-                except FormulaError:
-                    continue
-                for symbol in nt.symbols(node):
-                    names |= {symbol.bound(values).name for values in index_values(symbol)}
-            found[equation.id] = frozenset(names)
-        return found
-
 
 _LETTERS = re.compile(r"theta|phi|psi|tau|times|ZMP|LDn")
 

@@ -52,6 +52,7 @@ def claims(catalogue: Catalogue) -> dict[str, Check]:
         "program_spline": partial(_program_spline, catalogue),
         "spline_pieces": partial(_pieces_of_c, catalogue),
         "spline_conditions": partial(_conditions, catalogue),
+        "straight_piece": partial(_straight, catalogue),
         "spline_node": _node,
         "figure_c_1": partial(_figure_c_1, catalogue),
     }
@@ -154,7 +155,7 @@ def _program_spline(catalogue: Catalogue, equation: Equation) -> ClaimResult:
                 return _WRONG
             scale = np.where(theirs.coefficients == 0.0, 1.0, np.abs(theirs.coefficients))
             change = (mine.coefficients - theirs.coefficients) / scale
-            worst = max(worst, beyond(change, (mine.half + theirs.half) / scale, 1.0))
+            worst = max(worst, beyond(change, np.abs(mine.half - theirs.half) / scale, 1.0))
             t = np.linspace(theirs.start, theirs.end, 200, endpoint=False)
             apart.append(float(np.abs(mine.value(t) - theirs.value(t)).max()))
         t = np.array([printed[-1].end])
@@ -177,7 +178,9 @@ def _program_spline(catalogue: Catalogue, equation: Equation) -> ClaimResult:
 
 
 def _values(text: str) -> str:
-    """f(t_k), the value at a node, as a symbol: f_k."""
+    """f(t_k), the value at a node, as a symbol: f_k; a piece is one of t itself."""
+    if re.search(r"S_\w\((?!t\))", text):
+        raise unreadable(text)
     return re.sub(r"f\(t(_\{[^{}]*\}|_\w)\)", r"f\1", text)
 
 
@@ -187,6 +190,17 @@ def _conditions(catalogue: Catalogue, equation: Equation) -> ClaimResult:
 
     def residual(text: str, left: str) -> float:
         return identity(catalogue, _values(left), _values(text), splines)
+
+    return both(equation, residual)
+
+
+def _straight(catalogue: Catalogue, equation: Equation) -> ClaimResult:
+    """(C.5): a_1, and nothing else of it, is what a straight first piece makes vanish."""
+    general = identity(catalogue, "a_1", equation.left, Splines())
+    straight = Splines(straight=True)
+
+    def residual(text: str, left: str) -> float:
+        return max(general, identity(catalogue, left, text, straight))
 
     return both(equation, residual)
 
@@ -258,6 +272,8 @@ def _node(equation: Equation) -> ClaimResult:
 def _figure_c_1(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     """The nine coefficients through the nodes of C.2, to the digits printed."""
     nodes = [_read_node(catalogue[f"scout:C.2:node_{k}"].printed[0]) for k in range(4)]
+    if equation.left != "(a_k, b_k, c_k)":
+        raise unreadable(equation.left)
     times, values = np.array(nodes).T
     found = spline_coefficients(times, values)
 
