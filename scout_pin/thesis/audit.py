@@ -45,7 +45,7 @@ EFFECTS = (
     "Effects say what a reader meets who follows that one line and is right elsewhere:",
     "the change of D q̈ + V q̇ + C relative to its largest entry, and of the gait's torques.",
 )
-LAW_STATES = 1000
+LAW_STATES = 200
 """Random states at which D, V and C are held against Pinocchio."""
 _RANDOM, _SEED = 5, 31847
 

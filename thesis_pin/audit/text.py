@@ -72,9 +72,10 @@ def summary_lines(report: AuditReport) -> Iterator[str]:
     """Counts and coverage in sentences."""
     counts = ", ".join(f"{report.counts[v]} {v}" for v in VERDICTS if report.counts[v])
     yield f"{len(report.rows)} equations of the {report.thesis}: {counts}."
-    covered = len(report.numbers) - len(report.missing_numbers)
-    missing = f"; missing: {ranges(report.missing_numbers)}" if report.missing_numbers else ""
-    yield f"Numbered equations covered: {covered} of {len(report.numbers)}{missing}."
+    if report.numbers:
+        covered = len(report.numbers) - len(report.missing_numbers)
+        missing = f"; missing: {ranges(report.missing_numbers)}" if report.missing_numbers else ""
+        yield f"Numbered equations covered: {covered} of {len(report.numbers)}{missing}."
     checked = sum(section.checked for section in report.sections)
     yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
 

@@ -17,6 +17,7 @@ from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.verdicts import Claims, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
+from thesis_pin.equations.uses import used_by, uses
 from thesis_pin.numeric.checks import whole
 from thesis_pin.numeric.workers import shared
 
@@ -158,11 +159,15 @@ class _Judge:
         if not row.failed or not self.with_effects:
             return row
         effect = row.effect or self._effect(equation)
-        nothing = without_effect(self.equations, equation, row, effect)
+        nothing = without_effect(equation, row, effect, lambda: self._users[row.id])
         if not effect and row.residual_printed == math.inf:
             effect = {"this line": "can't be computed"}
         weight = severity(row, effect, nothing)
         return replace(row, effect=effect, no_effect=nothing, severity=weight)
+
+    @functools.cached_property
+    def _users(self) -> Mapping[str, tuple[str, ...]]:
+        return used_by(uses(self.equations))
 
     def _effect(self, equation: Equation) -> Effect:
         try:
