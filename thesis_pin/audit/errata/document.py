@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from thesis_pin.audit.errata.formulas import math
-from thesis_pin.audit.errata.phrases import Phrases
 from thesis_pin.audit.finger import slip_text
 from thesis_pin.audit.kinds import KINDS
+from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import HOLDS, NO_VERDICT, AuditReport, Row
 from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.text import effect_text

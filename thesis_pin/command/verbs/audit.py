@@ -106,7 +106,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
 def _errata(report: AuditReport, thesis: Thesis, language: str) -> str:
     """The errata in a language; says what it has no words for, which stay in English."""
     from thesis_pin.audit.errata.document import errata
-    from thesis_pin.audit.errata.phrases import Phrases
+    from thesis_pin.audit.languages.phrases import Phrases
 
     texts = [thesis.spanish] if thesis.spanish else []
     phrases = Phrases.spanish(*texts) if language == "es" else Phrases()

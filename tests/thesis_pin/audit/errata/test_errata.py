@@ -6,7 +6,7 @@ import pytest
 
 from thesis_pin.audit.errata.document import errata
 from thesis_pin.audit.errata.formulas import math
-from thesis_pin.audit.errata.phrases import Phrases
+from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.slips import Cause, Slip
 

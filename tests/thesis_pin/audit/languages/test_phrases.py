@@ -2,7 +2,7 @@
 
 import pytest
 
-from thesis_pin.audit.errata.phrases import Phrases
+from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.errors import SpecificationError
 
 TABLE = {
