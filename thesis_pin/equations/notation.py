@@ -12,7 +12,7 @@ import functools
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from lark import Lark, Token, Transformer, UnexpectedInput
 from lark.exceptions import VisitError
@@ -244,6 +244,14 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         above, below = (Number(float(one)) for one in re.findall(r"\d", parts[0]))
         return Quotient(above, below)
 
+    def before(self, parts: list[Any]) -> Node:
+        """{}^0_1R, as R_1^0."""
+        node = parts[1]
+        if not isinstance(node, Symbol):
+            raise ValueError("a superscript before something that isn't a symbol")
+        above, _, below = re.sub(r"[{}\s^]", "", str(parts[0])).partition("_")
+        return replace(node, sup=above + node.sup, sub=below + node.sub)
+
     def slash(self, parts: list[Any]) -> Node:
         return _Slash(parts[0], parts[2])
 
@@ -365,6 +373,8 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
 
     def _argument(self, mark: _Mark, waiting: list[Node]) -> Node:
         """What a function or derivative is of: the factor after it, with a number before it."""
+        if mark.name == "diag" and isinstance(waiting[0], _Arguments):
+            return _Group(_diagonal(cast(_Arguments, waiting.pop(0)).of))
         first = self._next_factor(waiting)
         more = bool(waiting)
         multiple = mark.kind == "function" and isinstance(first, Number) and more
@@ -418,6 +428,9 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
     def _apply(mark: _Mark, argument: Node) -> Node:
         if mark.kind == "derivative":
             return Derivative(_open(argument), mark.by)
+        if mark.name == "diag":
+            inside = _open(argument)
+            return inside if isinstance(inside, Matrix) else _diagonal((inside,))
         exponent = mark.exponent
         # c θ^2 is the square of the cosine
         if isinstance(argument, Power) and isinstance(argument.exponent, int):
@@ -456,6 +469,13 @@ def _differential(node: Node) -> Node | None:
         rest = node.factors[1:]
         return rest[0] if len(rest) == 1 else Product(rest)
     return None
+
+
+def _diagonal(entries: tuple[Node, ...]) -> Matrix:
+    """The diagonal matrix of some entries."""
+    zero = Number(0.0)
+    numbers = range(len(entries))
+    return Matrix(tuple(tuple(entries[i] if i == j else zero for j in numbers) for i in numbers))
 
 
 def _open(node: Node) -> Node:
