@@ -217,6 +217,10 @@ class Catalogue:
             self._parsed[formula] = sides[0]
         return self._parsed[formula]
 
+    def forget(self, formula: str) -> None:
+        """Keep no longer what a formula was read into: long ones take megabytes."""
+        self._parsed.pop(formula, None)
+
     @cached_property
     def definitions(self) -> dict[tuple[str, str, int], Definition]:
         """First definition of each symbol: ("" or "∂", name, dots) → equation and indices."""
