@@ -164,9 +164,10 @@ def test_no_slip_planted_in_a_line_that_holds_goes_unseen():
     for name in ("two_link_arm", "cart_pole", "double_pendulum", "spherical_pendulum"):
         found = thesis(FOLDER / f"{name}.toml", FOLDER / f"{name}.urdf")
         trials = Trials(found.catalogue(), found.ground(found.catalogue()), each=100)
-        answers = Counter(
-            trial.answer for one in found.catalogue().equations for trial in trials.of(one)
-        )
+        with np.errstate(divide="ignore"):  # some slips divide by zero
+            answers = Counter(
+                trial.answer for one in found.catalogue().equations for trial in trials.of(one)
+            )
         assert answers["caught"] > 100
         assert answers["missed"] == answers["same"] == 0
 
