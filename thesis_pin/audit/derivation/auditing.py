@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,6 +19,9 @@ from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
 
 _ONLY = "holds with this robot's numbers, but not when its {what} change"
+_UNFORCED = (
+    "it would hold with no generalized force on {what}: if that is meant, say it in [forces]"
+)
 _GUESS = ("with one change it would hold: {what}", "with any of these it would hold: {what}")
 
 
@@ -28,10 +32,12 @@ class DerivationThesis(Thesis):
     Attributes:
         changes: What of the robot is changed to see whether a line holds for it alone.
         references: What the symbols must equal, for this robot and for changed ones.
+        unforced: The same where nothing pushes some coordinates, with their symbols.
     """
 
     changes: tuple[str, ...] = ()
     references: tuple[References, ...] = ()
+    unforced: Callable[[], tuple[tuple[str, References], ...]] = tuple
 
     def audit(
         self,
@@ -56,6 +62,8 @@ class DerivationThesis(Thesis):
     def _noted(self, row: Row, equations: Catalogue) -> Row:
         one = equations[row.id]
         if row.verdict == "unexplained" and not one.mending and not one.illegible:
+            if passive := self._passive(row, equations):
+                return replace(row, note="; ".join(filter(None, (row.note, passive))))
             found = mends(one, equations, self.references)
             guess = _GUESS[len(found) > 1].format(what=" | ".join(found)) if found else ""
             return replace(row, note="; ".join(filter(None, (row.note, guess))))
@@ -66,6 +74,16 @@ class DerivationThesis(Thesis):
             return row
         note = _ONLY.format(what=" and ".join(self.changes))
         return replace(row, note=f"{row.note}; {note}" if row.note else note)
+
+    def _passive(self, row: Row, equations: Catalogue) -> str:
+        """That a failing line would hold if nothing pushed some coordinate; empty if not."""
+        one = equations[row.id]
+        if row.residual_printed is None or not math.isfinite(row.residual_printed):
+            return ""
+        for symbols, references in self.unforced():
+            if residual(equations, one, one.printed, references, row.left).value < HOLDS:
+                return _UNFORCED.format(what=symbols)
+        return ""
 
 
 def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesis:
@@ -101,6 +119,7 @@ def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesi
         command=f"thesis-pin audit {file} --model {named}",
         changes=made.changes,
         references=tuple(filter(None, (made.references, made.second))),
+        unforced=lambda: made.unforced,
     )
 
 
