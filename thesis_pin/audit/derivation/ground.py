@@ -146,8 +146,9 @@ class Derivation:
         if not definition or one.mending or len(one.printed) > 1:
             return one
         try:
-            for indices in self.plain.indices(*map(self.plain.parse, (one.left, *one.printed))):
-                evaluate(self.plain.parse(one.printed[0]), self.references, indices)
+            with np.errstate(all="ignore"):
+                for indices in self.plain.indices(*map(self.plain.parse, (one.left, *one.printed))):
+                    evaluate(self.plain.parse(one.printed[0]), self.references, indices)
         except TROUBLES:
             return one
         reason = f"stated, not checkable: it defines {definition}, of which the file says no more"
@@ -182,6 +183,15 @@ class Derivation:
         tree, frames = varied(self.tree, self.frames, self.changes, count)
         states = replace(self.states, tree=tree, frames=frames)
         return References(self._driven(states), self.glossary, self.plain)
+
+    @cached_property
+    def points(self) -> References | None:
+        """The references of a robot of point masses; None if a given force would move no mass."""
+        try:
+            states = self._driven(self.states.of_points)
+        except ModelError:
+            return None
+        return References(states, self.glossary, self.plain)
 
     @property
     def described(self) -> str:
