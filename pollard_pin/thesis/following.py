@@ -1,0 +1,133 @@
+"""What following a printed line does in a line that uses it, where the law of motion doesn't.
+
+The symbol that the line defines takes the printed value, all others what they must equal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+from thesis_pin.audit.rows import HOLDS, Effect
+from thesis_pin.audit.severity import users
+from thesis_pin.audit.verdicts import difference
+from thesis_pin.equations import formula as nt
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.values import Value, transpose
+
+TRIED = 24
+"""Lines with the symbol that are followed, those behind it first."""
+
+
+@dataclass(frozen=True)
+class Printed:
+    """Symbols as they must be, but for the one that a printed line defines.
+
+    Attributes:
+        references: What symbols must equal.
+        symbol: What the line defines, or differentiates by q_j.
+        derived: Whether it does.
+        value: Indices → what the print gives.
+    """
+
+    references: Environment
+    symbol: Symbol
+    derived: bool
+    value: Callable[[dict[str, str]], Value]
+
+    @property
+    def columns(self) -> int:
+        """Number of generalized coordinates."""
+        return self.references.columns
+
+    def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
+        """Value of a symbol."""
+        if not self.derived and self._same(symbol, indices):
+            return self.value(indices)
+        return self.references.lookup(symbol, indices)
+
+    def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
+        """Value of a derivative."""
+        if isinstance(of, Symbol):
+            dotted = replace(of, dots=of.dots + 1)
+            if self.derived and by == Symbol("q", "j") and self._same(of, indices):
+                return self.value(indices)
+            if not self.derived and by is None and self._same(dotted, indices):
+                return self.value(indices)
+        return self.references.partial(of, by, indices)
+
+    def _same(self, symbol: Symbol, indices: dict[str, str]) -> bool:
+        own, other = self.symbol.bound(indices), symbol.bound(indices)
+        return (own.name, own.dots) == (other.name, other.dots)
+
+
+def effect_where_used(
+    equations: Catalogue, references: Callable[[Equation], Environment], equation: Equation
+) -> Effect:
+    """Largest change of a line that uses a failing one, relative to its size.
+
+    Args:
+        equations: All equations.
+        references: Equation → what its symbols must equal.
+        equation: The failing line.
+
+    Returns:
+        The change by the line's number or name; empty if none changes, or the print can't be
+        read.
+    """
+    defined, failing = _defined(equations, equation), min(equation.mending, default=0)
+    if defined is None or not 0 < failing <= len(equation.printed):
+        return {}
+    left, derived, turned = defined
+    try:
+        node = equations.parse(equation.printed[failing - 1])
+    except FormulaError:
+        return {}
+
+    def printed(indices: dict[str, str]) -> Value:
+        value = evaluate(node, Unframed(references(equation)), indices)
+        return transpose(value) if turned else value
+
+    found = {}
+    for user in _behind_first(equations, equation):
+        where = Unframed(references(user))
+        both: tuple[Environment, ...] = where, Printed(where, left, derived, printed)
+        try:
+            member = equations.parse(user.members("corrected")[-1])
+            found[user.id] = max(
+                difference(*(evaluate(member, symbols, i) for symbols in both))
+                for i in equations.indices(equations.parse(user.left), member)
+            )
+        except FormulaError:
+            continue
+    worst = max(found, key=lambda name: found[name], default="")
+    if not worst or found[worst] < HOLDS:
+        return {}
+    number = equations[worst].number
+    name = f"({number[0]})" if number else worst.split(":", 1)[1]
+    return {f"change of {name}, which uses it, worst [-]": found[worst]}
+
+
+def _defined(equations: Catalogue, equation: Equation) -> tuple[Symbol, bool, bool] | None:
+    """Symbol that a line defines; whether it is its derivative by q_j, and whether transposed."""
+    node = equations.parse(equation.left)
+    derived = isinstance(node, nt.Derivative) and node.by == Symbol("q", "j")
+    timed = isinstance(node, nt.Derivative) and node.by is None
+    node = node.of if isinstance(node, nt.Derivative) and (derived or timed) else node
+    turned = isinstance(node, nt.Transpose)
+    node = node.of if isinstance(node, nt.Transpose) else node
+    if not isinstance(node, Symbol):
+        return None
+    return (replace(node, dots=node.dots + 1) if timed else node), derived, turned
+
+
+def _behind_first(equations: Catalogue, equation: Equation) -> Iterator[Equation]:
+    """Lines with the symbol, from the line on and then from the thesis's start."""
+    order = {other.id: k for k, other in enumerate(equations.equations)}
+    here = order[equation.id]
+    found = [name for name in users(equations, equation) if equations[name].printed]
+    found = [name for name in found if not equations[name].claim]
+    for name in sorted(found, key=lambda name: (order[name] < here, order[name]))[:TRIED]:
+        yield equations[name]
