@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import functools
+from pathlib import Path
 
 import numpy as np
 
@@ -131,5 +132,6 @@ THESIS = Thesis(
     causes=CAUSES,
     beyond=beyond,
     effects=EFFECTS,
+    spanish=Path(__file__).with_name("spanish.toml"),
 )
 audit = THESIS.audit

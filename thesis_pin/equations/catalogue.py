@@ -217,6 +217,10 @@ class Catalogue:
             self._parsed[formula] = sides[0]
         return self._parsed[formula]
 
+    def forget(self, formula: str) -> None:
+        """Keep no longer what a formula was read into: long ones take megabytes."""
+        self._parsed.pop(formula, None)
+
     @cached_property
     def definitions(self) -> dict[tuple[str, str, int], Definition]:
         """First definition of each symbol: ("" or "∂", name, dots) → equation and indices."""
@@ -242,22 +246,6 @@ class Catalogue:
                     key = (kind, symbol.bound(indices).name, symbol.dots)
                     own = {k: v for k, v in indices.items() if k not in symbol.kept}
                     found.setdefault(key, (equation, own))
-        return found
-
-    @cached_property
-    def used_names(self) -> dict[str, frozenset[str]]:
-        """Names of the symbols in each line's members, as they should be, by the line's id."""
-        found = {}
-        for equation in self.equations:
-            names: set[str] = set()
-            for text in equation.members("corrected"):
-                try:
-                    node = self.parse(text)
-                except FormulaError:
-                    continue
-                for symbol in nt.symbols(node):
-                    names |= {symbol.bound(values).name for values in index_values(symbol)}
-            found[equation.id] = frozenset(names)
         return found
 
 

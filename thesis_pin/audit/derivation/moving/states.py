@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
-from thesis_pin.audit.derivation.coordinates import Coordinates
-from thesis_pin.audit.derivation.motion import Motion
-from thesis_pin.audit.derivation.tree import WORLD, Tree
+from thesis_pin.audit.derivation.moving.coordinates import Coordinates
+from thesis_pin.audit.derivation.moving.motion import Motion
+from thesis_pin.audit.derivation.moving.tree import WORLD, Tree
 from thesis_pin.equations.values import STEP
 from thesis_pin.errors import ModelError, UnknownName
 
