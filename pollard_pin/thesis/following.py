@@ -5,11 +5,11 @@ The symbol that the line defines takes the printed value, all others what they m
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from thesis_pin.audit.rows import HOLDS, Effect
-from thesis_pin.audit.severity import users
 from thesis_pin.audit.verdicts import difference
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.catalogue import Catalogue, Equation
@@ -21,7 +21,7 @@ TRIED = 24
 """Lines with the symbol that are followed, those behind it first."""
 
 
-@dataclass(frozen=True)
+@dataclass
 class Printed:
     """Symbols as they must be, but for the one that a printed line defines.
 
@@ -30,17 +30,14 @@ class Printed:
         symbol: What the line defines, or differentiates by q_j.
         derived: Whether it does.
         value: Indices → what the print gives.
+        columns: Number of generalized coordinates.
     """
 
     references: Environment
     symbol: Symbol
     derived: bool
     value: Callable[[dict[str, str]], Value]
-
-    @property
-    def columns(self) -> int:
-        """Number of generalized coordinates."""
-        return self.references.columns
+    columns: int
 
     def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
         """Value of a symbol."""
@@ -93,7 +90,7 @@ def effect_where_used(
     found = {}
     for user in _behind_first(equations, equation):
         where = Unframed(references(user))
-        both: tuple[Environment, ...] = where, Printed(where, left, derived, printed)
+        both: tuple[Environment, ...] = where, Printed(where, left, derived, printed, where.columns)
         try:
             member = equations.parse(user.members("corrected")[-1])
             found[user.id] = max(
@@ -125,9 +122,34 @@ def _defined(equations: Catalogue, equation: Equation) -> tuple[Symbol, bool, bo
 
 def _behind_first(equations: Catalogue, equation: Equation) -> Iterator[Equation]:
     """Lines with the symbol, from the line on and then from the thesis's start."""
-    order = {other.id: k for k, other in enumerate(equations.equations)}
-    here = order[equation.id]
-    found = [name for name in users(equations, equation) if equations[name].printed]
-    found = [name for name in found if not equations[name].claim]
-    for name in sorted(found, key=lambda name: (order[name] < here, order[name]))[:TRIED]:
-        yield equations[name]
+    node = equations.parse(equation.left)
+    own = {
+        symbol.bound(indices).name
+        for symbol in nt.symbols(node) - {Symbol("q", "j")}
+        for indices in equations.indices(node)
+    }
+    listed, names = equations.equations, _names(equations)
+    here = next(k for k, other in enumerate(listed) if other.id == equation.id)
+    found = [
+        other
+        for other in (*listed[here:], *listed[:here])
+        if other.id != equation.id and own & names[other.id] and other.printed and not other.claim
+    ]
+    yield from found[:TRIED]
+
+
+@functools.lru_cache(maxsize=4)
+def _names(equations: Catalogue) -> dict[str, frozenset[str]]:
+    """Names of the symbols in each line's members, as they should be, by the line's id."""
+    found = {}
+    for equation in equations.equations:
+        names: set[str] = set()
+        for text in equation.members("corrected"):
+            try:
+                inside = nt.symbols(equations.parse(text))
+            except FormulaError:
+                continue
+            for symbol in inside:
+                names |= {symbol.bound(values).name for values in equations.indices(symbol)}
+        found[equation.id] = frozenset(names)
+    return found
