@@ -127,11 +127,14 @@ def _slip(
         " ".join(new.split()),
         (one.before, one.after),
         term_of(text, one.mended[0]),
-        kind or kinds.kinds(print_, put_other(print_, new, one))[0],
+        kind or _kind(one, old, new),
         residual,
     )
 
 
-def put_other(print_: str, new: str, one: Difference) -> str:
-    """The print with one difference mended."""
-    return f"{print_[: one.printed[0]]} {new} {print_[one.printed[1] :]}"
+def _kind(one: Difference, old: str, new: str) -> str:
+    """Kind of a difference, seen between its neighbours: formulas can be pages long."""
+    if old.count("&") != new.count("&") or old.count(r"\\") != new.count(r"\\"):
+        return "column"
+    before, after = (f"{one.before} {text} {one.after}" for text in (old, new))
+    return kinds.kinds(before, after)[0]

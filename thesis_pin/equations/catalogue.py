@@ -168,7 +168,7 @@ class Catalogue:
     def __init__(self, equations: Sequence[Equation], notation: Notation) -> None:
         self.equations = tuple(equations)
         self.notation = notation
-        self._parsed: dict[str, Node] = {}
+        self._parsed: dict[str, Node | FormulaError] = {}
 
     @classmethod
     def read(cls, paths: Sequence[Path], notation: Notation) -> Catalogue:
@@ -211,11 +211,20 @@ class Catalogue:
     def parse(self, formula: str) -> Node:
         """A single expression, read once."""
         if formula not in self._parsed:
+            self._parsed[formula] = self._read(formula)
+        found = self._parsed[formula]
+        if isinstance(found, FormulaError):
+            raise found
+        return found
+
+    def _read(self, formula: str) -> Node | FormulaError:
+        try:
             sides = self.notation.parse(formula)
-            if len(sides) > 1:
-                raise FormulaError("is an equation where an expression belongs")
-            self._parsed[formula] = sides[0]
-        return self._parsed[formula]
+        except FormulaError as error:
+            return error
+        if len(sides) > 1:
+            return FormulaError("is an equation where an expression belongs")
+        return sides[0]
 
     def forget(self, formula: str) -> None:
         """Keep no longer what a formula was read into: long ones take megabytes."""

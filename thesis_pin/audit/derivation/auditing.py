@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from thesis_pin.audit.derivation.effects import EFFECTS, Effects
 from thesis_pin.audit.derivation.ground import Derivation
 from thesis_pin.audit.derivation.mends import mends
@@ -18,6 +20,7 @@ from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
 
 _ONLY = "holds with this robot's numbers, but not when its {what} change"
+_POINTS = "it would hold for point masses: the robot's bodies have inertia about their centres"
 _GUESS = ("with one change it would hold: {what}", "with any of these it would hold: {what}")
 
 
@@ -28,10 +31,12 @@ class DerivationThesis(Thesis):
     Attributes:
         changes: What of the robot is changed to see whether a line holds for it alone.
         references: What the symbols must equal, for this robot and for changed ones.
+        points: The same for a robot of point masses.
     """
 
     changes: tuple[str, ...] = ()
     references: tuple[References, ...] = ()
+    points: References | None = None
 
     def audit(
         self,
@@ -44,10 +49,11 @@ class DerivationThesis(Thesis):
     ) -> AuditReport:
         """As :meth:`Thesis.audit`; lines that hold for this robot alone say so in a note."""
         equations = equations or self.catalogue()
-        report = super().audit(
-            equations, only=only, with_effects=with_effects, jobs=1, progress=progress
-        )
-        rows = tuple(self._noted(row, equations) for row in report.rows)
+        with np.errstate(all="ignore"):  # what isn't finite is that line's error
+            report = super().audit(
+                equations, only=only, with_effects=with_effects, jobs=1, progress=progress
+            )
+            rows = tuple(self._noted(row, equations) for row in report.rows)
         noted = (new for new, old in zip(rows, report.rows, strict=True) if new.note != old.note)
         alone = sum(row.verdict == "holds" for row in noted)
         told = f" {alone} hold with this robot's numbers alone." if alone else ""
@@ -56,9 +62,9 @@ class DerivationThesis(Thesis):
     def _noted(self, row: Row, equations: Catalogue) -> Row:
         one = equations[row.id]
         if row.verdict == "unexplained" and not one.mending and not one.illegible:
-            found = mends(one, equations, self.references)
-            guess = _GUESS[len(found) > 1].format(what=" | ".join(found)) if found else ""
-            return replace(row, note="; ".join(filter(None, (row.note, guess))))
+            return replace(
+                row, note="; ".join(filter(None, (row.note, self._guess(row, equations))))
+            )
         if row.verdict != "holds" or all(
             residual(equations, one, one.printed, other, row.left).value < HOLDS
             for other in self.references[1:]
@@ -66,6 +72,17 @@ class DerivationThesis(Thesis):
             return row
         note = _ONLY.format(what=" and ".join(self.changes))
         return replace(row, note=f"{row.note}; {note}" if row.note else note)
+
+    def _guess(self, row: Row, equations: Catalogue) -> str:
+        """What would make a line hold that fails and that nothing is given in the place of."""
+        one = equations[row.id]
+        if (
+            self.points
+            and residual(equations, one, one.printed, self.points, row.left).value < HOLDS
+        ):
+            return _POINTS
+        found = mends(one, equations, self.references)
+        return _GUESS[len(found) > 1].format(what=" | ".join(found)) if found else ""
 
 
 def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesis:
@@ -100,6 +117,7 @@ def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesi
         effects=EFFECTS,
         command=f"thesis-pin audit {file} --model {named}",
         changes=made.changes,
+        points=made.points,
         references=tuple(filter(None, (made.references, made.second))),
     )
 

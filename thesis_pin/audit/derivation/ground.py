@@ -122,8 +122,9 @@ class Derivation:
         if not definition or one.mending or len(one.printed) > 1:
             return one
         try:
-            for indices in self.plain.indices(*map(self.plain.parse, (one.left, *one.printed))):
-                evaluate(self.plain.parse(one.printed[0]), self.references, indices)
+            with np.errstate(all="ignore"):
+                for indices in self.plain.indices(*map(self.plain.parse, (one.left, *one.printed))):
+                    evaluate(self.plain.parse(one.printed[0]), self.references, indices)
         except TROUBLES:
             return one
         reason = f"stated, not checkable: it defines {definition}, of which the file says no more"
@@ -158,6 +159,11 @@ class Derivation:
         tree, frames = varied(self.tree, self.frames, self.changes, count)
         states = replace(self.states, tree=tree, frames=frames)
         return References(states, self.glossary, self.plain)
+
+    @cached_property
+    def points(self) -> References:
+        """The references of a robot of point masses."""
+        return References(self.states.of_points, self.glossary, self.plain)
 
     @property
     def described(self) -> str:
