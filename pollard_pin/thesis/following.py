@@ -83,13 +83,14 @@ def effect_where_used(
     except FormulaError:
         return {}
 
-    def printed(indices: dict[str, str]) -> Value:
-        value = evaluate(node, Unframed(references(equation)), indices)
-        return transpose(value) if turned else value
-
     found = {}
     for user in _behind_first(equations, equation):
         where = Unframed(references(user))
+
+        def printed(indices: dict[str, str], where: Environment = where) -> Value:
+            value = evaluate(node, where, indices)
+            return transpose(value) if turned else value
+
         both: tuple[Environment, ...] = where, Printed(where, left, derived, printed, where.columns)
         try:
             member = equations.parse(user.members("corrected")[-1])
