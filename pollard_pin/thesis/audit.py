@@ -18,6 +18,7 @@ from pollard_pin.thesis.references import LoopReferences, OpenReferences, Refere
 from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
+from pollard_pin.thesis.symbols.elements import elements
 from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.audit.text import ranges
 from thesis_pin.audit.thesis import Ground, Thesis
@@ -112,7 +113,9 @@ def ground(equations: Catalogue) -> Ground:
     closed = environments.closed
 
     def substituted(equation: Equation) -> Environment | None:
-        return environments.coefficients if substitutes(equations, equation) else None
+        if substitutes(equations, equation):
+            return environments.coefficients
+        return elements(equations, equation)
 
     return Ground(
         described,
