@@ -114,4 +114,5 @@ class Coordinates(Symbols):
     def _of_g(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub or symbol.sup or symbol.dots:
             return None
-        return vector(np.array([[[0, 0, -GRAVITY]]])) if symbol.bold else scalar(GRAVITY)
+        down = -GRAVITY * self.state.own("k0")
+        return vector(down[None, None]) if symbol.bold else scalar(GRAVITY)

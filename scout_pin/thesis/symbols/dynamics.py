@@ -114,7 +114,7 @@ class Dynamics(Vectors):
 
     def _potential(self, body: str) -> np.ndarray:
         mass = self.state.parameters.values[f"m_{body}"]
-        return np.asarray(GRAVITY * mass * self.bodies[body].centre[..., 2])
+        return np.asarray(GRAVITY * mass * (self.bodies[body].centre @ self.state.own("k0")))
 
     def _of_L(self, symbol: Symbol, i: str) -> Value | None:
         bodies = [symbol.sub] if symbol.sub in BODIES else list(BODIES) if not symbol.sub else []
@@ -155,7 +155,8 @@ class Dynamics(Vectors):
         if body not in BODIES or j != "j" or symbol.primes != 1:
             return None
         weight = -GRAVITY * self.state.parameters.values[f"m_{body}"]
-        return scalar(weight * self.state.centre(body)[1][:, 0, 2, :])
+        up = np.einsum("njkl,k->njl", self.state.centre(body)[1], self.state.own("k0"))
+        return scalar(weight * up[:, 0])
 
     @cached_property
     def terms(self) -> lagrangian.Terms:

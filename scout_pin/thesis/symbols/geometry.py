@@ -13,7 +13,6 @@ from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.frames import Frames
 from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
 
-_UNIT = {"i": np.array([1.0, 0, 0]), "j": np.array([0, 1.0, 0]), "k": np.array([0, 0, 1.0])}
 # The axes ω is made of (3.10): letter and number of each joint's axis vector.
 JOINT_AXES = {"k0": 1, "j2": 2, "k4": 3, "k6": 4, "k8": 5, "i10": 6}
 _EULER_AXES = {"itheta": 0, "jphi": 1, "kpsi": 2}
@@ -59,7 +58,7 @@ class Geometry(Coordinates):
             return ZERO
         if symbol.dots:
             return None
-        unit = np.broadcast_to(_UNIT[letter], (1, 1, 3))
+        unit = np.broadcast_to(self.state.own(letter + sub), (1, 1, 3))
         if sub == "0" or not symbol.sup:
             return vector(unit)
         if symbol.sup != "0":
