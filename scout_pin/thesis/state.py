@@ -8,7 +8,7 @@ Every array may be complex: that is how second derivatives are taken.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -193,14 +193,23 @@ class State:
         return frames
 
     def _then(
-        self, frame: Dual, move: str, by: np.ndarray, speeds: dict[int, float], axis: str
+        self, frame: Dual, move: str, by: np.ndarray, speeds: Mapping[Hashable, float], axis: str
     ) -> Dual:
         """A frame after an elementary move along or about one of the thesis's vectors."""
         return frame.then(move, by, speeds)
 
+    @property
+    def steady(self) -> bool:
+        """Whether unit vectors stay as they are in their own frames."""
+        return True
+
     def own(self, name: str) -> np.ndarray:
         """Components of a unit vector in its own frame: "k111" is (0, 0, 1)."""
         return UNIT[name[0]]
+
+    def turned(self, body: str, name: str) -> np.ndarray:
+        """A unit vector of a link's frame in the world, shape ``(N, J, 3)``."""
+        return np.asarray((self.frame(body).rotation @ self.own(name)[..., None])[..., 0])
 
     def frame(self, body: str) -> Dual:
         """Frame of a link: "B" or "31" for link 3 of the left leg; "71" is its sole."""

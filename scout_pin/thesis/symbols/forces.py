@@ -80,8 +80,7 @@ class Forces(Dynamics):
         if symbol.sub not in ("1", "2") or symbol.sup != "0" or symbol.dots:
             return None
         length = self.state.parameters.values[f"b{symbol.sub}_y"][..., None]
-        turned = self.state.frame(f"7{symbol.sub}").rotation
-        return vector(length * (turned @ self.state.own(f"j14{symbol.sub}")))
+        return vector(length * self.state.turned(f"7{symbol.sub}", f"j14{symbol.sub}"))
 
     def constraint(self, number: int, interval: int) -> np.ndarray:
         """φ_number of interval T_interval, as (4.15), (4.19), (4.21) say in words.
@@ -97,13 +96,13 @@ class Forces(Dynamics):
             vector_l = self._of_l(Symbol("l", str(i), "0"), "")
             assert vector_l
             offset = self.state.parameters.values[f"b{i}_y"] if which == 2 else 0.0
-            return np.asarray(vector_l.array @ axis - offset)
+            return np.asarray((vector_l.array * axis).sum(axis=-1) - offset)
         if which <= 5:
             turning = self._axis(f"k8{i}")
             assert turning is not None
-            return np.asarray(turning @ self.state.own({4: "j0", 5: "k0"}[which]))
-        upright = self.state.frame(f"6{i}").rotation @ self.state.own(f"k11{i}")
-        return np.asarray(upright @ self.state.own("k0"))
+            return np.asarray((turning * self.state.own({4: "j0", 5: "k0"}[which])).sum(axis=-1))
+        upright = self.state.turned(f"6{i}", f"k11{i}")
+        return np.asarray((upright * self.state.own("k0")).sum(axis=-1))
 
     def _of_varphi(self, symbol: Symbol, i: str) -> Value | None:
         limits = {"1": 6, "2": 12, "3": 6}

@@ -54,20 +54,19 @@ class Geometry(Coordinates):
         letter, sub = symbol.base, symbol.sub
         if not symbol.sup and frames.own_frame(letter + sub) is None:
             return None
-        if symbol.dots and (sub == "0" or not symbol.sup):
-            return ZERO
         if symbol.dots:
-            return None
-        unit = np.broadcast_to(self.state.own(letter + sub), (1, 1, 3))
+            still = self.state.steady and (sub == "0" or not symbol.sup)
+            return ZERO if still else None
         if sub == "0" or not symbol.sup:
-            return vector(unit)
+            own = self.state.own(letter + sub)
+            return vector(np.broadcast_to(own, np.broadcast_shapes(own.shape, (1, 1, 3))))
         if symbol.sup != "0":
             return None
         axis = self._axis(letter + sub)
         if axis is not None:
             return vector(axis)
         body = self._body(sub)
-        return None if body is None else vector(self.state.frame(body).rotation @ unit[0, 0])
+        return None if body is None else vector(self.state.turned(body, letter + sub))
 
     _of_j = _of_k = _of_i
 
