@@ -27,7 +27,8 @@ for edition in ("corrected", "printed"):
     texts = (f"{name} {one:+.3f}" for name, one in zip(ACTUATOR_SYMBOLS, torque, strict=True))
     print(f"  motors would need {', '.join(texts)} N·m")
     lost = [line for line, why in model.substituted.items() if "follows from the rest" in why]
-    print(f"  {len(lost)} lines are lost in the text; what follows from the rest stands in")
+    if lost:
+        print(f"  {len(lost)} lines are lost in the text; what follows from the rest stands in")
     replaced = len(model.substituted) - len(lost)
     if replaced:
         print(f"  {replaced} printed lines can't be computed; their corrections stand in")

@@ -40,6 +40,9 @@ from .report.torque.document import (
     torque_report as torque_report,
 )
 
+# Printed equations
+from .audit.derivation.auditing import audit_derivation as audit_derivation
+
 # Servos and motors
 from .sizing.catalogue import read_catalogue as read_catalogue
 from .sizing.motors import motor_family as motor_family

@@ -293,6 +293,11 @@ CONTRADICTIONS = {
     "pollard-pin info": [["--json", "-", "--html", "-"]],
     "pollard-pin urdf": [],
     "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
+    "thesis-pin audit": [
+        ["--equation", "G_1", "--every"],
+        ["--equation", "nowhere"],
+        ["--markdown", "-", "--html", "-"],
+    ],
     "thesis-pin balance": [
         ["--slope", "95"],
         ["--slope", "5,1,2"],

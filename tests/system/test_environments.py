@@ -10,6 +10,7 @@ from commands import COMMANDS, MODULES
 
 ROOT = Path(__file__).parents[2]
 DELTA = ["examples/delta.urdf", "examples/delta.yaml"]
+CART = "examples/your_derivation/cart_pole.urdf"
 VERBS = {
     "scout-pin": (
         ["gait"],
@@ -53,6 +54,7 @@ VERBS = {
         ["size", *DELTA, "examples/delta_pick.csv"],
         ["view", *DELTA, "examples/delta_pick.csv", "--html", "-"],
         ["workspace", *DELTA],
+        ["audit", "examples/your_derivation/cart_pole.toml", "--model", CART],
         ["formats"],
     ),
 }

@@ -43,6 +43,7 @@ def markdown(report: AuditReport, command: str) -> str:
         lines.append(f"| {section.name} | {section.rows} | {section.checked} | {gaps} |")
     lines += ["", "Outside the audit:", ""]
     lines += [f"- {what}: {why}." for what, why in report.beyond]
+    lines += _lost([row for row in report.rows if row.verdict == "rebuilt"])
     lines += ["", "## Verdicts by chapter", ""]
     lines += _table(chapter_table(report))
     lines += ["", "## Mended lines by kind of slip", ""]
@@ -57,6 +58,25 @@ def markdown(report: AuditReport, command: str) -> str:
     for row in report.failures:
         lines += _row(row)
     return "\n".join(lines) + "\n"
+
+
+_LOST = (
+    "Of these lines the source text has nothing, or a piece. What follows for each from the rest",
+    "holds, which says nothing of the lost print; `audit --equation` shows it.",
+)
+
+
+def _lost(rows: Sequence[Row]) -> Iterator[str]:
+    """Lost lines: where they stand or should stand, what is missing, what they follow from."""
+    if not rows:
+        return
+    yield from ("", "## Lost lines, rebuilt", "", *_LOST, "")
+    yield "| line | source line | what is missing | rebuilt from |"
+    yield "| --- | ---: | --- | --- |"
+    for row in rows:
+        cells = (row.id.split(":", 1)[1], str(row.line), row.reason, row.note)
+        said = [_cell(cell.removeprefix("rebuilt: ")) for cell in cells]
+        yield f"| {' | '.join(said)} |"
 
 
 def _table(table: Table) -> Iterator[str]:
@@ -104,6 +124,8 @@ def _row(row: Row) -> Iterator[str]:
     if row.note:
         yield f"{row.note[:1].upper()}{row.note[1:]}."
     yield ""
+    if row.line:
+        yield f"- line of the source text: {row.line}"
     yield f"- residual as printed: {residual_text(row.residual_printed)}"
     if row.reason:
         yield f"- finding: {row.reason}"

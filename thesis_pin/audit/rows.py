@@ -50,8 +50,8 @@ class Row(Brief):
         verdict: One of :data:`VERDICTS`.
         attribution: "thesis" or "scan", where somebody slipped.
         why: Reason for the attribution.
-        residual_printed, residual_corrected: See :class:`Residual`; None where
-            there is nothing to evaluate.
+        residual_printed, residual_corrected: See
+            :class:`thesis_pin.audit.residuals.Residual`; None where there is nothing to evaluate.
         places: Where the correction differs from the print.
         kinds: What kind of slip that is, of :data:`thesis_pin.audit.kinds.KINDS`.
         reason: Why the print can't be evaluated, or isn't checked.

@@ -9,9 +9,11 @@ from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 
+from thesis_pin.audit.residuals import TROUBLES, what
 from thesis_pin.audit.rows import AuditReport, Effect, Row
+from thesis_pin.audit.severity import severity, without_effect
 from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.verdicts import TROUBLES, Claims, judge, what
+from thesis_pin.audit.verdicts import Claims, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
 from thesis_pin.numeric.checks import whole
@@ -54,6 +56,7 @@ class Thesis:
         causes: Each slip that several lines share, by its name in the data.
         beyond: Equations → what lies outside the audit, and why.
         effects: What the effects are, as lines for the document.
+        command: What runs the audit, where it isn't ``ROBOT-pin audit``.
     """
 
     name: str
@@ -64,11 +67,19 @@ class Thesis:
     causes: Mapping[str, Cause]
     beyond: Callable[[Catalogue], tuple[tuple[str, str], ...]]
     effects: tuple[str, ...]
+    command: str = ""
+
+    @property
+    def audit_command(self) -> str:
+        """What runs the audit."""
+        return self.command or f"{self.robot}-pin audit"
 
     @property
     def document_command(self) -> str:
         """What regenerates the checked-in document."""
-        return f"{self.robot}-pin audit --markdown docs/audit/{self.robot}.md"
+        if self.command:
+            return f"{self.command} --markdown FILE"
+        return f"{self.audit_command} --markdown docs/audit/{self.robot}.md"
 
     def audit(
         self,
@@ -134,12 +145,14 @@ class _Judge:
         environment = self.ground.references(equation)
         ground, free = self.ground, self.ground.substituted(equation)
         row = judge(self.equations, equation, environment, ground.claims, self.name, free)
-        if not row.failed or row.effect:
+        if not row.failed or not self.with_effects:
             return row
-        effect = self._effect(equation) if self.with_effects else {}
+        effect = row.effect or self._effect(equation)
+        nothing = without_effect(self.equations, equation, row, effect)
         if not effect and row.residual_printed == math.inf:
             effect = {"this line": "can't be computed"}
-        return replace(row, effect=effect)
+        weight = severity(row, effect, nothing)
+        return replace(row, effect=effect, no_effect=nothing, severity=weight)
 
     def _effect(self, equation: Equation) -> Effect:
         try:

@@ -13,45 +13,17 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import numpy as np
-
-from thesis_pin.audit import kinds, places
+from thesis_pin.audit import kinds, places, single
 from thesis_pin.audit.reading import Reading
+from thesis_pin.audit.residuals import TROUBLES, residual_as_said, what
+from thesis_pin.audit.residuals import difference as difference
+from thesis_pin.audit.residuals import largest_relative as largest_relative
+from thesis_pin.audit.residuals import residual as residual
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Verdict
-from thesis_pin.equations import frames
-from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
-from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
-from thesis_pin.equations.formula import FormulaError, FrameError
-from thesis_pin.equations.values import Value
-from thesis_pin.errors import BadInput
-
-_FLOOR = 1e-3  # what counts as zero is zero against this
-_OTHER_FRAME = 1.0
-"""Residual of a member seen from another frame whose numbers happen to agree."""
-
-TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
-"""What a line that can't be read or evaluated raises: it is that line's error alone."""
-
-
-def what(error: Exception) -> str:
-    """Why a line can't be evaluated, in words."""
-    return error.what if isinstance(error, BadInput) else f"can't be evaluated: {error}"
-
-
-@dataclass(frozen=True)
-class Residual:
-    """How far a formula is from what it must equal.
-
-    Attributes:
-        value: Largest difference over all states, relative to the larger side;
-            infinity if the formula can't be evaluated, 1 if nothing but its frames differ.
-        members: The same for each member.
-        reason: Why it can't be evaluated.
-    """
-
-    value: float
-    members: tuple[float, ...] = ()
-    reason: str = ""
+from thesis_pin.audit.slips import Slip
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.evaluation import Environment
+from thesis_pin.equations.formula import FormulaError
 
 
 @dataclass(frozen=True)
@@ -88,88 +60,6 @@ def verdict(printed: float, mended: float | None, *, physical: bool) -> Verdict:
     if mended is not None and mended < HOLDS:
         return "wrong" if physical else "misprint"
     return "unexplained"
-
-
-def difference(left: Value, right: Value) -> float:
-    """Largest difference of two values, relative to the larger of them.
-
-    Raises:
-        FormulaError: They have different shapes, or are seen from different frames.
-    """
-    if min(left.rank, right.rank) >= 0 and (left.rank != right.rank or left.tail != right.tail):
-        raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
-    if not frames.same(left.frames, right.frames):
-        raise FrameError(f"is {right.seen()} where {left.seen()} belongs")
-    gap = float(np.abs(left.array - right.array).max())
-    if not math.isfinite(gap):
-        raise FormulaError("isn't finite")
-    return gap / max(float(np.abs(left.array).max()), float(np.abs(right.array).max()), _FLOOR)
-
-
-def largest_relative(found: np.ndarray, truth: np.ndarray) -> float:
-    """Largest error of a state, relative to that state's largest entry; states come first."""
-    axes = tuple(range(1, truth.ndim))
-    return float((np.abs(found - truth).max(axis=axes) / np.abs(truth).max(axis=axes)).max())
-
-
-def residual(
-    catalogue: Catalogue,
-    equation: Equation,
-    members: Sequence[str],
-    environment: Environment,
-    left: str,
-) -> Residual:
-    """How far members are from the left side, symbols taken from the environment."""
-    values, reasons = [], []
-    for number, member in enumerate(members, start=1):
-        if number in equation.imposes:
-            continue
-        try:
-            values.append(max(_member(catalogue, left, member, environment)))
-        except TROUBLES as error:
-            values.append(_without_frames(catalogue, left, member, environment, error))
-            reasons.append(f"member {number} {what(error)}" if len(members) > 1 else what(error))
-    return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
-
-
-def _without_frames(
-    catalogue: Catalogue, left: str, member: str, environment: Environment, error: Exception
-) -> float:
-    """Residual of a member that raised: of its numbers, if only its frames don't fit."""
-    if not isinstance(error, FrameError):
-        return math.inf
-    try:
-        found = max(_member(catalogue, left, member, Unframed(environment)))
-    except TROUBLES:
-        return math.inf
-    return found if found > HOLDS else _OTHER_FRAME
-
-
-def _member(
-    catalogue: Catalogue, left: str, member: str, environment: Environment
-) -> Iterator[float]:
-    if not member:
-        raise FormulaError("is empty")
-    sides = catalogue.parse(left), catalogue.parse(member)
-    for indices in index_values(*sides):
-        first, second = (evaluate(side, environment, indices) for side in sides)
-        yield difference(first, second)
-
-
-def residual_as_said(
-    catalogue: Catalogue,
-    equation: Equation,
-    members: Sequence[str],
-    environments: Sequence[Environment],
-    left: str,
-) -> Residual:
-    """How far members are from the left side in the first environment where they don't hold."""
-    found = Residual(math.inf)
-    for environment in environments:
-        found = residual(catalogue, equation, members, environment, left)
-        if found.value >= HOLDS:
-            break
-    return found
 
 
 def judge(
@@ -213,6 +103,13 @@ def judge(
     if equation.not_checkable:
         return _with(row, reason=equation.not_checkable)
     if equation.claim:
+
+        def claimed_alone(changed: Equation) -> float:
+            try:
+                return _claim(claims, equation)(Reading.of(changed)).printed
+            except TROUBLES:
+                return math.inf
+
         reading = Reading.of(equation)
         try:
             result = _claim(claims, equation)(reading)
@@ -233,8 +130,14 @@ def judge(
             reason=result.note,
             effect=result.effect,
             places=tuple(_places(equation)),
+            slips=_slips(catalogue, equation, answer, claimed_alone),
         )
     grounds = (environment, substituted) if substituted else (environment,)
+
+    def printed_alone(changed: Equation) -> float:
+        found = residual_as_said(catalogue, changed, changed.printed, grounds, changed.left)
+        return found.value
+
     printed = residual_as_said(catalogue, equation, equation.printed, grounds, row.left)
     mended = None
     if equation.mending or equation.left_printed:
@@ -250,7 +153,17 @@ def judge(
         residual_corrected=mended.value if mended else None,
         reason=printed.reason or (mended.reason if mended else ""),
         places=tuple(_places(equation)),
+        slips=_slips(catalogue, equation, answer, printed_alone),
     )
+
+
+def _slips(
+    catalogue: Catalogue, equation: Equation, answer: Verdict, residual: single.Test
+) -> tuple[Slip, ...]:
+    """What is wrong with a failing line, each slip by itself; none where nothing mends it."""
+    if answer not in ("misprint", "wrong"):
+        return ()
+    return tuple(single.slips(catalogue, equation, residual))
 
 
 def _claim(claims: Claims, equation: Equation) -> Callable[[Equation], ClaimResult]:

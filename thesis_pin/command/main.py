@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from thesis_pin.command.flags.options import add_json, add_report, add_view
+from thesis_pin.command.flags.options import add_audit, add_json, add_report, add_view
 from thesis_pin.command.flags.words import (
     perhaps_motion,
     strictly,
     where_to,
+    which_derivation,
     which_grid,
     which_list,
     which_motion,
@@ -133,6 +134,16 @@ COMMAND = Command(
                 where_to,
                 partial(add_json, what="the grid"),
             ),
+        ),
+        Verb(
+            "audit",
+            "are the printed equations of a derivation right?",
+            "A computed verdict on every equation of anyone's derivation, held against Pinocchio.",
+            "audit examples/your_derivation/two_link_arm.toml "
+            "--model examples/your_derivation/two_link_arm.urdf",
+            "thesis_pin.audit.derivation.auditing:audit_derivation",
+            "thesis_pin.command.verbs.audit:derivation",
+            (which_derivation, add_audit),
         ),
         Verb(
             "formats",

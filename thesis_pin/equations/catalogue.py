@@ -8,6 +8,7 @@ is computed (:mod:`thesis_pin.audit.verdicts`).
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator, Sequence
 from functools import cached_property
@@ -187,6 +188,19 @@ class Catalogue:
         """Equations by id."""
         return {equation.id: equation for equation in self.equations}
 
+    def indices(self, *nodes: Node) -> Iterator[dict[str, str]]:
+        """All values of the index letters that some formulas share."""
+        ranges = self.notation.ranges
+        if ranges is None:
+            yield from index_values(*nodes)
+            return
+        found = {
+            letter for one in nt.symbols(nodes) for letter in set(one.sub + one.sup) - set(one.kept)
+        } - nt.summed(nodes)
+        used = [(letter, values) for letter, values in ranges if letter in found]
+        for chosen in itertools.product(*(values for _, values in used)):
+            yield dict(zip((letter for letter, _ in used), chosen, strict=True))
+
     def with_equation(self, changed: Equation) -> Catalogue:
         """The same catalogue with one equation replaced by another of its id."""
         listed = [changed if e.id == changed.id else e for e in self.equations]
@@ -224,10 +238,26 @@ class Catalogue:
                     symbol = symbol.of
                 if not isinstance(symbol, Symbol):
                     continue
-                for indices in index_values(node):
+                for indices in self.indices(node):
                     key = (kind, symbol.bound(indices).name, symbol.dots)
                     own = {k: v for k, v in indices.items() if k not in symbol.kept}
                     found.setdefault(key, (equation, own))
+        return found
+
+    @cached_property
+    def used_names(self) -> dict[str, frozenset[str]]:
+        """Names of the symbols in each line's members, as they should be, by the line's id."""
+        found = {}
+        for equation in self.equations:
+            names: set[str] = set()
+            for text in equation.members("corrected"):
+                try:
+                    node = self.parse(text)
+                except FormulaError:
+                    continue
+                for symbol in nt.symbols(node):
+                    names |= {symbol.bound(values).name for values in index_values(symbol)}
+            found[equation.id] = frozenset(names)
         return found
 
 

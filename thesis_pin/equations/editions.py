@@ -9,6 +9,7 @@ from thesis_pin.equations.catalogue import Catalogue, Edition, Equation
 from thesis_pin.equations.evaluation import Movable, evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
 from thesis_pin.equations.frames import ANY
+from thesis_pin.equations.symbols import refuse_accelerations
 from thesis_pin.equations.values import Value, imaginary, transpose
 
 Slot = tuple[str, str, int, str]
@@ -101,6 +102,7 @@ class EditionEnvironment:
             found = self._defined("", dotted, indices)
             if found is not None:
                 return found
+        refuse_accelerations(by)
         key = (None if by is None else by.name, bool(by and by.dots))
         if key not in self._moved:
             self._moved[key] = EditionEnvironment(

@@ -13,6 +13,18 @@ class FormulaError(BadInput):
     """A formula can't be read or evaluated."""
 
 
+class Unreadable(FormulaError):
+    """A formula isn't in the notation.
+
+    Attributes:
+        position: Number of the character at which that shows, from 0.
+    """
+
+    def __init__(self, what: str, position: int) -> None:
+        self.position = position
+        super().__init__(what, allowed="the notation of notation.lark")
+
+
 class FrameError(FormulaError):
     """A formula puts together what is seen from different frames."""
 
@@ -178,4 +190,14 @@ def symbols(node: object) -> set[Symbol]:
         return set().union(*(symbols(part) for part in node)) if node else set()
     if isinstance(node, Node):
         return symbols(tuple(vars(node).values()))
+    return set()
+
+
+def summed(node: object) -> set[str]:
+    """Index letters that sums in a formula run over."""
+    if isinstance(node, tuple | list):
+        return set().union(*(summed(part) for part in node)) if node else set()
+    if isinstance(node, Node):
+        own = {node.index} if isinstance(node, Series) else set()
+        return own | summed(tuple(vars(node).values()))
     return set()

@@ -1,4 +1,4 @@
-"""From a printed formula to a tree: one grammar for both theses.
+"""From a printed formula to a tree: one grammar for both theses, and for other derivations.
 
 The grammar (``notation.lark``) knows LaTeX; this module knows what the theses
 mean by it: ``c θ`` and ``s(α + β)`` are cosine and sine, ``c θ^2`` is the
@@ -34,7 +34,9 @@ from thesis_pin.equations.formula import (
     Sum,
     Symbol,
     Transpose,
+    Unreadable,
 )
+from thesis_pin.equations.layout import plain
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,18 @@ class _Group(Node):
 
 
 @dataclass(frozen=True)
+class _Arguments(Node):
+    """What a symbol depends on, as (q, t) after M."""
+
+    of: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class _Slash(Quotient):
+    """A fraction on one line, of which the factors beside it may be parts."""
+
+
+@dataclass(frozen=True)
 class Notation:
     """What the letters of one thesis mean.
 
@@ -65,6 +79,14 @@ class Notation:
         ignored_arguments: Brackets after a symbol that say only what it depends on.
         chains: Bases whose index i stays in the name: with i = 1 the vector k_{2i} of a
             side chain would become k_21, which is another vector of chain 0.
+        shorthand: Letters that stand for a function of the angle after them.
+        declared: Letters that are symbols wherever they stand, though d and δ otherwise are
+            differentials, and c and s functions.
+        factors: Names of symbols that a bracket after them multiplies, where any other symbol
+            depends on what it holds, as M(q, t); None where only
+            ``ignored_arguments`` say so.
+        ranges: Letters in subscripts that are indices, with their values; None for those of
+            both theses.
     """
 
     functions: frozenset[str] = frozenset()
@@ -72,6 +94,10 @@ class Notation:
     labelled: frozenset[str] = frozenset()
     ignored_arguments: frozenset[str] = frozenset({"t", "q_j"})
     chains: frozenset[str] = frozenset()
+    shorthand: tuple[tuple[str, str], ...] = (("c", "cos"), ("s", "sin"))
+    declared: frozenset[str] = frozenset()
+    factors: frozenset[str] | None = None
+    ranges: tuple[tuple[str, tuple[str, ...]], ...] | None = None
 
     def parse(self, formula: str) -> tuple[Node, ...]:
         """Read a formula.
@@ -86,12 +112,14 @@ class Notation:
             FormulaError: The formula isn't in the notation; says where.
         """
         try:
-            return _builder(self).transform(_parser(self.words).parse(formula))
+            return _builder(self).transform(_parser(self.words).parse(plain(formula)))
         except UnexpectedInput as error:
             at = error.pos_in_stream or 0
             place = formula[max(0, at - 25) : at + 25]
-            raise FormulaError(
-                f"the formula can't be read near '{place}'", allowed="the notation of notation.lark"
+            raise Unreadable(
+                f"the formula can't be read near '{place}'",
+                # After the last character lark counts from the last token.
+                len(formula) if getattr(error, "token", Token("", "")).type == "$END" else at,
             ) from None
         except VisitError as error:
             raise FormulaError(f"the formula can't be read: {error.orig_exc}") from None
@@ -116,6 +144,7 @@ def _builder(notation: Notation) -> _Builder:
     return _Builder(notation)
 
 
+_TRANSPOSED = ("top", "intercal", "mathsfT", "rmT")
 _PREFIX = {"\\mathbb": "bb", "\\mathcal": "cal"}
 _FONTS = re.compile(r"\\(mathbf|boldsymbol|mathrm|text|bm)(?![a-zA-Z])")
 
@@ -158,6 +187,10 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
 
     def accent(self, parts: list[Any]) -> Node:
         dots, node = (2 if "dd" in str(parts[0]) else 1), _open(parts[1])
+        if "dot" not in parts[0] and isinstance(node, Symbol):
+            if "vec" in parts[0]:
+                return replace(node, bold=True)
+            return replace(node, base=f"{str(parts[0])[1:]}:{node.base}")
         if isinstance(node, Symbol):
             return replace(node, dots=node.dots + dots)
         raise ValueError("a dot above something that isn't a symbol")
@@ -201,9 +234,21 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
     def quotient(self, parts: list[Any]) -> Node:
         above, below = _open(parts[1]), _open(parts[2])
         of, by = _differential(above), _differential(below)
+        if "d" in self.notation.declared:
+            return Quotient(above, below)
         if of is not None and by is not None:
             return Derivative(of, None if by == Symbol("t") else by)
         return Quotient(above, below)
+
+    def digits(self, parts: list[Token]) -> Node:
+        above, below = (Number(float(one)) for one in re.findall(r"\d", parts[0]))
+        return Quotient(above, below)
+
+    def slash(self, parts: list[Any]) -> Node:
+        return _Slash(parts[0], parts[2])
+
+    def arguments(self, parts: list[Any]) -> Node:
+        return _Arguments(tuple(_open(part) for part in parts if not isinstance(part, Token)))
 
     def scripted(self, parts: list[Any]) -> Node:
         node: Node = parts[0]
@@ -219,8 +264,10 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         text = flatten(script[1:])
         if script.startswith("_"):
             if isinstance(node, Symbol):
-                return replace(node, sub=node.sub + text)
+                kept = self._not_indices(script) or node.kept
+                return replace(node, sub=node.sub + text, kept=kept)
             raise ValueError("a subscript on something that isn't a symbol")
+        text = "T" if text in _TRANSPOSED else text
         transposed = text.endswith("T")
         label = text.removesuffix("T") if transposed else text
         if isinstance(node, _Group) and label.isdigit() and not transposed:
@@ -242,6 +289,14 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
                 raise ValueError(f"a superscript {label!r} that is neither a frame nor a power")
         return Transpose(node) if transposed else node
 
+    def _not_indices(self, script: str) -> str:
+        """Letters of a subscript that aren't indices, where there is a word in it."""
+        if self.notation.ranges is None:
+            return ""
+        letters = "".join(letter for letter, _ in self.notation.ranges)
+        words = re.findall(r"[a-zA-Z]{3,}", _FONTS.sub(" ", script))
+        return letters if any(set(word) - set(letters) for word in words) else ""
+
     def _is_label(self, node: Symbol, label: str) -> bool:
         return (
             node.bold
@@ -259,20 +314,34 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
 
     def _next_factor(self, waiting: list[Node]) -> Node:
         node = waiting.pop(0)
+        if isinstance(node, _Slash):
+            return self._slashed(node, waiting)
+        if isinstance(node, _Arguments):
+            raise ValueError("a list in brackets after something that isn't a symbol")
         if isinstance(node, Symbol):
             follower = waiting[0] if waiting else None
-            if node.base == "delta" and isinstance(follower, Symbol | Derivative):
+            differs = node.base == "delta" and "delta" not in self.notation.declared
+            if differs and isinstance(follower, Symbol | Derivative):
                 follower = self._next_factor(waiting)
                 if isinstance(follower, Symbol):
                     return replace(follower, base=f"delta:{follower.base}")
             plain = not (node.sub or node.sup or node.dots or node.bold)
-            if plain and node.base in "cs" and self._is_angle(follower):
-                node = _Mark("function", {"c": "cos", "s": "sin"}[node.base])
+            short = dict(self.notation.shorthand)
+            if plain and node.base in short and self._is_angle(follower):
+                node = _Mark("function", short[node.base])
+        following = waiting[0] if waiting else None
+        if isinstance(following, _Slash) and (
+            isinstance(node, _Mark) or self._depends(node, following.above)
+        ):
+            if not isinstance(following.above, _Group):
+                raise ValueError("a slash after a function: put brackets where they belong")
+            waiting[0] = following.above
+            whole = Quotient(self._next_factor([node, waiting.pop(0)]), _open(following.below))
+            return self._unambiguous(whole, following, waiting)
         if isinstance(node, _Mark):
             if not waiting:
                 raise ValueError(f"nothing follows {node.name or 'the derivative'}")
-            return self._apply(node, self._next_factor(waiting))
-        following = waiting[0] if waiting else None
+            return self._apply(node, self._argument(node, waiting))
         if isinstance(node, Power) and isinstance(following, _Group):
             # T^{-1}(θ) is the inverse of T(θ)
             inner = node.base
@@ -286,14 +355,53 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         ):
             waiting.pop(0)
             return Transpose(node)
-        if isinstance(node, Symbol) and waiting and isinstance(waiting[0], _Group):
-            inside = waiting[0].inside
-            if node.name in self.notation.functions:
-                waiting.pop(0)
-                return Call(node.name, inside, node.dots)
-            if self._says_only_dependence(inside):
-                waiting.pop(0)
+        called = isinstance(node, Symbol) and node.name in self.notation.functions
+        if isinstance(node, Symbol) and called and isinstance(following, _Group):
+            waiting.pop(0)
+            return Call(node.name, following.inside, node.dots)
+        if self._depends(node, following):
+            waiting.pop(0)
         return node
+
+    def _argument(self, mark: _Mark, waiting: list[Node]) -> Node:
+        """What a function or derivative is of: the factor after it, with a number before it."""
+        first = self._next_factor(waiting)
+        more = bool(waiting)
+        multiple = mark.kind == "function" and isinstance(first, Number) and more
+        if multiple and isinstance(waiting[0], Symbol | Power):  # cos 2θ
+            return Product((first, self._next_factor(waiting)))
+        loose = isinstance(first, Symbol | Number | Call) and self.notation.factors is not None
+        if mark.kind == "derivative" and more and loose:
+            raise ValueError("a derivative before several factors: put brackets where they belong")
+        return first
+
+    def _slashed(self, node: _Slash, waiting: list[Node]) -> Node:
+        """A fraction on one line, of the two factors that its slash stands between."""
+        if isinstance(node.above, _Mark) or isinstance(node.below, _Mark):
+            raise ValueError("a slash beside a function: put brackets where they belong")
+        whole = Quotient(_open(node.above), _open(node.below))
+        return self._unambiguous(whole, node, waiting)
+
+    @staticmethod
+    def _unambiguous(whole: Quotient, node: _Slash, waiting: list[Node]) -> Node:
+        if waiting and not isinstance(node.below, Number | _Group):
+            raise ValueError("factors after a slash: put brackets where they belong")
+        return whole
+
+    def _depends(self, node: Node, following: Node | None) -> bool:
+        """Whether what stands in brackets behind a symbol says only what it depends on."""
+        if isinstance(node, Power) and self.notation.factors is not None:
+            node = node.base  # M^{-1}(q)
+        if not isinstance(node, Symbol):
+            return False
+        if isinstance(following, _Arguments):
+            return all(self._says_only_dependence(one) for one in following.of)
+        if not isinstance(following, _Group):
+            return False
+        inside, factors = following.inside, self.notation.factors
+        if factors is not None and node.name in factors:
+            return isinstance(inside, Symbol) and inside.name == "t"
+        return self._says_only_dependence(inside)
 
     def _says_only_dependence(self, inside: Node) -> bool:
         return isinstance(inside, Symbol) and inside.name in self.notation.ignored_arguments

@@ -72,6 +72,7 @@ class Symbols:
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """Derivative of a formula by a coordinate or its rate, or by time if ``by`` is None."""
         along = None if by is None else by.name
+        refuse_accelerations(by)
         return imaginary(evaluate(of, self.moved(along, bool(by and by.dots)), indices))
 
     def moved(self, along: str | None, rates: bool = False) -> Self:
@@ -83,6 +84,16 @@ class Symbols:
 
     def _stepped(self, along: str | None, rates: bool) -> Self:
         raise FormulaError("a derivative of a formula has no reference")
+
+
+def refuse_accelerations(by: Symbol | None) -> None:
+    """Nothing here is a function of accelerations: a derivative by one is a slip.
+
+    Raises:
+        FormulaError: The symbol has two dots.
+    """
+    if by is not None and by.dots > 1:
+        raise FormulaError(f"differentiates by {by.name} with {by.dots} dots")
 
 
 def numbered(i: str) -> dict[str, str]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from thesis_pin.equations import formula as nt
-from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
+from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
 
 Uses = Mapping[str, tuple[str, ...]]
@@ -41,7 +41,7 @@ def _used(catalogue: Catalogue, equation: Equation) -> Iterator[str]:
             node = catalogue.parse(text)
         except FormulaError:
             continue  # the print can't be read; what it should be can
-        for indices in index_values(node):
+        for indices in catalogue.indices(node):
             for kind, symbol in _named(node):
                 name, dots = symbol.bound(indices).name, symbol.dots
                 ways = [(kind, name, dots), *(("", name, k) for k in range(dots, -1, -1))]

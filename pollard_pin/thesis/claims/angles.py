@@ -25,7 +25,7 @@ def _angle(catalogue: Catalogue, closed: References, equation: Equation) -> Clai
         gaps = np.concatenate(
             [_gaps(catalogue, equation.left, member, closed, "+") for member in equation.printed]
         )
-        residual = float(np.abs(gaps).max())
+        residual = _either(catalogue, equation.left, tuple(equation.printed), closed)
         share = float((np.abs(gaps) > 1e-6).mean())
         found = f"a plain arctan is half a turn off at {share:.0%} of the states"
         if np.abs(np.sin(gaps)).max() > 1e-9:

@@ -59,8 +59,9 @@ def _inertia(catalogue: Catalogue, closed: References, equation: Equation) -> Cl
     mass, span = specification.links[link].mass, specification.span(link)
     given = Given(m_21=mass, x_871=span * 1e3)
     tensor = value_of(catalogue, equation.printed[0], given) * 1e-6
-    used = np.array(specification.links[link].inertia)
-    differs = float(np.abs(tensor - used).max() / np.abs(used).max())
+    # The matrix as transcribed, or what the robot has in its place.
+    known = np.array(specification.links[link].inertia), specification.centroidal(link)
+    differs = min(float(np.abs(tensor - one).max() / np.abs(one).max()) for one in known)
     length = None if name in WRIST else span
     printed = max(differs, impossibility(tensor, mass, length))
     far = spread(tensor, mass) * 1e3

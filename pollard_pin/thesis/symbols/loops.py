@@ -6,6 +6,7 @@ Source: Pollard thesis, (2.1) – (2.7), (2.24) – (2.44), (2.89) – (2.131).
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 
@@ -68,18 +69,51 @@ def _product(state: State, *moves: str) -> Matrices:
 def side(state: State, k: int, i: str = "") -> Matrices:
     """Ec_1 … Ec_4: last columns of both sides of (2.3) and (2.90), shape ``(n, 4)``.
 
-    Those of a side chain are seen from frame 5i, after β54, as (2.98) and (2.100) are.
+    Those of a side chain are seen from frame 5i, after β54, as (2.98) and (2.100) are. Where
+    the state has offsets (:func:`in_base_axes`), Ec_2 and Ec_4 move as the thesis differentiates
+    them: along the base's axes, which θ21 and θ21i don't turn.
     """
     t = state.transform
     if k == 1:
         return t("T_315")[..., 3]
     if k == 2:
-        return (inverse(t("T_03")) @ t("T_LD0"))[..., 3]
+        found = inverse(t("T_03")) @ t("T_LD0")
+        return (_in_base(state, "2", "Ry", "theta_21") @ found)[..., 3]
     tilt = inverse(state.after(np.eye(4), "Rx", "beta_54i", i))
     if k == 3:
         return (tilt @ t("T_48i", i))[..., 3]
-    back = tilt @ inverse(t("T_02i", i) @ t("T_24i", i))
-    return (back @ t("T_03") @ t("T_311i", i))[..., 3]
+    turned = _in_base(state, f"4{i}", "Rz", f"theta_21{i}", tilt) @ tilt
+    return (turned @ inverse(t("T_02i", i) @ t("T_24i", i)) @ t("T_03") @ t("T_311i", i))[..., 3]
+
+
+def _in_base(
+    state: State, of: str, move: str, angle: str, tilt: Matrices | None = None
+) -> Matrices:
+    """What turns Ec into the base's axes and shifts it by the state's offset, if it has any."""
+    if f"offset_x_{of}" not in state.constants:
+        return np.eye(4)
+    shift = _product(state, *(part for x in "xyz" for part in (x, f"offset_{x}_{of}")))
+    turn = state.after(np.eye(4), move, angle)
+    return shift @ (turn if tilt is None else tilt @ turn @ inverse(tilt))
+
+
+def in_base_axes(state: State, *, places: bool = False) -> State:
+    """States where X and Z of (2.12), and those of a side chain, are taken along the base's axes.
+
+    Args:
+        state: States, not moved.
+        places: Whether X, Y, Z themselves are, as (2.20) prints them; else only what is made of
+            them by differentiating, while they have the values that (2.18) needs.
+    """
+    constants = dict(state.constants)
+    keys = (("2", 2, ""), ("41", 4, "1"), ("42", 4, "2"))
+    zero = {f"offset_{x}_{of}": np.zeros(state.size) for of, _, _ in keys for x in "xyz"}
+    bare = replace(state, constants={**constants, **zero})
+    for of, k, i in keys:
+        gap = side(state, k, i) - side(bare, k, i)
+        for column, x in enumerate("xyz"):
+            constants[f"offset_{x}_{of}"] = gap[..., column] * (not places)
+    return replace(state, constants=constants)
 
 
 def opening(state: State, i: str = "") -> Matrices:

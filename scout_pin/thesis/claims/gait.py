@@ -208,5 +208,5 @@ def _gait_pose(numbers: Numbers, equation: Equation) -> ClaimResult:
     result = both(equation, residual, note)
     if not equation.right:
         return result
-    moved = abs(said[0]["x_1"] - numbers.pose["x_1"]) * 1e-3
+    moved = abs(said[-1]["x_1"] - numbers.pose["x_1"]) * 1e-3  # the print is read last
     return replace(result, note="", effect={"left foot's place [m]": moved})

@@ -1,5 +1,6 @@
 """Free coefficients: elimination is that of the mechanism, and no slip hides in a zero."""
 
+import re
 from collections import Counter
 from dataclasses import fields, replace
 
@@ -113,3 +114,33 @@ def test_the_audit_holds_both_so_that_a_slip_in_what_vanishes_fails(identity, ol
     both = judge(catalogue(), slipped, environment, ground.claims, "thesis", free)
     assert once.residual_printed < HOLDS
     assert both.verdict == "unexplained"
+
+
+SAID = r"(multiplies ([^;]+) in|denominator of|what) \((2\.\d+)\)[^;]*$"
+
+
+def test_appendix_d_and_e_say_in_which_equation_their_coefficients_stand():
+    """As what multiplies a rate there, its denominator, or what is left of it."""
+    numbered = {number: e for e in catalogue().equations for number in e.number}
+    rates = {
+        **{"ẋ": r"\dot{x}", "ẏ": r"\dot{y}", "ż": r"\dot{z}"},
+        **{"ẍ": r"\ddot{x}", "ÿ": r"\ddot{y}", "z̈": r"\ddot{z}"},
+        **{"ψ̇": r"\dot{\psi}", "θ̇": r"\dot{\theta}", "φ̇": r"\dot{\phi}"},
+        **{"ψ̈": r"\ddot{\psi}", "θ̈": r"\ddot{\theta}", "φ̈": r"\ddot{\phi}"},
+    }
+    for equation in catalogue().equations:
+        if equation.section not in "DE":
+            continue
+        said = re.search(SAID, equation.note)
+        assert said, equation.id
+        text = numbered[said[3]].members("corrected")[-1].replace(" ", "")
+        name = equation.left.replace(" ", "")
+        assert re.search(re.escape(name) + r"(?!\d)", text), equation.id
+        if said[1] == "denominator of":
+            assert rf"\frac{{1}}{{{name}}}" in text, equation.id
+        elif said[2] in rates:
+            beside = rates[said[2]]
+            assert beside + name in text or name + beside in text, equation.id
+        elif said[2]:
+            for angle in re.findall(r"\d+i?", said[2]):
+                assert rf"\dot{{\theta}}_{{{angle}}}{name}" in text, equation.id

@@ -108,11 +108,25 @@ def test_a_bracket_that_does_not_survive_is_not_found():
         ("C:ddot_e_31", r"\dot{e}_{31}", [(0.5, held(at_211=0)), (-0.5, held(at_211=HALF))]),
         ("C:ddot_f_21", r"\dot{f}_{21}", [(1, held(at_1091=QUARTER, at_43=QUARTER))]),
         ("C:ddot_f_21", r"\dot{f}_{21}", [(1, held(at_1091=QUARTER, at_43=0))]),
+        (
+            "C:ddot_f_11",
+            r"\ddot{f}_{11}",
+            [(1, aligned(at_1091=0, at_11101=0, at_21=0, at_43=0))],
+        ),
+        ("C:ddot_f_11", r"\dot{f}_{11}", [(1, aligned(at_1091=0, at_11101=QUARTER))]),
+        ("E:G_92", r"\dot{f}_{11}", [(1, aligned(at_1091=0, at_11101=0, at_21=QUARTER))]),
     ],
 )
 def test_pieces_that_survive_of_a_derivative_are_exact(name, symbol, pieces):
     """A factor's derivative is the whole's where the other factors stand still at 0 or 1."""
     assert contains(name, sum(weight * value(symbol, state) for weight, state in pieces))
+
+
+def test_the_head_that_survives_of_G_45_is_that_of_its_siblings():
+    (head,) = catalogue()["pollard:E:G_45"].surviving
+    assert len(head) > 150
+    for sibling in ("G_43", "G_44"):
+        assert catalogue()[f"pollard:E:{sibling}"].printed[0].startswith(head)
 
 
 def test_the_squares_that_survive_of_V_77_are_those_of_what_is_rebuilt():

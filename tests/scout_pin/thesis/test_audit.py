@@ -178,6 +178,16 @@ def test_following_the_print_has_a_price_that_is_worked_out(rows):
     assert weights == sorted(weights, reverse=True)
 
 
+def test_the_left_foot_goes_to_the_other_side_by_the_print(rows):
+    assert rows["scout:5:x_i"].effect["left foot's place [m]"] == pytest.approx(0.08908)
+
+
+def test_every_failure_has_an_effect_or_a_reason_why_it_has_none(rows):
+    for row in rows.values():
+        if row.failed and not any(row.effect.values()):
+            assert catalogue()[row.id].no_effect, row.id
+
+
 def audit_rows_in_order(rows):
     from thesis_pin.audit.rows import AuditReport
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from thesis_pin.audit.markdown import markdown
 from thesis_pin.audit.page import page
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.text import SURVIVES, explain, surviving_text
@@ -37,6 +38,13 @@ def test_the_page_shows_it_too():
     assert "… + c &lt; …" in text
     assert "rebuilt, member 2" in text
     assert "7 of the source text" in text
+
+
+def test_the_document_lists_where_it_is_lost_and_what_it_follows_from():
+    text = markdown(AuditReport("Thesis", (LOST,), (), "", {}), "command")
+    assert "| 1:a | 7 | the page is torn | sibling of b |" in text
+    none = markdown(AuditReport("Thesis", (), (), "", {}), "command")
+    assert "Lost lines" not in none
 
 
 def test_a_long_fragment_is_shown_by_its_ends_cut_between_symbols():

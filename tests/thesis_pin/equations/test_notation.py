@@ -185,3 +185,12 @@ def test_a_formula_that_is_broken_is_refused_with_its_place(formula):
 def test_symbols_finds_every_symbol():
     found = {s.name for s in symbols(only(r"\frac{x_1}{y} \mathbf{R}_x(\theta_B + \beta)"))}
     assert found == {"x_1", "y", "theta_B", "beta"}
+
+
+@pytest.mark.parametrize("first", ["+", "-", r"\times"])
+@pytest.mark.parametrize("second", ["+", "-", r"\times"])
+@pytest.mark.parametrize("between", [" ", r" \right. \left. ", r" \\ & "])
+def test_an_operator_printed_twice_at_a_line_break_is_no_formula(first, second, between):
+    """It is transcribed as one, as docs/audit/README.md says; a merge never happens in reading."""
+    with pytest.raises(FormulaError, match="can't be read"):
+        NOTATION.parse(f"a {first}{between}{second} b")

@@ -9,6 +9,7 @@ import zlib
 
 import numpy as np
 
+from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.values import Value
@@ -46,6 +47,17 @@ class RandomSymbols:
 
 
 def _like(value: Value, key: tuple[object, ...]) -> Value:
+    """Random numbers in the shape and frames of a value.
+
+    Entries that are one number at all states, as those of an axis in its own frame or
+    the last row of a transform, are part of what the symbol is; a value that is zero
+    at all states is free.
+    """
     generator = np.random.default_rng(zlib.crc32(repr(key).encode()))
     array = generator.uniform(0.5, 2.0, (_STATES, *value.tail))
-    return Value(array * generator.choice([-1.0, 1.0], array.shape), max(value.rank, 0))
+    array *= generator.choice([-1.0, 1.0], array.shape)
+    if value.rank > 0 and value.array.any():
+        states = value.array.reshape(-1, *value.tail)
+        fixed = np.ptp(np.real(states), axis=0) < HOLDS
+        array = np.where(fixed, np.real(states[0]), array)
+    return Value(array, max(value.rank, 0), value.frames)

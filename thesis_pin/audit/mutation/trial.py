@@ -11,10 +11,11 @@ from typing import Literal, get_args
 
 from thesis_pin.audit.mutation.random_symbols import RandomSymbols
 from thesis_pin.audit.mutation.slips import SLIPS, Planted, planted
+from thesis_pin.audit.residuals import TROUBLES, difference, residual
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.audit.thesis import Ground
-from thesis_pin.audit.verdicts import TROUBLES, difference, judge, residual
-from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
+from thesis_pin.audit.verdicts import judge
+from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol, symbols
 
@@ -108,8 +109,9 @@ class Trials:
             return None
 
     def _holds(self, equation: Equation) -> bool:
-        environment = self.ground.references(equation)
-        row = judge(self.equations, equation, environment, self.ground.claims, "")
+        ground = self.ground
+        grounds = ground.references(equation), ground.substituted(equation)
+        row = judge(self.equations, equation, grounds[0], ground.claims, "", grounds[1])
         return row.verdict == "holds"
 
     def _answer(self, equation: Equation, member: int, slip: Planted) -> Answer:
@@ -139,7 +141,7 @@ class Trials:
             return False
         environment = self.ground.references(equation)
         try:
-            for indices in index_values(*gone, *come):
+            for indices in self.equations.indices(*gone, *come):
                 old, new = (evaluate(symbol, environment, indices) for symbol in (*gone, *come))
                 if not old.array.any() or difference(old, new) >= HOLDS:
                     return False

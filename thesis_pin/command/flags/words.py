@@ -31,6 +31,19 @@ def which_robot(words: Words) -> None:
     )
 
 
+def which_derivation(words: Words) -> None:
+    """The file of a derivation, and the robot it is about."""
+    words.add_argument(
+        "file", metavar="FILE", help="TOML of the equations, see docs/your_derivation.md"
+    )
+    words.add_argument(
+        "--model",
+        required=True,
+        metavar="FILE",
+        help="the robot's description: see thesis-pin formats",
+    )
+
+
 def which_motion(words: Words) -> None:
     """The file of the joints' motion."""
     words.add_argument(

@@ -27,6 +27,18 @@ _TITLE = 31
 """Characters of a failure's title, so that its row fits 80 columns."""
 
 
+def derivation(arguments: argparse.Namespace) -> ExitCode:
+    """A verdict on each printed equation of anyone's derivation."""
+    from thesis_pin.audit.derivation.auditing import thesis
+    from thesis_pin.command.flags.options import refuse_beside
+    from thesis_pin.command.warned import warned
+
+    refuse_beside(arguments, "equation", ("every",))
+    with warned():
+        found = thesis(arguments.file, arguments.model)
+    return run_verb(arguments, found)
+
+
 def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     """Run the verb; returns the exit code."""
     from thesis_pin.audit import text as faces
@@ -40,7 +52,7 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     from thesis_pin.report.writers import json_bytes
 
     only = (
-        known(arguments.equation, thesis.catalogue(), thesis.robot)
+        known(arguments.equation, thesis.catalogue(), thesis)
         if arguments.equation is not None
         else None
     )
@@ -92,7 +104,7 @@ def _without_verdict(report: AuditReport) -> Iterator[tuple[str, str]]:
             yield f"  {section.name}: {next(way for way in ways if len(way) < 20)}", reason
 
 
-def known(name: str, catalogue: Catalogue, robot: str) -> list[str]:
+def known(name: str, catalogue: Catalogue, thesis: Thesis) -> list[str]:
     """The full ids of what is asked for; says on standard error what was assumed.
 
     Raises:
@@ -100,6 +112,7 @@ def known(name: str, catalogue: Catalogue, robot: str) -> list[str]:
     """
     from thesis_pin.audit.asked import asked
 
+    robot = thesis.robot
     found, said = asked(name, catalogue, robot)
     if said:
         say(said)
@@ -112,5 +125,5 @@ def known(name: str, catalogue: Catalogue, robot: str) -> list[str]:
         f"no equation is called {name!r}",
         where="--equation",
         allowed=f"an id such as {', '.join(near) or listed[0]}, a number, a symbol or a section",
-        remedy=f"{robot}-pin audit --json - lists all ids",
+        remedy=f"{thesis.audit_command} --json - lists all ids",
     )

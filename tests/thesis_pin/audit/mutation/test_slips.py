@@ -3,7 +3,7 @@
 import pytest
 
 from thesis_pin.audit.mutation.slips import SLIPS, planted
-from thesis_pin.audit.mutation.tokens import sums, tokens
+from thesis_pin.audit.tokens import sums, tokens
 
 ROW = r"\frac{\partial \mathbf{r}_{G1i}^{0}}{\partial q_j} + 2 m_{1i} c\theta_{21} (a - b)"
 

@@ -158,3 +158,8 @@ def _finished(group: _Group) -> Iterator[list[Term]]:
     ]
     if terms:
         yield terms
+
+
+def outermost(pieces: list[Token]) -> list[list[Term]]:
+    """The sums of a formula, those that contain others first."""
+    return sorted(sums(pieces), key=lambda terms: terms[0].start - terms[-1].end)

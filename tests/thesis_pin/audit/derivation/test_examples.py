@@ -1,0 +1,125 @@
+"""Textbooks' derivations: what is right holds, and planted slips are found."""
+
+from pathlib import Path
+
+import pytest
+
+from thesis_pin import audit_derivation
+from thesis_pin.audit.rows import HOLDS
+
+FOLDER = Path(__file__).parents[4] / "examples" / "your_derivation"
+
+
+def rows(name, **changes):
+    report = audit_derivation(FOLDER / f"{name}.toml", FOLDER / f"{name}.urdf", **changes)
+    return {row.id.split(":")[2]: row for row in report.rows}
+
+
+def test_both_planted_slips_of_the_arm_are_found_and_nothing_else():
+    found = rows("two_link_arm")
+    assert {name for name, row in found.items() if row.failed} == {"M_12", "G_1"}
+    assert {name for name, row in found.items() if row.verdict == "holds"} == {
+        *("p", "J", "K", "P", "Lagrange", "M_11", "M_22", "C", "V", "G_2", "motion"),
+    }
+
+
+def test_a_slip_with_its_correction_is_a_misprint_with_place_kind_and_effect():
+    row = rows("two_link_arm")["M_12"]
+    assert row.verdict == "misprint"
+    assert row.residual_corrected < HOLDS < row.residual_printed
+    assert row.places == ("member 2, symbol 9: s_2 should be c_2",)
+    assert row.effect["generalized force [-]"] > 0.01
+
+
+def test_a_slip_without_correction_is_unexplained_and_has_its_effect():
+    row = rows("two_link_arm")["G_1"]
+    assert row.verdict == "unexplained"
+    assert row.effect["generalized force [-]"] > 0.1
+
+
+def test_a_symbol_that_only_the_file_defines_counts_where_it_is_used():
+    row = rows("two_link_arm")["h"]
+    assert row.verdict == "not checkable"
+    assert row.reason.startswith("stated, not checkable: it defines h")
+
+
+def test_all_of_the_cart_pole_holds_with_its_numbers_typed_in():
+    assert {row.verdict for row in rows("cart_pole").values()} == {"holds"}
+
+
+def changed(tmp_path, name, *changes):
+    text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path = tmp_path / f"{name}.toml"
+    path.write_text(text, encoding="utf-8")
+    report = audit_derivation(path, FOLDER / f"{name}.urdf")
+    return {row.id.split(":")[2]: row for row in report.rows}, report
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "failing"),
+    [
+        (
+            r"- \frac{\partial L}{\partial \theta_1}",
+            r"+ \frac{\partial L}{\partial \theta_1}",
+            "Lagrange",
+        ),
+        (r"+ 2 l_1 l_{c2} c_2)'", r"+ l_1 l_{c2} c_2)'", "M_11"),
+        (r"'m_2 l_{c2} g c_{12}'", r"'m_2 l_{c2} g s_{12}'", "G_2"),
+        (r"-h \dot\theta_1^2 \end", r"-h \dot\theta_1 \end", "V"),
+        (r"-h \dot\theta_1 & 0 \end", r"h \dot\theta_1 & 0 \end", "C"),
+        (r"& l_2 c_{12} \end", r"& l_2 c_{1} \end", "J"),
+        (r"l_1 s_1 + l_2 s_{12} \end", r"l_1 s_1 - l_2 s_{12} \end", "p"),
+        (r"+ I_2)(\dot\theta_1 + \dot\theta_2)^2", r"+ I_2)(\dot\theta_1 - \dot\theta_2)^2", "K"),
+        (r"m_2 g (l_1 s_1", r"m_1 g (l_1 s_1", "P"),
+        (r"\ddot{\mathbf{q}} + \mathbf{C}", r"\dot{\mathbf{q}} + \mathbf{C}", "motion"),
+    ],
+)
+def test_another_slip_fails_its_line(old, new, failing, tmp_path):
+    found, _ = changed(tmp_path, "two_link_arm", (old, new))
+    assert {name for name, row in found.items() if row.failed} == {"M_12", "G_1", failing}
+
+
+def test_a_line_that_holds_for_this_robot_alone_says_so(tmp_path):
+    """m_2 for m_1 goes unseen on an arm of two equal links; on others it doesn't."""
+    urdf = (FOLDER / "two_link_arm.urdf").read_text(encoding="utf-8").replace('"1.7"', '"3.0"')
+    (tmp_path / "arm.urdf").write_text(urdf, encoding="utf-8")
+    text = (FOLDER / "two_link_arm.toml").read_text(encoding="utf-8")
+    text = text.replace("printed = 'm_2 l_{c2} g c_{12}'", "printed = 'm_1 l_{c2} g c_{12}'")
+    (tmp_path / "arm.toml").write_text(text, encoding="utf-8")
+    report = audit_derivation(tmp_path / "arm.toml", tmp_path / "arm.urdf")
+    (row,) = (one for one in report.rows if one.id == "arm:3:G_2")
+    assert row.verdict == "holds"
+    assert "holds with this robot's numbers" in row.note
+    assert "1 hold with this robot's numbers alone" in report.states
+    assert not any(one.note for one in report.rows if one is not row)
+
+
+def test_an_undefined_symbol_is_its_lines_error_alone(tmp_path):
+    change = ("printed = 'm_2 l_{c2} g c_{12}'", "printed = 'm_2 l_{c3} g c_{12}'")
+    found, _ = changed(tmp_path, "two_link_arm", change)
+    row = found["G_2"]
+    assert row.verdict == "unexplained"
+    assert "l_c3 isn't defined anywhere (near it: l_c" in row.reason
+    assert found["motion"].verdict == "holds"
+
+
+def test_a_line_of_the_wrong_shape_says_what_belongs_there(tmp_path):
+    change = (r"\mathbf{V}(\mathbf{q}, \dot{\mathbf{q}})'", r"\mathbf{M}(\mathbf{q})'")
+    found, _ = changed(tmp_path, "two_link_arm", change)
+    assert "is a vector of 2 where a 2×2 matrix belongs" in found["V"].reason
+
+
+def test_a_misprinted_definition_has_the_effect_of_the_lines_that_use_it(tmp_path):
+    old = "printed = '-m_2 l_1 l_{c2} \\sin\\theta_2'"
+    new = (
+        "printed = 'm_2 l_1 l_{c2} \\sin\\theta_2'\n"
+        "corrected = '-m_2 l_1 l_{c2} \\sin\\theta_2'\n"
+        'attribution = "thesis"\nwhy = "(10)"'
+    )
+    found, _ = changed(tmp_path, "two_link_arm", (old, new))
+    assert found["h"].verdict == "misprint"
+    assert found["h"].effect["generalized force [-]"] > 0.05
+    assert found["V"].verdict == "holds"

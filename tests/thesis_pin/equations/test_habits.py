@@ -1,0 +1,131 @@
+"""Formulas as other authors write them are read as they mean them, or refused."""
+
+import numpy as np
+import pytest
+
+from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.formula import Call, Derivative, FormulaError, Product, Symbol, Unreadable
+from thesis_pin.equations.layout import plain
+from thesis_pin.equations.notation import Notation
+from thesis_pin.equations.values import scalar
+
+NOTATION = Notation(
+    shorthand=(),
+    declared=frozenset({"c", "d"}),
+    ignored_arguments=frozenset({"t", "q", "theta_1"}),
+    factors=frozenset({"m", "c", "theta_1"}),
+    ranges=(("i", ("1", "2")),),
+)
+VALUES = {"a": 2.0, "b": 3.0, "c": 5.0, "m": 7.0, "l": 11.0, "theta": 0.3, "theta_1": 0.4}
+
+
+class Numbers:
+    columns = 2
+
+    def lookup(self, symbol, indices):
+        if symbol.name not in VALUES:
+            raise FormulaError(f"no {symbol.name}")
+        return scalar(np.array(VALUES[symbol.name]))
+
+
+def number(formula):
+    (node,) = NOTATION.parse(formula)
+    return float(evaluate(node, Numbers(), {}).array)
+
+
+@pytest.mark.parametrize(
+    ("formula", "expected"),
+    [
+        (r"\cos 2\theta", np.cos(0.6)),
+        (r"2\cos\theta_1", 2 * np.cos(0.4)),
+        (r"\cos\theta_1 \sin\theta", np.cos(0.4) * np.sin(0.3)),
+        (r"\sin^2(\theta_1 + \theta)", np.sin(0.7) ** 2),
+        (r"\cos{\theta}^2", np.cos(0.3) ** 2),
+        (r"\frac12 m l^2", 0.5 * 7 * 121),
+        (r"\tfrac12 m", 3.5),
+        (r"\dfrac{1}{2} m", 3.5),
+        (r"1/2 m l", 0.5 * 7 * 11),
+        (r"m l/2 \cos\theta", 7 * 5.5 * np.cos(0.3)),
+        (r"(a + b)/(m l)", 5 / 77),
+        (r"\cos(\theta)/2", np.cos(0.3) / 2),
+        (r"c (a + b)", 25.0),
+        (r"m \cdot l \cdot a", 154.0),
+        (r"\begin{aligned} a &+ b \\ &+ c \end{aligned},", 10.0),
+        (r"\begin{split} a \\[2mm] + \displaystyle b \end{split} \label{eq:1}", 5.0),
+        (r"a + b \,.", 5.0),
+        (r"\bigl(a + b\bigr)^{2}", 25.0),
+        (r"\theta_1 (a + b)", 2.0),
+        (r"l(q)", 11.0),
+        (r"l(q, \dot q)", 11.0),
+        (r"l(\theta_1)", 11.0),
+        (r"l(\theta_1)/2", 5.5),
+        (r"m(l)", 77.0),
+    ],
+)
+def test_a_formula_is_worth_what_its_author_means(formula, expected):
+    assert number(formula) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        r"a/b c",  # a over b, times c; or a over bc
+        r"\cos\theta/2",  # half a cosine, or the cosine of a half
+        r"\frac{d}{dt} m l",  # of m, or of the product
+        r"(a, b)",
+        r"\cos",
+    ],
+)
+def test_what_can_be_read_in_two_ways_or_none_is_refused(formula):
+    with pytest.raises(FormulaError):
+        NOTATION.parse(formula)
+
+
+def test_a_lost_bracket_is_named_by_its_place():
+    with pytest.raises(Unreadable) as error:
+        NOTATION.parse(r"a + (b + c")
+    assert error.value.position == len(r"a + (b + c")
+    with pytest.raises(Unreadable) as error:
+        NOTATION.parse(r"a + b) + c")
+    assert error.value.position == r"a + b) + c".index(")")
+
+
+@pytest.mark.parametrize(
+    ("formula", "expected"),
+    [
+        (r"\frac{\mathrm{d}}{\mathrm{d}t}\left(l\right)", Derivative(Symbol("l"), None)),
+        (r"\vec{r}", Symbol("r", bold=True)),
+        (r"\bar{x}_1", Symbol("bar:x", "1")),
+        (r"\dot\theta_1(t)", Symbol("theta", "1", dots=1)),
+        (r"\ddot{\theta}_{1}", Symbol("theta", "1", dots=2)),
+        (r"\frac{d l}{d m}", None),
+    ],
+)
+def test_marks_are_read(formula, expected):
+    (node,) = NOTATION.parse(formula)
+    if expected is None:  # d is a length here, and no differential
+        assert not isinstance(node, Derivative)
+    else:
+        assert node == expected
+
+
+def test_letters_of_words_in_subscripts_are_no_indices():
+    indexed, word = (NOTATION.symbol(text) for text in ("m_{c,i}", r"m_{\text{link}}"))
+    assert indexed.bound({"i": "2"}).sub == "c2"
+    assert word.bound({"i": "2"}).sub == "link"
+
+
+def test_c_and_s_are_functions_where_a_derivation_says_so():
+    (node,) = Notation(shorthand=(("C", "cos"),)).parse(r"C\theta_1 c")
+    assert node == Product((Call("cos", Symbol("theta", "1")), Symbol("c")))
+
+
+def test_layout_is_blanked_in_place():
+    formula = (
+        r"\begin{aligned} a &= \begin{pmatrix} b & c \\ d & e \end{pmatrix} \\ &+ f \end{aligned}."
+    )
+    blank = plain(formula)
+    assert len(blank) == len(formula)
+    assert blank.index("f") == formula.index("f ")
+    assert r"\begin{pmatrix} b & c \\ d & e \end{pmatrix}" in blank
+    assert blank.count("&") == formula.count("&") - 2

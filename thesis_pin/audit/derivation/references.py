@@ -1,0 +1,314 @@
+"""What each symbol of a derivation must equal, worked out without its formulas."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from thesis_pin.audit.derivation.meaning import Meanings, entry
+from thesis_pin.audit.derivation.phrases import Phrase
+from thesis_pin.audit.derivation.states import States
+from thesis_pin.equations.catalogue import Catalogue, Edition
+from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
+
+_STENCIL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
+_REACH = 0.02
+"""Step of a derivative inside a derivative. The stencil's eighth power of it is below rounding."""
+
+Key = tuple[str, bool]
+"""Name of a symbol and whether it is bold."""
+
+
+def key(symbol: Symbol) -> Key:
+    """What a symbol is looked up by."""
+    return symbol.name, symbol.bold
+
+
+@dataclass(frozen=True)
+class Glossary:
+    """What the letters of a derivation stand for.
+
+    Attributes:
+        coordinates: Symbol → number of the coordinate.
+        constants: Symbol → value, or where the model has it.
+        symbols: Symbol → what it must be.
+        cos, sin: Letters of the shorthand; empty for none.
+    """
+
+    coordinates: Mapping[Key, int]
+    constants: Mapping[Key, float | Phrase]
+    symbols: Mapping[Key, Phrase | Node]
+    cos: str = ""
+    sin: str = ""
+
+    def find(self, symbol: Symbol) -> Key | None:
+        """The key of a symbol, bold or not if only the other is there."""
+        every = {**self.coordinates, **self.constants, **self.symbols}
+        name, bold = key(symbol)
+        return next((k for k in ((name, bold), (name, not bold)) if k in every), None)
+
+    @property
+    def names(self) -> list[str]:
+        """All names."""
+        return [name for name, _ in (*self.coordinates, *self.constants, *self.symbols)]
+
+
+@dataclass
+class _Shared:
+    """What the environments of one derivation have in common."""
+
+    glossary: Glossary
+    catalogue: Catalogue
+    following: str = ""
+    busy: list[tuple[str, int]] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)
+
+
+class References:
+    """Symbols at a batch of states; an :class:`~thesis_pin.equations.evaluation.Environment`.
+
+    What the file says nothing about is what its own equations define, corrected where the print
+    is; one of them can be followed as printed.
+    """
+
+    def __init__(
+        self, states: States, glossary: Glossary, catalogue: Catalogue, following: str = ""
+    ) -> None:
+        self.states = states
+        self.columns = states.coordinates.count
+        self._shared = _Shared(glossary, catalogue, following)
+        self._values: dict[tuple[Key, int, tuple[tuple[str, str], ...]], Value] = {}
+        self._moved: dict[tuple[int | None, int, complex], References] = {}
+
+    @property
+    def used(self) -> set[str]:
+        """Ids of the equations whose definitions were needed."""
+        return self._shared.used
+
+    def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
+        """Value of a symbol whose indices are bound.
+
+        Raises:
+            FormulaError: The symbol isn't defined; names what is near.
+        """
+        place = (key(symbol), symbol.dots, tuple(indices.items()))
+        if place not in self._values:
+            value = self._find(symbol, indices)
+            if value is None:
+                raise FormulaError(self._unknown(symbol))
+            self._values[place] = value
+        return self._values[place]
+
+    def known(self, symbol: Symbol) -> bool:
+        """Whether a symbol has a meaning besides what the file's equations define it to be."""
+        shared = self._shared
+        if shared.glossary.find(symbol):
+            return True
+        held, shared.catalogue = shared.catalogue, Catalogue([], shared.catalogue.notation)
+        try:
+            return self._find(symbol, {}) is not None
+        except FormulaError:
+            return False
+        finally:
+            shared.catalogue = held
+
+    def _find(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        glossary = self._shared.glossary
+        name = glossary.find(symbol)
+        s = self.states
+        if name is None:
+            return self._otherwise(symbol, indices)
+        if name in glossary.constants:
+            given = glossary.constants[name]
+            if symbol.dots:
+                return ZERO
+            return self.meanings.of(given) if isinstance(given, Phrase) else scalar(given)
+        series = (s.x, s.v, s.a)[symbol.dots] if symbol.dots < len("xva") else None
+        if name in glossary.coordinates:
+            number = glossary.coordinates[name]
+            return None if series is None else scalar(np.take(series, number, axis=-1))
+        meant = glossary.symbols[name]
+        if isinstance(meant, Phrase) and meant.quantity == "coordinates":
+            return None if series is None else entry(vector(series), meant.entry)
+        if symbol.dots:
+            return self._dotted(symbol, indices)
+        return self.meanings.of(meant) if isinstance(meant, Phrase) else evaluate(meant, self, {})
+
+    def _otherwise(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        """A symbol that the file's header names in part, or not at all."""
+        plain = not (symbol.dots or symbol.sup or symbol.primes)
+        short = self._short(symbol) if plain else None
+        if short is not None:
+            return short
+        for found in (self._entry(symbol, indices), self._defined(symbol)):
+            if found is not None:
+                return found
+        if symbol.dots:
+            return self._dotted(symbol, indices)
+        return scalar(np.pi) if symbol.name == "pi" else None
+
+    def _dotted(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        plain = Symbol(
+            symbol.base,
+            symbol.sub,
+            symbol.sup,
+            symbol.dots - 1,
+            symbol.primes,
+            symbol.bold,
+            symbol.kept,
+        )
+        return self.partial(plain, None, indices)
+
+    def _entry(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
+        """M_{12} of a matrix M that the header names."""
+        if not symbol.sub.isdigit():
+            return None
+        whole = Symbol(symbol.base, dots=symbol.dots, primes=symbol.primes, bold=symbol.bold)
+        name = self._shared.glossary.find(whole)
+        if name is None or name in self._shared.glossary.coordinates:
+            return None
+        if name in self._shared.glossary.constants:
+            return None
+        value = self.lookup(whole, indices)
+        if value.rank not in (1, len("ij")) or value.rank != len(symbol.sub):
+            return None
+        return entry(value, tuple(map(int, symbol.sub)))
+
+    def _short(self, symbol: Symbol) -> Value | None:
+        """c_{12} and s_1, where the header says that they are cosine and sine."""
+        glossary = self._shared.glossary
+        if not symbol.sub or symbol.base not in (glossary.cos, glossary.sin):
+            return None
+        angle: np.ndarray | float = 0.0
+        for sign, part in re.findall(r"([+-]?)([^+-]+)", symbol.sub):
+            numbers = [int(digit) - 1 for digit in part] if part.isdigit() else []
+            named = glossary.coordinates.get((re.sub(r"(?<=[a-z])(?=\d)", "_", part), False))
+            numbers += [named] if named is not None else []
+            if not numbers or not all(0 <= k < self.columns for k in numbers):
+                return None
+            turned = sum(self.states.x[..., k] for k in numbers)
+            angle = angle - turned if sign == "-" else angle + turned
+        return scalar(np.cos(angle) if symbol.base == glossary.cos else np.sin(angle))
+
+    def _defined(self, symbol: Symbol) -> Value | None:
+        """A symbol from the file's own first definition of it."""
+        shared = self._shared
+        definition = shared.catalogue.definitions.get(("", symbol.name, symbol.dots))
+        slot = (symbol.name, symbol.dots)
+        if definition is None or slot in shared.busy:
+            return None
+        equation, bound = definition
+        edition: Edition = "printed" if equation.id == shared.following else "corrected"
+        members = equation.members(edition)
+        if not members:
+            return None
+        shared.used.add(equation.id)
+        shared.busy.append(slot)
+        try:
+            return evaluate(shared.catalogue.parse(members[-1]), self, dict(bound))
+        except FormulaError as error:
+            raise FormulaError(f"needs {symbol.name}, which {error.what}") from error
+        finally:
+            shared.busy.pop()
+
+    def _unknown(self, symbol: Symbol) -> str:
+        """That a symbol isn't defined, and what is near."""
+        listed = [*self._shared.glossary.names]
+        listed += [name for _, name, _ in self._shared.catalogue.definitions]
+        near = difflib.get_close_matches(symbol.name, dict.fromkeys(listed), n=3, cutoff=0.5)
+        dots = "˙" * symbol.dots
+        hint = f" (near it: {', '.join(near)})" if near else ""
+        return f"the symbol {symbol.name}{dots} isn't defined anywhere{hint}"
+
+    # -- derivatives ---------------------------------------------------------------------
+
+    def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
+        """Derivative by time, a coordinate, its rate or acceleration, or by all of them."""
+
+        def value(here: References) -> Value:
+            return evaluate(of, here, indices)
+
+        if by is None:
+            return self._derivative(value, None, 0)
+        glossary = self._shared.glossary
+        name = glossary.find(by)
+        if name is not None and name in glossary.coordinates:
+            return self._derivative(value, glossary.coordinates[name], by.dots)
+        given = glossary.symbols.get(name) if name else None
+        if isinstance(given, Phrase) and given.quantity == "coordinates" and not given.entry:
+            each = [self._derivative(value, k, by.dots) for k in range(self.columns)]
+            return _gathered(each)
+        whole = Symbol(by.base, bold=by.bold)
+        again = glossary.symbols.get(glossary.find(whole) or ("", False))
+        if isinstance(again, Phrase) and again.quantity == "coordinates" and by.sub.isdigit():
+            return self._derivative(value, int(by.sub) - 1, by.dots)
+        raise FormulaError(f"differentiates by {by.name}, which isn't a coordinate")
+
+    def _derivative(
+        self, of: Callable[[References], Value], along: int | None, order: int
+    ) -> Value:
+        if along is not None and not (along < self.columns and order < len("xva")):
+            raise FormulaError("differentiates by a coordinate that there isn't")
+        if not self.states.perturbed:
+            return imaginary(of(self._at(along, order, 0j)))
+        total: np.ndarray | float = 0.0
+        rank = -1
+        for step, weight in _STENCIL.items():
+            ends = [of(self._at(along, order, complex(sign * step * _REACH))) for sign in (1, -1)]
+            rank = max(rank, *(one.rank for one in ends))
+            total = total + weight * (ends[0].array - ends[1].array) / _REACH
+        return ZERO if rank < 0 else Value(np.asarray(total), rank)
+
+    def _at(self, along: int | None, order: int, size: complex) -> References:
+        """The same symbols a step on: an imaginary one if ``size`` is 0."""
+        place = (along, order, size)
+        if place not in self._moved:
+            states = (
+                self.states.stepped(along, order, size)
+                if size
+                else self.states.imaginary(along, order)
+            )
+            moved = References.__new__(References)
+            moved.states, moved.columns, moved._shared = states, self.columns, self._shared
+            moved._values, moved._moved = {}, {}
+            self._moved[place] = moved
+        return self._moved[place]
+
+    @cached_property
+    def meanings(self) -> Meanings:
+        """What the header's words are at these states."""
+        return Meanings(self.states, self._christoffel)
+
+    def _christoffel(self) -> np.ndarray:
+        """C with C_ij = Σ_k ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) q̇_k, shape ``(N, n, n)``."""
+
+        def mass(here: References) -> Value:
+            return matrix(here.meanings.mass_matrix())
+
+        varied = np.stack(
+            [self._derivative(mass, k, 0).array for k in range(self.columns)], axis=-1
+        )
+        v = self.states.v
+        first = np.einsum("...ijk,...k->...ij", varied, v)
+        second = np.einsum("...ikj,...k->...ij", varied, v)
+        third = np.einsum("...jki,...k->...ij", varied, v)
+        return np.asarray(0.5 * (first + second - third))
+
+
+def _gathered(each: list[Value]) -> Value:
+    """Derivatives by all coordinates: of a scalar a vector, of a vector a matrix."""
+    rank = max(one.rank for one in each)
+    if rank < 0:
+        return ZERO
+    if rank > 1:
+        raise FormulaError("differentiates a matrix by all coordinates at once")
+    shape = next(one.array.shape for one in each if one.rank == rank)
+    array = np.stack([np.broadcast_to(one.array, shape) for one in each], axis=-1)
+    return matrix(array) if rank else vector(array)

@@ -1,0 +1,127 @@
+"""How far a printed formula is from what it must equal, at all states of an environment."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from thesis_pin.audit.rows import HOLDS
+from thesis_pin.equations import frames
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
+from thesis_pin.equations.formula import FormulaError, FrameError
+from thesis_pin.equations.values import Value
+from thesis_pin.errors import BadInput
+
+_FLOOR = 1e-3  # what counts as zero is zero against this
+_OTHER_FRAME = 1.0
+"""Residual of a member seen from another frame whose numbers happen to agree."""
+
+TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
+"""What a line that can't be read or evaluated raises: it is that line's error alone."""
+
+
+def what(error: Exception) -> str:
+    """Why a line can't be evaluated, in words."""
+    return error.what if isinstance(error, BadInput) else f"can't be evaluated: {error}"
+
+
+@dataclass(frozen=True)
+class Residual:
+    """How far a formula is from what it must equal.
+
+    Attributes:
+        value: Largest difference over all states, relative to the larger side;
+            infinity if the formula can't be evaluated, 1 if nothing but its frames differ.
+        members: The same for each member.
+        reason: Why it can't be evaluated.
+    """
+
+    value: float
+    members: tuple[float, ...] = ()
+    reason: str = ""
+
+
+def difference(left: Value, right: Value) -> float:
+    """Largest difference of two values, relative to the larger of them.
+
+    Raises:
+        FormulaError: They have different shapes, or are seen from different frames.
+    """
+    if min(left.rank, right.rank) >= 0 and (left.rank != right.rank or left.tail != right.tail):
+        raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
+    if not frames.same(left.frames, right.frames):
+        raise FrameError(f"is {right.seen()} where {left.seen()} belongs")
+    gap = float(np.abs(left.array - right.array).max())
+    if not math.isfinite(gap):
+        raise FormulaError("isn't finite")
+    return gap / max(float(np.abs(left.array).max()), float(np.abs(right.array).max()), _FLOOR)
+
+
+def largest_relative(found: np.ndarray, truth: np.ndarray) -> float:
+    """Largest error of a state, relative to that state's largest entry; states come first."""
+    axes = tuple(range(1, truth.ndim))
+    return float((np.abs(found - truth).max(axis=axes) / np.abs(truth).max(axis=axes)).max())
+
+
+def residual(
+    catalogue: Catalogue,
+    equation: Equation,
+    members: Sequence[str],
+    environment: Environment,
+    left: str,
+) -> Residual:
+    """How far members are from the left side, symbols taken from the environment."""
+    values, reasons = [], []
+    for number, member in enumerate(members, start=1):
+        if number in equation.imposes:
+            continue
+        try:
+            values.append(max(_member(catalogue, left, member, environment)))
+        except TROUBLES as error:
+            values.append(_without_frames(catalogue, left, member, environment, error))
+            reasons.append(f"member {number} {what(error)}" if len(members) > 1 else what(error))
+    return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
+
+
+def _without_frames(
+    catalogue: Catalogue, left: str, member: str, environment: Environment, error: Exception
+) -> float:
+    """Residual of a member that raised: of its numbers, if only its frames don't fit."""
+    if not isinstance(error, FrameError):
+        return math.inf
+    try:
+        found = max(_member(catalogue, left, member, Unframed(environment)))
+    except TROUBLES:
+        return math.inf
+    return found if found > HOLDS else _OTHER_FRAME
+
+
+def _member(
+    catalogue: Catalogue, left: str, member: str, environment: Environment
+) -> Iterator[float]:
+    if not member:
+        raise FormulaError("is empty")
+    sides = catalogue.parse(left), catalogue.parse(member)
+    for indices in catalogue.indices(*sides):
+        first, second = (evaluate(side, environment, indices) for side in sides)
+        yield difference(first, second)
+
+
+def residual_as_said(
+    catalogue: Catalogue,
+    equation: Equation,
+    members: Sequence[str],
+    environments: Sequence[Environment],
+    left: str,
+) -> Residual:
+    """How far members are from the left side in the first environment where they don't hold."""
+    found = Residual(math.inf)
+    for environment in environments:
+        found = residual(catalogue, equation, members, environment, left)
+        if found.value >= HOLDS:
+            break
+    return found
