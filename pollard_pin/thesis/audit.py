@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.symbols.rates import moving
+from thesis_pin.audit.residuals import Free
 from thesis_pin.audit.text import ranges
 from thesis_pin.audit.thesis import Ground, Thesis
 from thesis_pin.equations.catalogue import Catalogue, Equation
@@ -109,8 +111,8 @@ def ground(equations: Catalogue) -> Ground:
     )
     closed = environments.closed
 
-    def substituted(equation: Equation) -> Environment | None:
-        return environments.coefficients if substitutes(equations, equation) else None
+    def substituted(equation: Equation) -> Sequence[Free]:
+        return (Free(environments.coefficients),) if substitutes(equations, equation) else ()
 
     return Ground(
         described,

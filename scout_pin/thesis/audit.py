@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.specification import Specification
+from scout_pin.thesis import open_states
 from scout_pin.thesis.catalogue import catalogue
 from scout_pin.thesis.causes import CAUSES
 from scout_pin.thesis.claims import claims
@@ -80,7 +81,8 @@ def ground(equations: Catalogue) -> Ground:
         f"at {LAW_STATES} more."
     )
     checks = claims(equations, LAW_STATES)
-    return Ground(described, lambda equation: references, checks, Effects(equations).of)
+    effect = Effects(equations).of
+    return Ground(described, lambda equation: references, checks, effect, open_states.free)
 
 
 def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:

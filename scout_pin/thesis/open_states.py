@@ -10,6 +10,7 @@ as given is free and what it makes of it is seen.
 coordinate, so that no derivative vanishes. "alike": it does so on all coordinates in the
 same way, so that derivatives that vanish on the biped are equal, if they are of one thing.
 "varying": the angles are dependent, and the vectors change in their own frames as well.
+"actuation": as "axes", with A_τ as the thesis makes it.
 """
 
 from __future__ import annotations
@@ -26,11 +27,13 @@ from scout_pin.thesis.state import UNIT, Parameters, State
 from scout_pin.thesis.symbols import frames
 from scout_pin.thesis.symbols.forces import matrix_entry
 from scout_pin.thesis.symbols.geometry import JOINT_AXES
+from thesis_pin.audit.residuals import Free
+from thesis_pin.equations.catalogue import Equation
 from thesis_pin.equations.dual import Dual
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.values import Value, scalar
 
-KINDS = ("axes", "dependent", "alike", "varying")
+KINDS = ("axes", "dependent", "alike", "varying", "actuation")
 _STATES, _SEED = 3, 4127
 _FOOT_ANGLES = [f"{letter}{i}" for letter in ("theta", "phi", "psi") for i in "12"]
 """What the axes of a foot's Euler angles are called; they don't move the robot."""
@@ -100,6 +103,15 @@ class OpenReferences(References):
         axes = np.stack([self.state.own(name) for name in ("i0", "j0", "k0")], axis=-1)
         return np.asarray((np.linalg.inv(axes) @ array[..., None])[..., 0])
 
+    def skew(self, axis: str, argument: Node, indices: dict[str, str]) -> np.ndarray | None:
+        """What turns the axis of a printed rotation into the robot's, ``(3, 3)``."""
+        name = frames.axis_of(axis, argument, indices)
+        return bend(axis, name) if name else None
+
+
+class ActuationReferences(OpenReferences):
+    """The same, with A_τ as the thesis makes it."""
+
     def _of_A(self, symbol: Symbol, i: str) -> Value | None:
         """An entry of A_τ as (4.12) and (4.13) make it: a torque's axis times its link's turn.
 
@@ -113,11 +125,6 @@ class OpenReferences(References):
         start = next(key for key, joint in JOINT_AXES.items() if joint == n)
         turned = self.state.angular(f"{n}{leg}")[..., row]
         return scalar((self._axis(f"{start}{leg}") * turned).sum(axis=-1))
-
-    def skew(self, axis: str, argument: Node, indices: dict[str, str]) -> np.ndarray | None:
-        """What turns the axis of a printed rotation into the robot's, ``(3, 3)``."""
-        name = frames.axis_of(axis, argument, indices)
-        return bend(axis, name) if name else None
 
 
 @functools.cache
@@ -145,10 +152,23 @@ def states(kind: str) -> OpenState:
     q, v, a, virtual = (generator.uniform(-s, s, (_STATES, 1, 18)) for s in (1.2, 2.0, 5.0, 1.0))
     tau, multipliers = (generator.uniform(-1, 1, (_STATES, 1, 12)) for _ in range(2))
     weights = None
-    if kind != "axes":
+    if kind not in ("axes", "actuation"):
         weights = generator.uniform(0.2, 0.8, (18, 18))
         weights = weights[:, :1] + 0 * weights if kind == "alike" else weights
     parameters = Parameters.repeat(robots)
     return OpenState(
         parameters, q, v, a, virtual, tau, multipliers, weights=weights, varying=kind == "varying"
     )
+
+
+@functools.cache
+def references(kind: str) -> OpenReferences:
+    """The references at open states of one of :data:`KINDS`."""
+    of = ActuationReferences if kind == "actuation" else OpenReferences
+    return of(states(kind))
+
+
+def free(equation: Equation) -> tuple[Free, ...]:
+    """Where a line has to hold besides: with any axes unless it says why not, and as it says."""
+    kinds = {} if equation.special else {"axes": ()}
+    return tuple(Free(references(kind), found) for kind, found in (kinds | equation.free).items())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from thesis_pin.errors import BadInput
 _FLOOR = 1e-3  # what counts as zero is zero against this
 _OTHER_FRAME = 1.0
 """Residual of a member seen from another frame whose numbers happen to agree."""
+
+_VANISHES = "holds only because something in it vanishes: not as the substitution that it is"
 
 TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
 """What a line that can't be read or evaluated raises: it is that line's error alone."""
@@ -73,11 +75,12 @@ def residual(
     members: Sequence[str],
     environment: Environment,
     left: str,
+    only: tuple[int, ...] = (),
 ) -> Residual:
-    """How far members are from the left side, symbols taken from the environment."""
+    """How far members, or some of them, are from the left side by an environment's symbols."""
     values, reasons = [], []
     for number, member in enumerate(members, start=1):
-        if number in equation.imposes:
+        if number in equation.imposes or (only and number not in only):
             continue
         try:
             values.append(max(_member(catalogue, left, member, environment)))
@@ -111,17 +114,35 @@ def _member(
         yield difference(first, second)
 
 
+@dataclass(frozen=True)
+class Free:
+    """Where what a line takes as given is free, so that nothing vanishes.
+
+    Attributes:
+        environment: What its symbols are there.
+        members: Numbers of the members that are the same there as well; () for all.
+    """
+
+    environment: Environment
+    members: tuple[int, ...] = ()
+
+
 def residual_as_said(
     catalogue: Catalogue,
     equation: Equation,
     members: Sequence[str],
-    environments: Sequence[Environment],
+    environment: Environment,
     left: str,
+    free: Sequence[Free] = (),
 ) -> Residual:
-    """How far members are from the left side in the first environment where they don't hold."""
-    found = Residual(math.inf)
-    for environment in environments:
-        found = residual(catalogue, equation, members, environment, left)
+    """How far members are from the left side where they have to hold, or else where all is free."""
+    found = residual(catalogue, equation, members, environment, left)
+    for ground in free:
         if found.value >= HOLDS:
             break
+        other = residual(catalogue, equation, members, ground.environment, left, ground.members)
+        if other.members:
+            found = (
+                other if other.value < HOLDS else replace(other, reason=other.reason or _VANISHES)
+            )
     return found

@@ -20,7 +20,6 @@ import numpy as np
 from thesis_pin.equations.values import STEP
 from thesis_pin.tolerances import GRAVITY
 
-
 _UP = np.array([0.0, 0.0, 1.0])
 
 
