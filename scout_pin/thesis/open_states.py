@@ -9,6 +9,7 @@ as given is free and what it makes of it is seen.
 "axes": nothing else changes. "dependent": besides, every angle also depends on every
 coordinate, so that no derivative vanishes. "alike": it does so on all coordinates in the
 same way, so that derivatives that vanish on the biped are equal, if they are of one thing.
+"grouped": alike on the coordinates of the torso's place, of its turn, of each leg.
 "varying": the angles are dependent, and the vectors change in their own frames as well.
 "actuation": as "axes", with A_τ as the thesis makes it.
 """
@@ -33,10 +34,12 @@ from thesis_pin.equations.dual import Dual
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.values import Value, scalar
 
-KINDS = ("axes", "dependent", "alike", "varying", "actuation")
+KINDS = ("axes", "dependent", "alike", "grouped", "varying", "actuation")
 _STATES, _SEED = 3, 4127
 _FOOT_ANGLES = [f"{letter}{i}" for letter in ("theta", "phi", "psi") for i in "12"]
 """What the axes of a foot's Euler angles are called; they don't move the robot."""
+_SAME = {"alike": [0] * 18, "grouped": [0] * 3 + [3] * 3 + [6] * 6 + [12] * 6}
+"""Kind → the coordinate on which each depends as it does itself."""
 _TRANSLATIONS = 3
 """The first coordinates: they move the torso and aren't angles."""
 
@@ -118,7 +121,7 @@ class ActuationReferences(OpenReferences):
         On the biped those that hold are zero because two axes are at right angles.
         """
         entry = matrix_entry(symbol.sub)
-        if symbol.bold or entry is None:
+        if symbol.bold or symbol.dots or entry is None:
             return super()._of_A(symbol, i)
         row, column = entry
         leg, n = str(column // 6 + 1), column % 6 + 1
@@ -154,7 +157,7 @@ def states(kind: str) -> OpenState:
     weights = None
     if kind not in ("axes", "actuation"):
         weights = generator.uniform(0.2, 0.8, (18, 18))
-        weights = weights[:, :1] + 0 * weights if kind == "alike" else weights
+        weights = weights[:, _SAME[kind]] if kind in _SAME else weights
     parameters = Parameters.repeat(robots)
     return OpenState(
         parameters, q, v, a, virtual, tau, multipliers, weights=weights, varying=kind == "varying"

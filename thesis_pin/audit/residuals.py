@@ -83,11 +83,20 @@ def residual(
         if number in equation.imposes or (only and number not in only):
             continue
         try:
+            if only:
+                _refuse_repetition(catalogue, (left, *members[: number - 1]), member)
             values.append(max(_member(catalogue, left, member, environment)))
         except TROUBLES as error:
             values.append(_without_frames(catalogue, left, member, environment, error))
             reasons.append(f"member {number} {what(error)}" if len(members) > 1 else what(error))
     return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
+
+
+def _refuse_repetition(catalogue: Catalogue, before: Sequence[str], member: str) -> None:
+    """A series that says one thing twice leaves out what should stand there."""
+    node = catalogue.parse(member) if member else None
+    if any(text and catalogue.parse(text) == node for text in before):
+        raise FormulaError("says what the line has said before")
 
 
 def _without_frames(

@@ -39,6 +39,8 @@ class Forces(Dynamics):
         return scalar(self.state.tau[..., coordinate_index(f"theta_{symbol.sub}") - 6])
 
     def _of_A(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.dots:
+            return None
         if symbol.bold and symbol.sub in ("1", "2"):
             return vector(self._foot_side(int(symbol.sub), rates=False))
         full = np.vstack([np.zeros((6, 12)), np.eye(12)])
