@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -132,5 +133,6 @@ THESIS = Thesis(
     causes=CAUSES,
     beyond=beyond,
     effects=EFFECTS,
+    spanish=Path(__file__).with_name("spanish.toml"),
 )
 audit = THESIS.audit

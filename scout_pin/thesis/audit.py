@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 from scout_pin.specification import Specification
@@ -44,7 +46,7 @@ EFFECTS = (
     "Effects say what a reader meets who follows that one line and is right elsewhere:",
     "the change of D q̈ + V q̇ + C relative to its largest entry, and of the gait's torques.",
 )
-LAW_STATES = 1000
+LAW_STATES = 200
 """Random states at which D, V and C are held against Pinocchio."""
 _RANDOM, _SEED = 5, 31847
 
@@ -100,5 +102,6 @@ THESIS = Thesis(
     causes=CAUSES,
     beyond=beyond,
     effects=EFFECTS,
+    spanish=Path(__file__).with_name("spanish.toml"),
 )
 audit = THESIS.audit

@@ -197,7 +197,12 @@ CONTRADICTIONS = {
     "scout-pin new": [["--specification", "examples/lopsided.toml"], ["--example", "none"]],
     "scout-pin from-urdf": [["--json", "-", "--to", "-"], ["--left", "none"]],
     "scout-pin urdf": [],
-    "scout-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
+    "scout-pin audit": [
+        ["--every"],
+        ["--markdown", "-", "--html", "-"],
+        ["--language", "es"],
+        ["--errata", "-", "--equation", "4.1"],
+    ],
     "pollard-pin trajectory": [
         ["--json", "-", "--html", "-"],
         ["--duration", "3"],
@@ -292,7 +297,12 @@ CONTRADICTIONS = {
     ],
     "pollard-pin info": [["--json", "-", "--html", "-"]],
     "pollard-pin urdf": [],
-    "pollard-pin audit": [["--every"], ["--markdown", "-", "--html", "-"]],
+    "pollard-pin audit": [
+        ["--every"],
+        ["--markdown", "-", "--html", "-"],
+        ["--language", "es"],
+        ["--errata", "-", "--equation", "4.1"],
+    ],
     "thesis-pin audit": [
         ["--equation", "G_1", "--every"],
         ["--equation", "nowhere"],

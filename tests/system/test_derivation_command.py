@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from thesis_pin.audit.derivation import phrases
+from thesis_pin.audit.derivation.said import phrases
 from thesis_pin.command.main import main
 
 ROOT = Path(__file__).parents[2]
@@ -51,7 +51,7 @@ def test_the_pages_python_prints_the_failures(capsys):
 
 def test_the_pages_file_is_one_and_lists_what_there_is(tmp_path):
     """Each table of the page's file stands in the schema, and each quantity in its list."""
-    from thesis_pin.audit.derivation.file import read
+    from thesis_pin.audit.derivation.said.file import read
 
     path = tmp_path / "page.toml"
     path.write_text(blocks("toml")[0] + blocks("toml")[1], encoding="utf-8")

@@ -13,6 +13,8 @@ from collections.abc import Iterator, Sequence
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
+from thesis_pin.equations.layout import plain
+
 _DOTS = {"˙": "\u0307", "¨": "\u0308"}
 _BRACKETS = frozenset("()[]|‖")
 _WORDS = frozenset({"sin", "cos", "tan", "sec", "csc", "cot", "arctan", "log", "exp"})
@@ -32,7 +34,7 @@ def mathml(formula: str) -> str:
     from latex2mathml.converter import convert
 
     loose = re.sub(r"\\(left|right)\s*\.|\\[bB]igg?[lr]?|\\(left|right)(?![a-z])", "", formula)
-    for text in (formula, loose):
+    for text in (formula, loose, plain(loose)):
         try:
             tree = ElementTree.fromstring(convert(text).replace("xmlns=", "of="))
         except Exception:  # the converter has no common base class of its errors

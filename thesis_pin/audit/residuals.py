@@ -12,7 +12,7 @@ from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations import frames
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
-from thesis_pin.equations.formula import FormulaError, FrameError
+from thesis_pin.equations.formula import FormulaError, FrameError, Node
 from thesis_pin.equations.values import Value
 from thesis_pin.errors import BadInput
 
@@ -119,8 +119,22 @@ def _member(
         raise FormulaError("is empty")
     sides = catalogue.parse(left), catalogue.parse(member)
     for indices in catalogue.indices(*sides):
-        first, second = (evaluate(side, environment, indices) for side in sides)
-        yield difference(first, second)
+        first = _left(left, sides[0], environment, indices)
+        yield difference(first, evaluate(sides[1], environment, indices))
+
+
+_lefts: dict[tuple[object, ...], tuple[Environment, Value]] = {}
+"""Left sides evaluated last: a line's members and slips are all held against one."""
+_KEPT = 24
+
+
+def _left(text: str, node: Node, environment: Environment, indices: dict[str, str]) -> Value:
+    key = (id(environment), text, node, *indices.items())
+    if key not in _lefts:
+        while len(_lefts) >= _KEPT:
+            _lefts.pop(next(iter(_lefts)), None)
+        _lefts[key] = environment, evaluate(node, environment, indices)
+    return _lefts[key][1]
 
 
 @dataclass(frozen=True)

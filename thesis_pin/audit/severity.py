@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Severity
-from thesis_pin.equations import formula as nt
-from thesis_pin.equations.catalogue import Catalogue, Equation
-from thesis_pin.equations.formula import FormulaError, Symbol
+from thesis_pin.equations.catalogue import Equation
 
 
-def without_effect(equations: Catalogue, equation: Equation, row: Row, effect: Effect) -> str:
+def without_effect(
+    equation: Equation, row: Row, effect: Effect, users: Callable[[], Sequence[str]]
+) -> str:
     """Why following a failing line changes nothing that is measured; "" if it does.
 
     Args:
-        equations: All equations of the thesis.
         equation: The failing one.
         row: The audit's answer on it.
         effect: What following its print does.
+        users: Ids of the lines that use it.
     """
     if any(isinstance(value, str) or value > 0 for value in effect.values()):
         return ""
@@ -27,7 +28,7 @@ def without_effect(equations: Catalogue, equation: Equation, row: Row, effect: E
         return "the law of motion rests on it, and comes out the same with the line as printed"
     if equation.claim:
         return "a check in code decides it, which measures no effect"
-    using = users(equations, equation)
+    using = users()
     if not using:
         return "no other line uses what it defines"
     if row.residual_printed == math.inf:
@@ -47,21 +48,3 @@ def severity(row: Row, effect: Effect, nothing: str) -> Severity:
         return "changes a result"
     finite = row.residual_printed is not None and HOLDS <= row.residual_printed < math.inf
     return "changes a result" if finite else "notation only"
-
-
-def users(equations: Catalogue, equation: Equation) -> list[str]:
-    """Ids of the other lines with the symbol that a line defines."""
-    try:
-        left = equations.parse(equation.left)
-    except FormulaError:
-        return []
-    node = left.of if isinstance(left, nt.Derivative) else left
-    node = node.of if isinstance(node, nt.Transpose) else node
-    if not isinstance(node, Symbol):
-        return []
-    own = {node.bound(indices).name for indices in equations.indices(node)}
-    found = []
-    for other, names in equations.used_names.items():
-        if other != equation.id and own & names:
-            found.append(other)
-    return found

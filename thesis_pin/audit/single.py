@@ -54,12 +54,13 @@ def _of_member(
     print_, statement = equation.printed[number - 1], number in equation.right
     if not statement:
         for slip in _of_texts(catalogue, print_, text):
-            yield _slip(number, print_, text, slip, _test(test, _put(right, number, slip[1])))
+            own = _put(right, number, slip[1]) if equation.claim else _only(right, slip[1])
+            yield _slip(number, print_, text, slip, _test(test, own))
         return
     meant = equation.misread.get(number, print_)
     for slip in _of_texts(catalogue, print_, meant) if meant != print_ else ():
         # The statement is another one, so a slip in it is held against the statement itself.
-        own = right.model_copy(update={"printed": (slip[1],), "left": meant, "imposes": ()})
+        own = _only(right, slip[1]).model_copy(update={"left": meant})
         yield _slip(number, print_, meant, slip, _test(test, own))
     kind = equation.kind or "statement"
     alone = _test(test, _put(right, number, meant))
@@ -69,6 +70,11 @@ def _of_member(
         yield _slip(number, meant, text, one, alone, kind)
     else:
         yield Slip(number, 1, meant, text, kind=kind, residual=alone)
+
+
+def _only(equation: Equation, text: str) -> Equation:
+    """The equation with a single member: its others hold."""
+    return equation.model_copy(update={"printed": (text,), "imposes": ()})
 
 
 def _put(equation: Equation, number: int, text: str) -> Equation:
@@ -121,11 +127,14 @@ def _slip(
         " ".join(new.split()),
         (one.before, one.after),
         term_of(text, one.mended[0]),
-        kind or kinds.kinds(print_, put_other(print_, new, one))[0],
+        kind or _kind(one, old, new),
         residual,
     )
 
 
-def put_other(print_: str, new: str, one: Difference) -> str:
-    """The print with one difference mended."""
-    return f"{print_[: one.printed[0]]} {new} {print_[one.printed[1] :]}"
+def _kind(one: Difference, old: str, new: str) -> str:
+    """Kind of a difference, seen between its neighbours: formulas can be pages long."""
+    if old.count("&") != new.count("&") or old.count(r"\\") != new.count(r"\\"):
+        return "column"
+    before, after = (f"{one.before} {text} {one.after}" for text in (old, new))
+    return kinds.kinds(before, after)[0]

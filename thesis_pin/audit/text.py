@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.rows import HOLDS, VERDICTS, AuditReport, Row
@@ -26,16 +26,16 @@ def place_text(place: str) -> str:
     return re.sub(r"(?<=\bstatement): .*", "", place)
 
 
-def effect_text(row: Row) -> str:
-    """What following the print does, in words."""
+def effect_text(row: Row, say: Callable[[str], str] = str) -> str:
+    """What following the print does, in words; ``say`` puts them into another language."""
     parts = []
     for name, value in row.effect.items():
         if isinstance(value, str):
-            parts.append(f"{name}: {value}")
+            parts.append(f"{say(name)}: {say(value)}")
         else:
             quantity, _, unit = name.rstrip("]").partition(" [")
-            amount = f"{value:.2g} {unit.replace('-', '')}" if value >= HOLDS else "none"
-            parts.append(f"{quantity} {amount}".rstrip())
+            size = f"{value:.2g} {unit.replace('-', '')}".rstrip()
+            parts.append(f"{say(quantity)} {size if value >= HOLDS else say('none')}")
     return "; ".join(parts)
 
 
@@ -76,9 +76,10 @@ def summary_lines(report: AuditReport) -> Iterator[str]:
     """Counts and coverage in sentences."""
     counts = ", ".join(f"{report.counts[v]} {v}" for v in VERDICTS if report.counts[v])
     yield f"{len(report.rows)} equations of the {report.thesis}: {counts}."
-    covered = len(report.numbers) - len(report.missing_numbers)
-    missing = f"; missing: {ranges(report.missing_numbers)}" if report.missing_numbers else ""
-    yield f"Numbered equations covered: {covered} of {len(report.numbers)}{missing}."
+    if report.numbers:
+        covered = len(report.numbers) - len(report.missing_numbers)
+        missing = f"; missing: {ranges(report.missing_numbers)}" if report.missing_numbers else ""
+        yield f"Numbered equations covered: {covered} of {len(report.numbers)}{missing}."
     checked = sum(section.checked for section in report.sections)
     yield f"Computed verdicts: {checked} of {len(report.rows)}. {report.states}"
 

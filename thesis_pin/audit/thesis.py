@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from thesis_pin.audit.residuals import TROUBLES, Free, what
 from thesis_pin.audit.rows import AuditReport, Effect, Row
@@ -16,6 +17,7 @@ from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.verdicts import Claims, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
+from thesis_pin.equations.uses import used_by, uses
 from thesis_pin.numeric.checks import whole
 from thesis_pin.numeric.workers import shared
 
@@ -56,6 +58,7 @@ class Thesis:
         causes: Each slip that several lines share, by its name in the data.
         beyond: Equations → what lies outside the audit, and why.
         effects: What the effects are, as lines for the document.
+        spanish: File with its texts in Spanish; see :mod:`thesis_pin.audit.errata.phrases`.
         command: What runs the audit, where it isn't ``ROBOT-pin audit``.
     """
 
@@ -67,6 +70,7 @@ class Thesis:
     causes: Mapping[str, Cause]
     beyond: Callable[[Catalogue], tuple[tuple[str, str], ...]]
     effects: tuple[str, ...]
+    spanish: Path | None = None
     command: str = ""
 
     @property
@@ -80,6 +84,13 @@ class Thesis:
         if self.command:
             return f"{self.command} --markdown FILE"
         return f"{self.audit_command} --markdown docs/audit/{self.robot}.md"
+
+    def errata_command(self, language: str) -> str:
+        """What regenerates the checked-in errata, in English ("en") or Spanish ("es")."""
+        if self.command:
+            return f"{self.command} --language {language} --errata FILE"
+        file = f"{self.robot}_errata.md" if language == "en" else f"{self.robot}_erratas.es.md"
+        return f"{self.audit_command} --language {language} --errata docs/audit/{file}"
 
     def audit(
         self,
@@ -148,11 +159,15 @@ class _Judge:
         if not row.failed or not self.with_effects:
             return row
         effect = row.effect or self._effect(equation)
-        nothing = without_effect(self.equations, equation, row, effect)
+        nothing = without_effect(equation, row, effect, lambda: self._users[row.id])
         if not effect and row.residual_printed == math.inf:
             effect = {"this line": "can't be computed"}
         weight = severity(row, effect, nothing)
         return replace(row, effect=effect, no_effect=nothing, severity=weight)
+
+    @functools.cached_property
+    def _users(self) -> Mapping[str, tuple[str, ...]]:
+        return used_by(uses(self.equations))
 
     def _effect(self, equation: Equation) -> Effect:
         try:

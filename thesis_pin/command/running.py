@@ -39,7 +39,7 @@ class ExitCode(IntEnum):
     """By Ctrl-C; nothing is half-written."""
 
 
-_FILES = ("json", "html", "markdown", "to", "film", "picture")
+_FILES = ("json", "html", "markdown", "errata", "to", "film", "picture")
 """Options that name a file; ``-`` is standard output."""
 
 

@@ -173,7 +173,7 @@ class Catalogue:
     def __init__(self, equations: Sequence[Equation], notation: Notation) -> None:
         self.equations = tuple(equations)
         self.notation = notation
-        self._parsed: dict[str, Node] = {}
+        self._parsed: dict[str, Node | FormulaError] = {}
 
     @classmethod
     def read(cls, paths: Sequence[Path], notation: Notation) -> Catalogue:
@@ -216,11 +216,24 @@ class Catalogue:
     def parse(self, formula: str) -> Node:
         """A single expression, read once."""
         if formula not in self._parsed:
+            self._parsed[formula] = self._read(formula)
+        found = self._parsed[formula]
+        if isinstance(found, FormulaError):
+            raise found
+        return found
+
+    def _read(self, formula: str) -> Node | FormulaError:
+        try:
             sides = self.notation.parse(formula)
-            if len(sides) > 1:
-                raise FormulaError("is an equation where an expression belongs")
-            self._parsed[formula] = sides[0]
-        return self._parsed[formula]
+        except FormulaError as error:
+            return error
+        if len(sides) > 1:
+            return FormulaError("is an equation where an expression belongs")
+        return sides[0]
+
+    def forget(self, formula: str) -> None:
+        """Keep no longer what a formula was read into: long ones take megabytes."""
+        self._parsed.pop(formula, None)
 
     @cached_property
     def definitions(self) -> dict[tuple[str, str, int], Definition]:
@@ -247,22 +260,6 @@ class Catalogue:
                     key = (kind, symbol.bound(indices).name, symbol.dots)
                     own = {k: v for k, v in indices.items() if k not in symbol.kept}
                     found.setdefault(key, (equation, own))
-        return found
-
-    @cached_property
-    def used_names(self) -> dict[str, frozenset[str]]:
-        """Names of the symbols in each line's members, as they should be, by the line's id."""
-        found = {}
-        for equation in self.equations:
-            names: set[str] = set()
-            for text in equation.members("corrected"):
-                try:
-                    node = self.parse(text)
-                except FormulaError:
-                    continue
-                for symbol in nt.symbols(node):
-                    names |= {symbol.bound(values).name for values in index_values(symbol)}
-            found[equation.id] = frozenset(names)
         return found
 
 

@@ -171,6 +171,10 @@ _ELEMENTARY: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "arctan": np.arctan,
     "sqrt": np.sqrt,
 }
+_OF_MATRICES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "det": np.linalg.det,
+    "tr": lambda x: np.trace(x, axis1=-2, axis2=-1),
+}
 FUNCTIONS = frozenset({*_ROTATIONS, *_TRANSLATIONS, *_SPINS, *_TURNINGS})
 """Symbols that both theses use as functions of the bracket after them."""
 
@@ -180,6 +184,10 @@ def _call(node: nt.Call, environment: Environment, indices: dict[str, str]) -> V
         undotted = nt.Call(node.function, node.argument, node.dots - 1)
         return environment.partial(undotted, None, indices)
     argument = evaluate(node.argument, environment, indices)
+    if node.function in _OF_MATRICES:
+        if argument.rank != 2 or argument.tail[0] != argument.tail[1]:
+            raise FormulaError(f"takes {node.function} of {argument.describe()}")
+        return scalar(_OF_MATRICES[node.function](argument.array))
     if argument.rank > 0:
         raise FormulaError(f"takes {node.function} of {argument.describe()}")
     x, name = argument.array, node.function

@@ -28,7 +28,7 @@ from thesis_pin.audit.verdicts import ClaimResult, largest_relative, residual
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.values import Value, matrix, scalar, vector
 
-STATES = 1000
+STATES = 200
 """Random states at which D, V q̇ and C are held against Pinocchio."""
 _SEED = 20173
 AWAY = 0.05

@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from scout_pin.thesis.claims import angles, dynamics, gait, law, names, robot, soles, splines
+from scout_pin.thesis.claims import (
+    angles,
+    appendix_c,
+    dynamics,
+    gait,
+    law,
+    names,
+    robot,
+    soles,
+    splines,
+)
 from thesis_pin.audit.verdicts import Claims
 from thesis_pin.equations.catalogue import Catalogue
 
@@ -14,6 +24,6 @@ def claims(catalogue: Catalogue, states: int) -> Claims:
         catalogue: The equations, whose printed numbers are read.
         states: Random states used for the law of motion.
     """
-    rooms = (splines, gait, robot, soles, dynamics, names)
+    rooms = (splines, appendix_c, gait, robot, soles, dynamics, names)
     found = law.claims(catalogue, states) | angles.claims()
     return found | {name: check for room in rooms for name, check in room.claims(catalogue).items()}

@@ -47,6 +47,8 @@ def _constant_angles(equation: Equation) -> ClaimResult:
     """Angles that stay what is printed in all 41 rows."""
     degrees, _ = printed_angles()
     joints = [_joint(name) for name in equation.left.split(", ")]
+    if len(set(joints)) < len(joints):
+        raise unreadable(equation.left)
 
     def residual(text: str, left: str) -> float:
         columns = [*joints, *(k + 6 for k in joints)]
@@ -65,6 +67,8 @@ def _joint(name: str) -> int:
 def _initial_angles(equation: Equation) -> ClaimResult:
     """The start position's angles, printed once alone and once as t = 0 of the tables."""
     degrees, _ = printed_angles()
+    if equation.left != r"\mathtt{Out[161]}, \mathtt{Out[162]}":
+        raise unreadable(equation.left)
 
     def residual(text: str, left: str) -> float:
         found = re.fullmatch(r"\(((?:(?:\\pm |\\mp )?[\d.]+(?:, |(?=\)))){6})\)°", text)
@@ -87,6 +91,8 @@ def _initial_angles(equation: Equation) -> ClaimResult:
 def _printed_angles(robot: Scout, program: Gait, equation: Equation) -> ClaimResult:
     """The printed angles come out of the program's splines by closed-form kinematics."""
     degrees, half = printed_angles()
+    if equation.left != r"\mathtt{Out[347]} \ldots \mathtt{Out[358]}":
+        raise unreadable(equation.left)
     t = np.arange(len(degrees))
     found = np.degrees(joint_trajectory(robot, program.sample(t.astype(float))).q)
     gap = np.abs(found - degrees)

@@ -33,7 +33,7 @@ def claims(catalogue: Catalogue) -> dict[str, Check]:
     return {
         "length": lambda equation: _length(numbers(), equation),
         "equal_lengths": lambda equation: _equal_lengths(numbers(), equation),
-        "constant_angle": lambda equation: _constant_angle(numbers(), equation),
+        "constant_angle": lambda equation: _constant_angle(catalogue, numbers(), equation),
         "neutral_pose": lambda equation: _neutral_pose(numbers(), equation),
         "gait_pose": lambda equation: _gait_pose(numbers(), equation),
     }
@@ -121,6 +121,8 @@ class Numbers:
 
 
 _EULER = ("theta", "phi", "psi")
+_TOGETHER = [{"x_B"}, {"z_B"}, {"x_1", "x_2"}, *({f"{x}_{i}" for i in "B12"} for x in _EULER)]
+"""Names that a line of (5.1) has on its left."""
 
 
 def _plain(left: str) -> str:
@@ -139,10 +141,10 @@ def _assigned(left: str, text: str) -> dict[str, float]:
             found |= _assigned(*part.split(" = ", 1))
         return found
     value, _ = quantity(text)
-    names = re.fullmatch(r"(\S+\(t\))(?: = \S+\(t\))*", left)
-    if not names:
+    names = [_plain(name.removesuffix("(t)")) for name in left.split(" = ")]
+    if not re.fullmatch(r"\S+\(t\)(?: = \S+\(t\))*", left) or len(set(names)) < len(names):
         raise unreadable(left)
-    return {_plain(name.removesuffix("(t)")): value for name in left.split(" = ")}
+    return dict.fromkeys(names, value)
 
 
 def _length(numbers: Numbers, equation: Equation) -> ClaimResult:
@@ -173,13 +175,18 @@ def _equal_lengths(numbers: Numbers, equation: Equation) -> ClaimResult:
     return both(equation, residual, "with it the printed angles of both legs reach their feet")
 
 
-def _constant_angle(numbers: Numbers, equation: Equation) -> ClaimResult:
-    """An angle β of B.3."""
+def _constant_angle(catalogue: Catalogue, numbers: Numbers, equation: Equation) -> ClaimResult:
+    """An angle β of B.3, from 0° to 360°, which no other line of it gives."""
     name = _plain(equation.left)
+    others = {
+        _plain(other.left)
+        for other in catalogue.equations
+        if other.claim == "constant_angle" and other.id != equation.id
+    }
 
     def residual(text: str, left: str) -> float:
-        if name not in numbers.angles:
-            raise unreadable(equation.left)
+        if name not in numbers.angles or name in others or not text[:1].isdigit():
+            raise unreadable(f"{left} = {text}")
         return replace(numbers, angles={**numbers.angles, name: quantity(text)[0]}).gap()
 
     return both(equation, residual, "with it the 492 printed angles take the feet along the gait")
@@ -189,7 +196,7 @@ def _neutral_pose(numbers: Numbers, equation: Equation) -> ClaimResult:
     def residual(text: str, left: str) -> float:
         words = r"\\text\{recover the neutral pose when all \} \\theta_\{ni\} = (\S+)"
         found = re.fullmatch(words, text)
-        if not found:
+        if not found or left != r"\beta_{ni}":
             raise unreadable(text)
         return numbers.neutral(quantity(found[1])[0])
 
@@ -201,7 +208,9 @@ def _gait_pose(numbers: Numbers, equation: Equation) -> ClaimResult:
     said: list[dict[str, float]] = []
 
     def residual(text: str, left: str) -> float:
-        said.append(_assigned(equation.left, text))
+        said.append(_assigned(left, text))
+        if said[-1].keys() not in _TOGETHER:
+            raise unreadable(left)
         return replace(numbers, pose={**numbers.pose, **said[-1]}).gap()
 
     note = "with it the printed angles take the feet along the gait"

@@ -31,6 +31,7 @@ from thesis_pin.model.mechanism.inertia import check_physical
 from thesis_pin.numeric.rotations import rotation
 
 _SIZE = 0.1  # m, the length every error of a length is compared with
+_LAST_DIGIT = 0.01e-6  # kg·m², of the printed inertias
 _MIRRORS = {"mirrored": np.diag([-1.0, 1.0, 1.0]), "turned": np.diag([-1.0, -1.0, 1.0])}
 """What takes a left link to its twin: the sagittal plane, or half a turn about the vertical."""
 
@@ -62,13 +63,20 @@ def claims(catalogue: Catalogue) -> dict[str, Check]:
 
 def _mass_sum(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     """m_T is the torso's mass and twice that of each link."""
-    rows = {e.left: e.printed[0] for e in catalogue.equations if e.claim == "mass_sum"}
+    rows = {
+        e.left: e.printed[0]
+        for e in catalogue.equations
+        if e.claim == "mass_sum" and e.id != equation.id
+    }
+    # Given twice, another mass would be given not at all.
+    if equation.left in rows or not re.fullmatch(r"m_(B|T|\{[1-6]i\})", equation.left):
+        raise unreadable(equation.left)
 
     def residual(text: str, left: str) -> float:
         said = {left: quantity(x)[0] for left, x in {**rows, equation.left: text}.items()}
         total = said.pop("m_T")
         links = sum(2 * mass for name, mass in said.items() if name != "m_B")
-        return abs(said["m_B"] + links - total) / total
+        return abs(said["m_B"] + links - total) / abs(total)
 
     return both(equation, residual, "the masses of B.5 add up to m_T")
 
@@ -98,52 +106,58 @@ def _other(catalogue: Catalogue, section: str, kind: str, number: int, leg: str)
     return catalogue[name].printed[0]
 
 
+def _turn(catalogue: Catalogue, number: int, leg: str, kind: str) -> np.ndarray:
+    """What takes a link's own axes to its twin's own axes: they differ in signs alone."""
+    other = "2" if leg == "1" else "1"
+    mine, theirs = (_axes(catalogue, number, side) for side in (leg, other))
+    return np.diag(np.round(theirs.T @ _MIRRORS[kind] @ mine))
+
+
+def _twinned(catalogue: Catalogue, mine: np.ndarray, number: int, leg: str, kind: str) -> float:
+    """How far a matrix is from its twin's, zeros' printed signs included; relative."""
+    theirs = array(_other(catalogue, "B.6", "I_", number, leg))
+    signs = _turn(catalogue, number, leg, kind)
+    expected = mine * np.outer(signs, signs)
+    zeros = (expected == 0.0) & (theirs == 0.0)
+    unlike = zeros & (np.signbit(expected) != np.signbit(theirs))
+    gap = float(np.abs(expected - theirs).max()) + _LAST_DIGIT * float(unlike.any())
+    return gap / float(np.abs(theirs).max())
+
+
+def _kind(catalogue: Catalogue, number: int, leg: str) -> str:
+    """Whether a link is its twin mirrored or turned, by the matrices of both."""
+    mine = array(catalogue[f"scout:B.6:I_{number}{leg}^{2 * number - 1}{leg}"].printed[0])
+    gaps = {kind: _twinned(catalogue, mine, number, leg, kind) for kind in _MIRRORS}
+    return min(gaps, key=lambda kind: gaps[kind])
+
+
 def _twin_inertia(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     """A link's matrix is its twin's, mirrored or turned."""
     number, leg = _link(equation.left)
-    theirs = array(_other(catalogue, "B.6", "I_", number, leg))
-    kinds: list[str] = []
+    kind = _kind(catalogue, number, leg)
 
     def residual(text: str, left: str) -> float:
         mine = array(text)
         if mine.shape != (3, 3):
             raise unreadable(text)
-        tensors = []
-        for matrix, side in ((mine, leg), (theirs, "2" if leg == "1" else "1")):
-            # Off-diagonals are positive products of inertia: a tensor has them negated.
-            tensor = 2 * np.diag(np.diag(matrix)) - matrix
-            axes = _axes(catalogue, number, side)
-            tensors.append(axes @ tensor @ axes.T)
-        first, second = tensors
-        gaps = {
-            kind: float(np.abs(change @ first @ change - second).max())
-            for kind, change in _MIRRORS.items()
-        }
-        kinds.append(min(gaps, key=lambda kind: gaps[kind]))
-        skew = float(np.abs(mine - mine.T).max())
-        return max(gaps[kinds[0]], skew) / float(np.abs(theirs).max())
+        return _twinned(catalogue, mine, number, leg, kind)
 
-    result = both(equation, residual)
-    return ClaimResult(result.printed, note=result.note or f"its twin's, {kinds[0]}")
+    return both(equation, residual, f"its twin's, {kind}")
 
 
 def _twin_centre(catalogue: Catalogue, equation: Equation) -> ClaimResult:
-    """A link's centre of mass is its twin's, mirrored or turned."""
+    """A link's centre of mass is its twin's, mirrored or turned as its matrix is."""
     number, leg = _link(equation.left)
-    other = "2" if leg == "1" else "1"
+    kind, other = _kind(catalogue, number, leg), "2" if leg == "1" else "1"
     frame = 2 * number - 1
-    text = _other(catalogue, "B.7", "r_G", number, leg)
-    theirs = _axes(catalogue, number, other) @ components(text, f"{frame}{other}")
-    kinds: list[str] = []
+    theirs = components(_other(catalogue, "B.7", "r_G", number, leg), f"{frame}{other}")
+    signs = _turn(catalogue, number, leg, kind)
 
     def residual(text: str, left: str) -> float:
-        mine = _axes(catalogue, number, leg) @ components(text, f"{frame}{leg}")
-        gaps = {k: float(np.abs(change @ mine - theirs).max()) for k, change in _MIRRORS.items()}
-        kinds.append(min(gaps, key=lambda kind: gaps[kind]))
-        return gaps[kinds[0]] / float(np.abs(theirs).max())
+        gap = components(text, f"{frame}{leg}") * signs - theirs
+        return float(np.abs(gap).max() / np.abs(theirs).max())
 
-    result = both(equation, residual)
-    return ClaimResult(result.printed, note=result.note or f"its twin's, {kinds[0]}")
+    return both(equation, residual, f"its twin's, {kind}")
 
 
 def _as_tensors(specification: Specification) -> ClaimResult:
@@ -172,7 +186,10 @@ def _as_tensors(specification: Specification) -> ClaimResult:
 
 def _program_lengths(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     """The program's lengths [mm] are those of B.2."""
-    names = re.findall(r"\\mathtt\{([xyz])(\d)1\}", equation.left)
+    one = r"\\mathtt\{([xyz])(\d)1\}"
+    if not re.fullmatch(rf"\({one}(, {one})*\)", equation.left):
+        raise unreadable(equation.left)
+    names = re.findall(one, equation.left)
     rows = [catalogue[f"scout:B.2:{x}_{n}i"] for x, n in names]
     theirs = np.array([quantity(row.printed[0])[0] for row in rows])
 
@@ -189,7 +206,10 @@ def _program_lengths(catalogue: Catalogue, equation: Equation) -> ClaimResult:
 
 def _program_beta(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     """The program's constant angles are those of joints 2 to 5."""
-    leg = equation.left[-2]
+    named = re.fullmatch(r"\\beta_\{n([12])\}", equation.left)
+    if not named:
+        raise unreadable(equation.left)
+    leg = named[1]
     rows = [catalogue[f"scout:B.3:beta_{n}{leg}"] for n in range(2, 6)]
     theirs = np.array([quantity(row.printed[0])[0] for row in rows])
 

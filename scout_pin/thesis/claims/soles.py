@@ -76,6 +76,10 @@ def _soles(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     """Every vertex of the right sole is the left one's, moved."""
     moved = _corners(catalogue, 2) - _corners(catalogue, 1)
 
+    pair = r"\\mathbf\{r\}_\{(?P<a>[a-t])2\}\^2 - \\mathbf\{r\}_\{(?P=a)1\}\^1"
+    if not re.fullmatch(pair, equation.left):
+        raise unreadable(equation.left)
+
     def residual(text: str, left: str) -> float:
         return beyond(components(text, "") - np.pad(moved, ((0, 0), (0, 1))), 1e-12, _SIZE)
 
@@ -99,6 +103,8 @@ def _outline(catalogue: Catalogue, equation: Equation) -> ClaimResult:
 
 def _program_sole(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     """The program's right sole is that of B.4."""
+    if equation.left != r"\mathtt{pd}_1, \ldots, \mathtt{pd}_{20}":
+        raise unreadable(equation.left)
     theirs = _corners(catalogue, 2)
 
     def residual(text: str, left: str) -> float:

@@ -1,4 +1,4 @@
-"""Checks of the splines: chapter 5's, the table's, appendix C's and the program's."""
+"""Checks of the splines: chapter 5's, the table's and the program's."""
 
 from __future__ import annotations
 
@@ -17,17 +17,15 @@ from scout_pin.thesis.claims.texts import (
     Piece,
     beyond,
     both,
-    half_digit,
-    identity,
     pieces,
     statements,
     unreadable,
 )
-from scout_pin.thesis.symbols.splines import PIECES, Splines, spline_coefficients
 from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
-STEP = 52.26  # mm, the length every error of a spline is compared with
+STEP = 52.26
+"""Length [mm] that every error of a spline is compared with."""
 CURVES = {
     "y_B": ("torso", 1),
     "y_1": ("left_foot", 1),
@@ -36,7 +34,8 @@ CURVES = {
     "z_2": ("right_foot", 2),
 }
 """Coordinates that move (5.2 to 5.6), in the thesis's order, and what the gait calls them."""
-_WRONG = 1.0  # residual of a statement that no number measures
+WRONG = 1.0
+"""Residual of a statement that no number measures."""
 
 
 def claims(catalogue: Catalogue) -> dict[str, Check]:
@@ -50,10 +49,6 @@ def claims(catalogue: Catalogue) -> dict[str, Check]:
             r"\\text\{they go through the nodes that bound their pieces\}",
         ),
         "program_spline": partial(_program_spline, catalogue),
-        "spline_pieces": partial(_pieces_of_c, catalogue),
-        "spline_conditions": partial(_conditions, catalogue),
-        "spline_node": _node,
-        "figure_c_1": partial(_figure_c_1, catalogue),
     }
 
 
@@ -75,10 +70,10 @@ def _spline(exact: Gait, equation: Equation) -> ClaimResult:
     def residual(text: str, left: str) -> float:
         found, worst = pieces(text), 0.0
         if not _tiles(found, 0.0, 40.0):
-            return _WRONG
+            return WRONG
         for piece in found:
             if not all(np.isclose(curve.x, t).any() for t in (piece.start, piece.end)):
-                return _WRONG
+                return WRONG
             t = np.linspace(piece.start, piece.end, 50, endpoint=False)
             # 38.5 and the like are the table's own numbers; they carry no rounding.
             gap = piece.value(t) - curve(t) * 1e3
@@ -147,20 +142,20 @@ def _program_spline(catalogue: Catalogue, equation: Equation) -> ClaimResult:
         own, worst = pieces(text), 0.0
         beside = [piece for piece in own if piece.start < printed[-1].end]
         if len(beside) != len(printed):
-            return _WRONG
+            return WRONG
         for mine, theirs in zip(beside, printed, strict=True):
             last = theirs is printed[-1]
             if mine.start != theirs.start or not (last or mine.end == theirs.end):
-                return _WRONG
+                return WRONG
             scale = np.where(theirs.coefficients == 0.0, 1.0, np.abs(theirs.coefficients))
             change = (mine.coefficients - theirs.coefficients) / scale
-            worst = max(worst, beyond(change, (mine.half + theirs.half) / scale, 1.0))
+            worst = max(worst, beyond(change, np.abs(mine.half - theirs.half) / scale, 1.0))
             t = np.linspace(theirs.start, theirs.end, 200, endpoint=False)
             apart.append(float(np.abs(mine.value(t) - theirs.value(t)).max()))
         t = np.array([printed[-1].end])
         end = [piece for piece in own if piece.has(t)[0]]
         if len(end) != 1 or not np.isinf(own[-1].end):
-            return _WRONG
+            return WRONG
         allowed = end[0].rounding(t) + printed[-1].rounding(t)
         return max(worst, beyond(end[0].value(t) - printed[-1].value(t), allowed, STEP))
 
@@ -171,102 +166,3 @@ def _program_spline(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     note = f"other coefficients, though the curves stay within {far:.3f} mm of each other"
     effect: dict[str, float | str] = {"torso's path [m]": far * 1e-3}
     return ClaimResult(result.printed, result.corrected, note, effect)
-
-
-# -- appendix C -------------------------------------------------------------------
-
-
-def _values(text: str) -> str:
-    """f(t_k), the value at a node, as a symbol: f_k."""
-    return re.sub(r"f\(t(_\{[^{}]*\}|_\w)\)", r"f\1", text)
-
-
-def _conditions(catalogue: Catalogue, equation: Equation) -> ClaimResult:
-    """A line of appendix C at random splines."""
-    splines = Splines()
-
-    def residual(text: str, left: str) -> float:
-        return identity(catalogue, _values(left), _values(text), splines)
-
-    return both(equation, residual)
-
-
-def _pieces_of_c(catalogue: Catalogue, equation: Equation) -> ClaimResult:
-    """(C.1) and (C.2): piece k from node k − 1 to node k, the first to the mth."""
-    splines = Splines()
-
-    def residual(text: str, left: str) -> float:
-        inside = re.fullmatch(r"\\begin\{cases\}(.*)\\end\{cases\}", text)
-        if not inside or equation.left != "S(t)":
-            raise unreadable(text)
-        worst, before, skipped = 0.0, 0, False
-        for line in re.split(r"\\\\", inside[1]):
-            if line.strip() == r"\vdots & \vdots":
-                skipped = True
-                continue
-            parts = re.fullmatch(
-                r"\s*S_\{?(\w)\}?\(t\)(?: = (.*))?; & t_\{?(\w|m-1)\}? \\leq t < t_\{?(\w)\}?\s*",
-                line,
-            )
-            if not parts:
-                raise unreadable(line)
-            name, formula, start, end = parts.groups()
-            k, first, last = (_number(x) for x in (name, start, end))
-            follows = k == before + 1 or (skipped and k > before + 1)
-            if not follows or (first, last) != (k - 1, k):
-                return _WRONG
-            before, skipped = k, False
-            if formula:
-                gap = identity(catalogue, f"S_{{{name}}}(t)", formula, splines)
-                worst = max(worst, gap)
-        return worst if before == PIECES else _WRONG
-
-    return both(equation, residual)
-
-
-def _number(index: str) -> int:
-    """Number of a piece or node called "3", "m" or "m-1"."""
-    numbers = {"m": PIECES, "m-1": PIECES - 1}
-    if not (index.isdigit() or index in numbers):
-        raise unreadable(index)
-    return numbers[index] if index in numbers else int(index)
-
-
-def _read_node(text: str) -> tuple[float, float]:
-    found = re.fullmatch(r"\((\d+(?:\.\d+)?), (\d+(?:\.\d+)?)\)", text)
-    if not found:
-        raise unreadable(text)
-    return float(found[1]), float(found[2])
-
-
-def _node(equation: Equation) -> ClaimResult:
-    """A node of C.2 is a row of table 5.1."""
-    name = re.fullmatch(r"\(t_(\d), y_B\(t_\1\)\)", equation.left)
-    if not name:
-        raise unreadable(equation.left)
-    table = {float(row["t"]): row["y_B"] for row in table_rows()}
-
-    def residual(text: str, left: str) -> float:
-        t, value = _read_node(text)
-        if table.get(t, "-") == "-":
-            return _WRONG
-        return abs(float(table[t]) - value) / STEP
-
-    return both(equation, residual, "as table 5.1 has it")
-
-
-def _figure_c_1(catalogue: Catalogue, equation: Equation) -> ClaimResult:
-    """The nine coefficients through the nodes of C.2, to the digits printed."""
-    nodes = [_read_node(catalogue[f"scout:C.2:node_{k}"].printed[0]) for k in range(4)]
-    times, values = np.array(nodes).T
-    found = spline_coefficients(times, values)
-
-    def residual(text: str, left: str) -> float:
-        if not re.fullmatch(r"(\((-?[\d.]+, ){2}-?[\d.]+\)(, |$)){3}", text):
-            raise unreadable(text)
-        cells = re.findall(r"-?\d+(?:\.\d+)?", text)
-        printed = np.array(cells, dtype=float).reshape(3, 3)
-        half = np.array([half_digit(cell) for cell in cells]).reshape(3, 3)
-        return beyond(found - printed, half, 1.0)
-
-    return both(equation, residual)

@@ -9,7 +9,7 @@ import numpy as np
 
 from scout_pin.thesis.state import BODIES, COORDINATES, State, coordinate_index
 from thesis_pin.equations.evaluation import evaluate
-from thesis_pin.equations.formula import Node, Symbol
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
 from thesis_pin.equations.frames import rows
 from thesis_pin.equations.symbols import Symbols
 from thesis_pin.equations.values import ZERO, Value, scalar, vector
@@ -41,6 +41,8 @@ class Coordinates(Symbols):
             return special
         if isinstance(of, Symbol) and of.name == "q" and by is not None:
             return self._unit(by) if of.dots == by.dots else ZERO
+        if by is not None and by.dots > 1:
+            raise FormulaError("differentiates by an acceleration")
         if by is not None and by.name == "q":
             columns = self.partial(of, Symbol("q", "j"), indices)
             swapped = np.swapaxes(columns.array, 1, -1)[:, None]

@@ -43,7 +43,8 @@ class Dynamics(Vectors):
     """What follows from the bodies' Jacobians and masses."""
 
     def _special_derivative(self, of: Node, by: Symbol | None) -> Value | None:
-        if isinstance(of, Symbol) and of.name == "L" and by is not None and by.dots:
+        of_L = isinstance(of, Symbol) and of.name == "L" and not of.dots
+        if of_L and by is not None and by.dots == 1:
             return self._momentum(by)
         return None
 

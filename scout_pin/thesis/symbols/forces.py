@@ -24,8 +24,25 @@ def matrix_entry(digits: str) -> tuple[int, int] | None:
     return None
 
 
+_PLAIN = frozenset(
+    {
+        *("bb:D", "bb:V", "bb:C", "A", "ZMP"),
+        *(f"delta:{x}" for x in ("q", "theta", "phi", "psi", "x", "y", "z", "W")),
+    }
+)
+"""Letters that the thesis writes without dots, primes and frames: with one they are others."""
+_PRIMED = frozenset({"V", "C"})
+
+
 class Forces(Dynamics):
     """A_τ, δW, Q, τ, φ, Φ, λ, Γ."""
+
+    def _answer(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.base in _PLAIN and (symbol.dots or symbol.sup):
+            return None
+        if symbol.primes and symbol.base not in _PRIMED:
+            return None
+        return super()._answer(symbol, i)
 
     def _of_tau(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup == "0" and symbol.sub in BODIES[1:] and not symbol.dots:
@@ -64,7 +81,7 @@ class Forces(Dynamics):
     _of_delta_x = _of_delta_y = _of_delta_z = _of_delta_theta
 
     def _of_delta_Q(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.sup != "0" or symbol.sub not in BODIES:
+        if symbol.sup != "0" or symbol.sub not in BODIES or symbol.dots:
             return None
         turned = self.state.angular(symbol.sub) @ self.state.virtual[..., None]
         return vector(turned[..., 0])
@@ -125,7 +142,7 @@ class Forces(Dynamics):
         return np.concatenate(rows, axis=-2)
 
     def _of_Phi(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.sub not in ("1", "2", "3"):
+        if symbol.sub not in ("1", "2", "3") or symbol.sup != "0" or symbol.dots:
             return None
         interval = int(symbol.sub)
         rows = [self.constraint(k, interval) for k in range(1, 13 if interval == 2 else 7)]

@@ -20,30 +20,33 @@ _SPLINES, _SEED = 12, 90817
 class Splines(Symbols):
     """Random splines, each at a random instant of its own.
 
-    Coefficients follow from the slopes at the nodes, one after the other: the first
-    piece is straight, and a parabola's mean slope is that of its chord. The system
-    that the thesis solves isn't used.
+    Coefficients follow from the slopes at the nodes, one after the other: a parabola's
+    mean slope is that of its chord. The system that the thesis solves isn't used.
 
     Args:
+        straight: Whether the first piece is, as (C.5) has it; all else holds either way.
         later: Step that the instant has made, imaginary in a derivative.
     """
 
-    def __init__(self, later: complex = 0.0) -> None:
+    def __init__(self, straight: bool = False, later: complex = 0.0) -> None:
         super().__init__()
+        self.straight = straight
         generator = np.random.default_rng(_SEED)
         self.nodes = np.cumsum(generator.uniform(0.5, 2.0, (_SPLINES, PIECES + 1)), axis=1)
         self.values = generator.uniform(-2.0, 2.0, (_SPLINES, PIECES + 1))
         self.t = generator.uniform(self.nodes[:, 0], self.nodes[:, -1]) + later
+        self.slopes = generator.uniform(-1.0, 1.0, _SPLINES)
 
     @cached_property
     def coefficients(self) -> np.ndarray:
         """Of t², t, 1; shape ``(splines, pieces, 3)``."""
-        return spline_coefficients(self.nodes, self.values)
+        slopes = None if self.straight else self.slopes
+        return spline_coefficients(self.nodes, self.values, slopes)
 
     def _stepped(self, along: str | None, rates: bool) -> Self:
         if along is not None:
             return super()._stepped(along, rates)
-        return type(self)(1j * STEP)
+        return type(self)(self.straight, 1j * STEP)
 
     def _numbered(self, symbol: Symbol, first: int, last: int) -> int | None:
         """Number that a subscript says ("2", "m-1"), if there is one of that number."""
@@ -53,6 +56,10 @@ class Splines(Symbols):
         number = PIECES if found[1] == "m" else int(found[1])
         number += int(found[3]) * (1 if found[2] == "+" else -1) if found[2] else 0
         return number if first <= number <= last else None
+
+    def _differentiated(self, symbol: Symbol, i: str) -> Value | None:
+        """Only pieces have a rate: nodes, coefficients and the instant itself have none."""
+        return super()._differentiated(symbol, i) if symbol.base == "S" else None
 
     def _of_t(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots:
@@ -85,12 +92,15 @@ class Splines(Symbols):
         return scalar((a * self.t + b) * self.t + c)
 
 
-def spline_coefficients(nodes: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Coefficients of the quadratic spline whose first piece is straight.
+def spline_coefficients(
+    nodes: np.ndarray, values: np.ndarray, slope: np.ndarray | None = None
+) -> np.ndarray:
+    """Coefficients of a quadratic spline.
 
     Args:
         nodes: Where the pieces meet, rising, shape ``(..., m + 1)``.
         values: What the spline is there, of the same shape.
+        slope: Its rate at the first node, shape ``(...)``; None for a straight first piece.
 
     Returns:
         Of t², t, 1; shape ``(..., m, 3)``.
@@ -99,7 +109,7 @@ def spline_coefficients(nodes: np.ndarray, values: np.ndarray) -> np.ndarray:
     """
     widths = np.diff(nodes)
     chords = np.diff(values) / widths
-    slope, found = chords[..., 0], []
+    slope, found = chords[..., 0] if slope is None else slope, []
     for k in range(widths.shape[-1]):
         a = (chords[..., k] - slope) / widths[..., k]
         b = slope - 2 * a * nodes[..., k]

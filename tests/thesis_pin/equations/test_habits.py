@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 
 from thesis_pin.equations.evaluation import evaluate
-from thesis_pin.equations.formula import Call, Derivative, FormulaError, Product, Symbol, Unreadable
+from thesis_pin.equations.formula import (
+    Call,
+    Derivative,
+    FormulaError,
+    Product,
+    Symbol,
+    Transpose,
+    Unreadable,
+)
 from thesis_pin.equations.layout import plain
 from thesis_pin.equations.notation import Notation
 from thesis_pin.equations.values import scalar
@@ -60,6 +68,10 @@ def number(formula):
         (r"l(\theta_1)", 11.0),
         (r"l(\theta_1)/2", 5.5),
         (r"m(l)", 77.0),
+        (r"\left\{ a + b \right\} c", 25.0),
+        (r"\det\begin{bmatrix} a & b \\ c & m \end{bmatrix}", 2 * 7 - 15.0),
+        (r"\operatorname{tr}\left(\begin{bmatrix} a & b \\ c & m \end{bmatrix}\right)", 9.0),
+        (r"\det(\operatorname{diag}(a, b, c))", 30.0),
     ],
 )
 def test_a_formula_is_worth_what_its_author_means(formula, expected):
@@ -96,6 +108,9 @@ def test_a_lost_bracket_is_named_by_its_place():
         (r"\frac{\mathrm{d}}{\mathrm{d}t}\left(l\right)", Derivative(Symbol("l"), None)),
         (r"\vec{r}", Symbol("r", bold=True)),
         (r"\bar{x}_1", Symbol("bar:x", "1")),
+        (r"{}^0R_1", Symbol("R", "1", "0")),
+        (r"{}^{A}_{B}R", Symbol("R", "B", "A")),
+        (r"\mathbf{p}^0{}^T", Transpose(Symbol("p", "", "0", bold=True))),
         (r"\dot\theta_1(t)", Symbol("theta", "1", dots=1)),
         (r"\ddot{\theta}_{1}", Symbol("theta", "1", dots=2)),
         (r"\frac{d l}{d m}", None),

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
-from thesis_pin.audit.derivation.motion import times
-from thesis_pin.audit.derivation.phrases import Phrase
-from thesis_pin.audit.derivation.references import Glossary, References
-from thesis_pin.audit.derivation.states import States
+from thesis_pin.audit.derivation.moving.motion import times
+from thesis_pin.audit.derivation.moving.states import States
+from thesis_pin.audit.derivation.references import References
+from thesis_pin.audit.derivation.said.glossary import Glossary
+from thesis_pin.audit.derivation.said.phrases import Phrase
 from thesis_pin.audit.rows import HOLDS, Effect
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate

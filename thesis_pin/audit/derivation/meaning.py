@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from thesis_pin.audit.derivation.motion import Point, times
-from thesis_pin.audit.derivation.phrases import ENERGIES, JACOBIANS, POINTS, Phrase
-from thesis_pin.audit.derivation.states import States
-from thesis_pin.audit.derivation.tree import WORLD
+from thesis_pin.audit.derivation.moving.motion import Point, times
+from thesis_pin.audit.derivation.moving.states import States
+from thesis_pin.audit.derivation.moving.tree import WORLD
+from thesis_pin.audit.derivation.said.phrases import ENERGIES, JACOBIANS, POINTS, Phrase
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.values import Value, matrix, scalar, vector
 from thesis_pin.errors import BadInput
@@ -237,7 +237,8 @@ def entry(value: Value, numbers: tuple[int, ...]) -> Value:
     if not numbers:
         return value
     tail = value.tail
-    if len(numbers) != len(tail) or any(n > size for n, size in zip(numbers, tail, strict=True)):
+    fits = len(numbers) == len(tail)
+    if not fits or any(not 1 <= n <= size for n, size in zip(numbers, tail, strict=True)):
         listed = ", ".join(map(str, numbers))
         raise FormulaError(f"has no entry {listed}: it is {value.describe()}")
     found = value.array

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from thesis_pin.audit.derivation.meaning import Meanings, entry
-from thesis_pin.audit.derivation.phrases import Phrase
-from thesis_pin.audit.derivation.states import States
+from thesis_pin.audit.derivation.moving.states import States
+from thesis_pin.audit.derivation.said.glossary import Glossary, Key, key
+from thesis_pin.audit.derivation.said.phrases import Phrase
 from thesis_pin.equations.catalogue import Catalogue, Edition
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
@@ -21,43 +22,6 @@ from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, 
 _STENCIL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 _REACH = 0.02
 """Step of a derivative inside a derivative. The stencil's eighth power of it is below rounding."""
-
-Key = tuple[str, bool]
-"""Name of a symbol and whether it is bold."""
-
-
-def key(symbol: Symbol) -> Key:
-    """What a symbol is looked up by."""
-    return symbol.name, symbol.bold
-
-
-@dataclass(frozen=True)
-class Glossary:
-    """What the letters of a derivation stand for.
-
-    Attributes:
-        coordinates: Symbol → number of the coordinate.
-        constants: Symbol → value, or where the model has it.
-        symbols: Symbol → what it must be.
-        cos, sin: Letters of the shorthand; empty for none.
-    """
-
-    coordinates: Mapping[Key, int]
-    constants: Mapping[Key, float | Phrase]
-    symbols: Mapping[Key, Phrase | Node]
-    cos: str = ""
-    sin: str = ""
-
-    def find(self, symbol: Symbol) -> Key | None:
-        """The key of a symbol, bold or not if only the other is there."""
-        every = {**self.coordinates, **self.constants, **self.symbols}
-        name, bold = key(symbol)
-        return next((k for k in ((name, bold), (name, not bold)) if k in every), None)
-
-    @property
-    def names(self) -> list[str]:
-        """All names."""
-        return [name for name, _ in (*self.coordinates, *self.constants, *self.symbols)]
 
 
 @dataclass
@@ -254,7 +218,7 @@ class References:
     def _derivative(
         self, of: Callable[[References], Value], along: int | None, order: int
     ) -> Value:
-        if along is not None and not (along < self.columns and order < len("xva")):
+        if along is not None and not (0 <= along < self.columns and order < len("xva")):
             raise FormulaError("differentiates by a coordinate that there isn't")
         if not self.states.perturbed:
             return imaginary(of(self._at(along, order, 0j)))

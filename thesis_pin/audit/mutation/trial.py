@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 import zlib
 from collections import Counter
@@ -21,6 +22,9 @@ from thesis_pin.equations.formula import FormulaError, Node, Symbol, symbols
 
 EACH = 5
 """Slips of a kind tried in the members of a line, and as many on its left side."""
+
+_LOOKED_AT = 8
+"""Times as many slips are looked at for those of symbols in use: long lines have hundreds."""
 
 Answer = Literal["caught", "identity", "same", "missed"]
 ANSWERS: tuple[Answer, ...] = get_args(Answer)
@@ -70,6 +74,7 @@ class Trials:
         for kind in SLIPS:
             for member, slip in self._chosen(equation, kind):
                 answer = self._answer(equation, member, slip)
+                self.equations.forget(slip.text)
                 yield Trial(equation.id, member, kind, slip.said, answer)
 
     def _chosen(self, equation: Equation, kind: str) -> Iterator[tuple[int, Planted]]:
@@ -92,7 +97,7 @@ class Trials:
         """As many as are asked for that read as formulas, those of symbols in use first."""
         best: list[tuple[int, Planted]] = []
         others: list[tuple[int, Planted]] = []
-        for number, slip in pool:
+        for number, slip in itertools.islice(pool, self.each * _LOOKED_AT):
             node = None if equation.claim else self._parsed(slip.text)
             if not equation.claim and node is None:
                 continue

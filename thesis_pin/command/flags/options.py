@@ -167,6 +167,8 @@ def add_audit(words: Words) -> None:
     add_json(words, "all rows")
     words.add_argument("--html", metavar="FILE|-", help="write a page with rendered formulas")
     words.add_argument("--markdown", metavar="FILE|-", help="write the audit as a document")
+    words.add_argument("--errata", metavar="FILE|-", help="write errata to send to the author")
+    words.add_argument("--language", choices=("en", "es"), help="of the errata (default: en)")
     add_jobs(words)
 
 

@@ -51,6 +51,15 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     from thesis_pin.equations.uses import uses
     from thesis_pin.report.writers import json_bytes
 
+    if arguments.errata and arguments.equation is not None:
+        raise BadInput(
+            "--errata and --equation are both given", remedy="errata are of a whole thesis"
+        )
+    if arguments.language and not arguments.errata:
+        raise BadInput(
+            f"--language {arguments.language} is given without --errata",
+            remedy="only errata are written in other languages: add --errata FILE",
+        )
     only = (
         known(arguments.equation, thesis.catalogue(), thesis)
         if arguments.equation is not None
@@ -65,6 +74,8 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
         put(arguments.html, page(report, uses(thesis.catalogue())).encode())
     if arguments.markdown:
         put(arguments.markdown, markdown(report, thesis.document_command).encode())
+    if arguments.errata:
+        put(arguments.errata, _errata(report, thesis, arguments.language or "en").encode())
     if arguments.json:
         put(arguments.json, json_bytes(document(report)))
     if not free(arguments):
@@ -90,6 +101,19 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     print_entries(_without_verdict(report))
     print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
     return ExitCode.DONE
+
+
+def _errata(report: AuditReport, thesis: Thesis, language: str) -> str:
+    """The errata in a language; says what it has no words for, which stay in English."""
+    from thesis_pin.audit.errata.document import errata
+    from thesis_pin.audit.errata.phrases import SPANISH, Phrases, read_phrases
+
+    files = [SPANISH, *([thesis.spanish] if thesis.spanish else [])]
+    phrases = Phrases(read_phrases(*files) if language == "es" else {})
+    text = errata(report, thesis.errata_command(language), phrases)
+    if phrases.missing:
+        say(f"{len(phrases.missing)} texts have no Spanish yet and stay in English")
+    return text
 
 
 def _without_verdict(report: AuditReport) -> Iterator[tuple[str, str]]:

@@ -4,10 +4,12 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from thesis_pin.audit.derivation import coordinates, phrases
-from thesis_pin.audit.derivation.references import Glossary, References, key
-from thesis_pin.audit.derivation.states import Frames, States
-from thesis_pin.audit.derivation.tree import Tree
+from thesis_pin.audit.derivation.moving import coordinates
+from thesis_pin.audit.derivation.moving.states import Frames, States
+from thesis_pin.audit.derivation.moving.tree import Tree
+from thesis_pin.audit.derivation.references import References
+from thesis_pin.audit.derivation.said import phrases
+from thesis_pin.audit.derivation.said.glossary import Glossary, key
 from thesis_pin.equations.catalogue import Catalogue
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.notation import Notation

@@ -6,8 +6,9 @@ import pinocchio as pin
 import pytest
 
 from thesis_pin import audit_derivation
-from thesis_pin.audit.derivation import coordinates, phrases
-from thesis_pin.audit.derivation.constants import number
+from thesis_pin.audit.derivation.moving import coordinates
+from thesis_pin.audit.derivation.said import phrases
+from thesis_pin.audit.derivation.said.constants import number
 from thesis_pin.errors import BadInput, UnknownName
 from thesis_pin.loops.loading import load
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from thesis_pin.audit.derivation.states import Frames
-from thesis_pin.audit.derivation.tree import Tree
+from thesis_pin.audit.derivation.moving.states import Frames
+from thesis_pin.audit.derivation.moving.tree import Tree
 
 _LEAST, _MOST, _SEED = 0.6, 1.7, 4711
 KINDS = ("masses", "inertias", "lengths")

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
-from thesis_pin.audit.derivation.coordinates import Coordinates
-from thesis_pin.audit.derivation.motion import Motion
-from thesis_pin.audit.derivation.tree import WORLD, Tree
+from thesis_pin.audit.derivation.moving.coordinates import Coordinates
+from thesis_pin.audit.derivation.moving.motion import Motion
+from thesis_pin.audit.derivation.moving.tree import WORLD, Tree
 from thesis_pin.equations.values import STEP
 from thesis_pin.errors import ModelError, UnknownName
 
@@ -82,17 +82,25 @@ class States:
     jerk: np.ndarray
     perturbed: bool = False
 
+    @property
+    def of_points(self) -> States:
+        """The same states of bodies without inertia about their centres of mass."""
+        return replace(self, tree=replace(self.tree, inertia=0.0 * self.tree.inertia))
+
     @classmethod
     def random(
         cls, tree: Tree, frames: Frames, coordinates: Coordinates, gravity: np.ndarray
     ) -> States:
-        """Seeded states: general ones, and some that move a single coordinate."""
+        """Seeded states: general ones, and some that move a single coordinate.
+
+        None is at zero, where formulas with sin θ below a fraction have no value.
+        """
         n = coordinates.count
         generator = np.random.default_rng(_SEED)
         sizes = (_REACH, _RATE, _FORCE, _JERK)
         x, v, a, jerk = (generator.uniform(-size, size, (_GENERAL + n, n)) for size in sizes)
         for k in range(n):
-            for one in (x, v, a, jerk):
+            for one in (v, a, jerk):
                 one[_GENERAL + k, np.arange(n) != k] = 0.0
         return cls(tree, frames, coordinates, gravity, x, v, a, jerk)
 

@@ -13,7 +13,7 @@ from thesis_pin.equations.catalogue import Equation, EquationFile
 from thesis_pin.equations.formula import FormulaError, Unreadable
 from thesis_pin.equations.layout import plain
 from thesis_pin.equations.notation import Notation
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, SpecificationError
 from thesis_pin.model.source import read_text
 from thesis_pin.model.specification import Key, Strict, Vector3, key_lines, parse_toml
 
@@ -100,8 +100,15 @@ def read(path: str | Path) -> tuple[DerivationFile, str]:
         SpecificationError: It breaks the schema; lists every problem.
     """
     text = read_text(KIND, path)
-    file = parse_toml(KIND, DerivationFile, text, where=str(path))
-    return file, text
+    try:
+        return parse_toml(KIND, DerivationFile, text, where=str(path)), text
+    except SpecificationError:
+        raise
+    except BadInput as error:
+        if error.remedy or "\\" not in text:
+            raise
+        remedy = r"LaTeX stands in single quotes, also before the =: '\theta_1' = 'shoulder'"
+        raise BadInput(error.what, where=error.where, remedy=remedy) from None
 
 
 def two_sided(equation: Equation) -> Equation:

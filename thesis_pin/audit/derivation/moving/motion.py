@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from thesis_pin.audit.derivation.tree import WORLD, Tree
+from thesis_pin.audit.derivation.moving.tree import WORLD, Tree
 from thesis_pin.equations import lagrangian
 
 

@@ -1,0 +1,126 @@
+"""Errata: each failing line with its place, print, correction, why and effect."""
+
+from dataclasses import replace
+
+import pytest
+
+from thesis_pin.audit.errata.document import errata
+from thesis_pin.audit.errata.phrases import SPANISH, Phrases, read_phrases
+from thesis_pin.audit.errata.places import math
+from thesis_pin.audit.rows import AuditReport, Row
+from thesis_pin.audit.slips import Cause
+
+
+def failing(name, cause="", **more):
+    row = Row(
+        f"robot:1.2:{name}",
+        "Thesis, 1.2",
+        ("4",),
+        name,
+        ("a + b",),
+        {1: "a - b"},
+        "misprint",
+        "scan",
+        "the sign is lost",
+        0.5,
+        1e-12,
+        ("symbol 2: + should be -",),
+        ("sign",),
+        effect={"torque [N·m]": 0.25},
+        cause=cause,
+        line=17,
+    )
+    return replace(row, **more)
+
+
+HOLDS = Row("robot:1.2:h", "Thesis, 1.2", (), "h", ("1",), {}, "holds")
+CAUSE = Cause("a slip", "(1.2)", "One took the wrong turn.")
+ROWS = (
+    failing("late", severity="changes a result", effect={"torque [N·m]": 9.0}),
+    HOLDS,
+    failing("c_1", "slip", severity="notation only", effect={}, no_effect="nothing uses it"),
+    failing("c_2", "slip", verdict="wrong", attribution="thesis"),
+)
+REPORT = AuditReport("Scout thesis", ROWS, (), "States: 3.", {"slip": CAUSE})
+
+
+def entry(text, name):
+    """What stands of one line."""
+    return text.partition(f"(`1.2:{name}`)")[2].partition("\n**")[0]
+
+
+def test_a_line_has_its_place_print_correction_why_and_effect():
+    text = errata(REPORT, "make it")
+    assert "**1.2, (4), line 17 of the text** (`1.2:late`)" in text
+    said = entry(text, "late")
+    for part in (
+        "misprint, by the scan, changes a result.",
+        "- printed: $late = a + b$",
+        "- correct: $a - b$",
+        "- where: `symbol 2: + should be -`",
+        "- why: the sign is lost",
+        "- effect: torque 9 N·m",
+    ):
+        assert part in said
+    assert "- effect: nothing uses it" in entry(text, "c_1")
+
+
+def test_lines_of_a_cause_stand_together_and_the_others_in_the_thesiss_order():
+    text = errata(REPORT, "make it")
+    order = ["### 1. a slip", "`1.2:c_1`", "`1.2:c_2`", "## Single slips", "`1.2:late`"]
+    assert sorted(order, key=text.index) == order
+    assert "`1.2:h`" not in text
+
+
+def test_a_reason_that_all_lines_of_a_cause_share_is_given_once():
+    text = errata(REPORT, "make it")
+    assert "Of all 2 lines: the sign is lost." in text
+    assert "why" not in entry(text, "c_1")
+
+
+def test_the_first_page_counts_by_verdict_kind_and_severity():
+    text = errata(REPORT, "make it")
+    first = text[: text.index("## Slips with")]
+    assert "1 hold, 3 don’t" in first
+    assert "2 are misprints" in first
+    assert "2 lines are ascribed to it and 1 to the thesis" in first
+    assert "| misprint | 1 | 1 | 2 |" in first
+    assert "| sign | 1 | 1 | 3 |" in first
+
+
+def test_the_same_errata_are_said_in_spanish():
+    say = Phrases(
+        read_phrases(SPANISH)
+        | {
+            "Scout thesis": "tesis Scout",
+            "States: 3.": "Estados: 3.",
+            "a slip": "un desliz",
+            "One took the wrong turn.": "Uno dobló mal.",
+            "the sign is lost": "se perdió el signo",
+            "nothing uses it": "nada lo usa",
+            "torque": "torque",
+        }
+    )
+    text = errata(REPORT, "make it", say)
+    assert say.missing == set()
+    assert text.startswith("# Erratas de la tesis Scout\n")
+    said = entry(text, "late")
+    assert "errata, de la digitalización, cambia un resultado." in said
+    assert "- dónde: `símbolo 2: en vez de + debe decir -`" in said
+    assert text.count("\n**") == errata(REPORT, "make it").count("\n**")
+
+
+@pytest.mark.parametrize(
+    ("sides", "shown"),
+    [
+        (["a", "b"], "$a = b$"),
+        ([r"\begin{bmatrix} a \\ b \end{bmatrix}"], r"$\begin{bmatrix} a \cr b \end{bmatrix}$"),
+        ([r"\dot{a"], r"`\dot{a`"),
+        ([r"\left( a"], r"`\left( a`"),
+        (["", "b"], "$b$"),
+        ([], ""),
+        (["x" * 500], ""),
+    ],
+)
+def test_a_short_formula_is_set_and_a_broken_one_shown_as_its_source(sides, shown):
+    assert math(sides) == shown

@@ -1,0 +1,182 @@
+"""A derivation's file and a robot, checked against each other: what its lines are judged by."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from thesis_pin.audit.derivation import meaning
+from thesis_pin.audit.derivation.moving import coordinates as coordinates_of
+from thesis_pin.audit.derivation.moving.states import Frames, States
+from thesis_pin.audit.derivation.moving.tree import Tree
+from thesis_pin.audit.derivation.moving.varied import KINDS, varied
+from thesis_pin.audit.derivation.references import References
+from thesis_pin.audit.derivation.said.file import check_formulas, read, two_sided
+from thesis_pin.audit.derivation.said.header import glossary, notation
+from thesis_pin.audit.derivation.said.phrases import Phrase
+from thesis_pin.audit.residuals import TROUBLES
+from thesis_pin.audit.rows import HOLDS
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.formula import FormulaError, Symbol
+from thesis_pin.errors import BadInput
+from thesis_pin.loops.closures import ClosedRobot
+
+
+class Derivation:
+    """A derivation's file and the robot that it is about, checked against each other.
+
+    Args:
+        path: The file.
+        robot: The robot.
+
+    Raises:
+        BadInput: The file can't be read, a formula isn't readable, or the words of the header
+            don't fit the robot.
+    """
+
+    def __init__(self, path: str | Path, robot: ClosedRobot) -> None:
+        self.where, self.robot = str(path), robot
+        self.file, text = read(path)
+        if robot.loops:
+            raise BadInput(
+                f"{robot.model.name} has closed loops",
+                where=self.where,
+                allowed="a tree: a derivation of a robot with loops needs references of its own",
+            )
+        self.tree, self.frames = Tree.of(robot.model), Frames.of(robot.model)
+        if not self.tree.names:
+            raise BadInput(f"{robot.model.name} has no joint that moves", where=self.where)
+        said = self.file.coordinates
+        self.coordinates = coordinates_of.read(said, self.tree.names, self.where)
+        for coupling in robot.couplings:
+            if tied := set(coupling.coefficients) & set(self.coordinates.joints):
+                raise BadInput(
+                    f"{', '.join(sorted(tied))} can't have a coordinate of its own: it follows "
+                    f"another joint ({coupling.name})",
+                    where=f"{self.where}: coordinates",
+                )
+        self.notation = notation(self.file, self.where)
+        check_formulas(self.file, text, self.notation, self.where)
+        size = float(np.linalg.norm(self.gravity))
+        self.glossary, self.fixed = glossary(self.file, self.notation, self.where, size)
+        self._check_words()
+
+    def _check_words(self) -> None:
+        """Refuse what the robot doesn't have, and constants that change."""
+        glossary = self.glossary
+        said = (
+            ("constants", self.file.constants, glossary.constants),
+            ("symbols", self.file.symbols, glossary.symbols),
+        )
+        for table, texts, meant in said:
+            for text, words in zip(texts, meant.values(), strict=True):
+                where = f"{self.where}: {table}.{text}"
+                if not isinstance(words, Phrase):
+                    continue
+                meaning.check(words, self.states, where)
+                try:
+                    value = self.references.meanings.of(words)
+                except FormulaError as error:
+                    raise BadInput(f"{words.quantity} {error.what}", where=where) from None
+                if table == "constants" and np.ptp(value.array) > HOLDS:
+                    raise BadInput(
+                        f"the {words.quantity} isn't constant",
+                        where=where,
+                        remedy="Say it under [symbols]",
+                    )
+
+    @cached_property
+    def gravity(self) -> np.ndarray:
+        """Free fall's acceleration [m/s²]."""
+        said = self.file.derivation.gravity
+        return np.array(self.robot.model.gravity.linear if said is None else said, dtype=float)
+
+    @cached_property
+    def states(self) -> States:
+        """The states at which the lines are judged."""
+        states = States.random(self.tree, self.frames, self.coordinates, self.gravity)
+        states.check(self.robot.model)
+        return states
+
+    @cached_property
+    def plain(self) -> Catalogue:
+        """The equations as the file gives them."""
+        return Catalogue([two_sided(one) for one in self.file.equation], self.notation)
+
+    @cached_property
+    def references(self) -> References:
+        """What the symbols must equal."""
+        return References(self.states, self.glossary, self.plain)
+
+    @cached_property
+    def catalogue(self) -> Catalogue:
+        """The equations; those that only define a symbol are known to."""
+        return Catalogue([self._told(one) for one in self.plain.equations], self.notation)
+
+    def _told(self, one: Equation) -> Equation:
+        definition = self._defines(one)
+        if not definition or one.mending or len(one.printed) > 1:
+            return one
+        try:
+            with np.errstate(all="ignore"):
+                for indices in self.plain.indices(*map(self.plain.parse, (one.left, *one.printed))):
+                    evaluate(self.plain.parse(one.printed[0]), self.references, indices)
+        except TROUBLES:
+            return one
+        reason = f"stated, not checkable: it defines {definition}, of which the file says no more"
+        return Equation.made(**dict(one) | {"not_checkable": reason})
+
+    def _defines(self, one: Equation) -> str:
+        """Name of the symbol that an equation defines and that has no other meaning."""
+        if one.illegible or one.not_checkable or one.left_printed:
+            return ""
+        left = self.plain.parse(one.left)
+        if not isinstance(left, Symbol):
+            return ""
+        for indices in self.plain.indices(left):
+            symbol = left.bound(indices)
+            if self.references.known(symbol):
+                return ""
+            if self.plain.definitions[("", symbol.name, symbol.dots)][0] is not one:
+                return ""
+        return left.name
+
+    @cached_property
+    def changes(self) -> tuple[str, ...]:
+        """What of the robot can be changed: what no number of the file says."""
+        return tuple(kind for kind in KINDS if kind not in self.fixed)
+
+    @cached_property
+    def second(self) -> References | None:
+        """The references with another robot's numbers."""
+        if not self.changes:
+            return None
+        count = len(self.states.x)
+        tree, frames = varied(self.tree, self.frames, self.changes, count)
+        states = replace(self.states, tree=tree, frames=frames)
+        return References(states, self.glossary, self.plain)
+
+    @cached_property
+    def points(self) -> References:
+        """The references of a robot of point masses."""
+        return References(self.states.of_points, self.glossary, self.plain)
+
+    @property
+    def described(self) -> str:
+        """The states, in words."""
+        still = [one for one in self.tree.names if one not in self.coordinates.joints]
+        model, n = self.robot.model.name, self.coordinates.count
+        told = [
+            f"States: {len(self.states.x)}, seeded, of {model}, {n} of them moving a single "
+            "coordinate.",
+        ]
+        if still:
+            told.append(f"Joints that stand still at their zero: {', '.join(still)}.")
+        if self.changes:
+            changed = ", ".join(self.changes)
+            told.append(f"What holds is tried with other {changed} of the robot, too.")
+        return " ".join(told)

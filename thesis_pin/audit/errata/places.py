@@ -1,0 +1,53 @@
+"""Formulas and places of errata: as mathematics where it is short, else as source."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from thesis_pin.audit.errata.phrases import Phrases
+from thesis_pin.audit.rows import Row
+from thesis_pin.audit.text import place_text
+
+_LONG = 420
+"""Characters of LaTeX above which only the places are shown."""
+_PORTABLE = {
+    r"\\": r"\cr ",
+    r"\,": r"\thinspace ",
+    r"\;": r"\thickspace ",
+    r"\!": "",
+    r"\|": r"\Vert ",
+    r"\{": r"\lbrace ",
+    r"\}": r"\rbrace ",
+}
+"""What Markdown would take for an escaped sign of its own."""
+
+
+def math(sides: Sequence[str]) -> str:
+    """An equation of some sides; "" if it is too long to read."""
+    text = " = ".join(side for side in sides if side)
+    if not text or len(text) > _LONG:
+        return ""
+    if not _balanced(text):
+        return f"`{text}`"
+    text = re.sub(r"\\[\\,;!|{}]", lambda match: _PORTABLE[match[0]], text)
+    return f"${' '.join(text.split())}$"
+
+
+def _balanced(text: str) -> bool:
+    """Whether braces and environments close, so that it can be set."""
+    depth = 0
+    for brace in re.findall(r"(?<!\\)[{}]", text):
+        depth += 1 if brace == "{" else -1
+        if depth < 0:
+            return False
+    stretched = len(re.findall(r"\\left\b", text)) == len(re.findall(r"\\right\b", text))
+    return depth == 0 and stretched and text.count(r"\begin") == text.count(r"\end")
+
+
+def where(row: Row, say: Phrases) -> Iterator[str]:
+    """Places of a row's slips in words."""
+    for place in row.places:
+        text = place_text(place)
+        if text != "the whole statement":
+            yield f"`{say(text)}`"
