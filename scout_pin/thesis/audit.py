@@ -80,8 +80,8 @@ def ground(equations: Catalogue) -> Ground:
     described = (
         f"States: {len(references.state.q)}, seeded, of four robots (the thesis's under both "
         f"inertia readings, two with unequal legs), 36 of them single-axis; the law of motion "
-        f"at {LAW_STATES} more. Lines also hold on robots whose axes point anywhere, unless they say "
-        "what of the biped's shape they rest on."
+        f"at {LAW_STATES} more. Lines also hold on robots whose axes point anywhere, unless "
+        "they say what of the biped's shape they rest on."
     )
     checks = claims(equations, LAW_STATES)
     effect = Effects(equations).of
