@@ -20,8 +20,9 @@ from scout_pin.thesis.claims.dynamics import (
     pinocchio_terms,
     random_motion,
 )
-from scout_pin.thesis.claims.texts import Check, both, identity
-from scout_pin.thesis.explicit import ExplicitModel, Interval
+from scout_pin.thesis.claims.texts import Check, both, identity, unreadable
+from scout_pin.thesis.explicit import ExplicitModel, Interval, resting
+from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from scout_pin.thesis.symbols.law import Law
 from thesis_pin.audit.text import residual_text
@@ -43,6 +44,7 @@ def claims(catalogue: Catalogue, states: int) -> dict[str, Check]:
     return {
         "equation_of_motion": partial(_law_of_motion, catalogue, explicit),
         "printed_law_has_no_solution": partial(_law_of_the_forces, catalogue, physics),
+        "constraints_met": partial(_constraints_met, catalogue),
     }
 
 
@@ -150,3 +152,22 @@ def _law() -> ClaimResult:
         + (f", to {gap:.0e} N·m" if gap > 1e-9 else " to rounding"),
         {"unbalanced force [N]": left},
     )
+
+
+def _constraints_met(catalogue: Catalogue, equation: Equation) -> ClaimResult:
+    """Φ_k = 0 along the gait of chapter 5, in each of its three intervals."""
+    if equation.left != r"\Phi_k^0":
+        raise unreadable(equation.left)
+    robot, parameters = load(), Parameters.of(Specification.read())
+    intervals = {"1": np.linspace(0.5, 19.5, 20), "2": np.array([0.0, 20.0, 40.0])}
+    intervals["3"] = intervals["1"] + 20.0
+
+    def residual(text: str, left: str) -> float:
+        worst = 0.0
+        for k, times in intervals.items():
+            _, q, v, a = gait_in_thesis_coordinates(robot, times)
+            references = References(resting(parameters, q, v, a))
+            worst = max(worst, identity(catalogue, left.replace("k", k), text, references))
+        return worst
+
+    return both(equation, residual, "along the gait of chapter 5")

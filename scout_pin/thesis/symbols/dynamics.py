@@ -1,4 +1,4 @@
-"""Jacobians, energies, D, V and C, momentum and ZMP (4.1 to 4.4, 4.7, 6.2)."""
+"""Jacobians, energies, D, V and C (4.1 to 4.4, 4.7)."""
 
 from __future__ import annotations
 
@@ -8,10 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from scout_pin.thesis.state import BODIES, coordinate_index
-from scout_pin.thesis.symbols.motion import component
 from scout_pin.thesis.symbols.vectors import Vectors
 from thesis_pin.equations import lagrangian
-from thesis_pin.equations.dual import vee
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.values import STEP, Value, matrix, scalar, vector
 from thesis_pin.tolerances import GRAVITY
@@ -197,47 +195,3 @@ class Dynamics(Vectors):
         return np.asarray(
             (jacobian @ state.a[..., joints, None] + change @ state.v[..., joints, None])[..., 0]
         )
-
-    def _of_cal_P(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.dots or symbol.sub not in ("", "x", "y", "z"):
-            return None
-        total = sum(
-            self.state.parameters.values[f"m_{body}"][..., None]
-            * self._moving(self.state.centre(body), 1)
-            for body in BODIES
-        )
-        return component(np.asarray(total), symbol.sub)
-
-    def _of_cal_L(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.dots or symbol.sub not in ("", "x", "y", "z"):
-            return None
-        total: np.ndarray | float = 0.0
-        for body in BODIES:
-            where, rate = (self._moving(self.state.centre(body), k) for k in (0, 1))
-            mass = self.state.parameters.values[f"m_{body}"][..., None]
-            omega = vee(self._rate(self.state.frame(body)))
-            spin = (self.state.inertia(body) @ omega[..., None])[..., 0]
-            total = total + np.cross(where, mass * rate) + spin
-        return component(np.asarray(total), symbol.sub)
-
-    def _of_ZMP(self, symbol: Symbol, i: str) -> Value | None:
-        """The point of a floor at height 0.01 m where the floor's wrench has no tilting moment."""
-        height = 0.01
-        if symbol.sub == "z":
-            return scalar(height)
-        later = self.moved(None)
-        force: np.ndarray | float = 0.0
-        moment: np.ndarray | float = 0.0
-        for body in BODIES:
-            mass = self.state.parameters.values[f"m_{body}"][..., None]
-            where = self.state.centre(body)[0]
-            fast = np.imag(later._moving(later.state.centre(body), 1)) / STEP
-            omega = vee(later._rate(later.state.frame(body)))
-            turn = np.imag((later.state.inertia(body) @ omega[..., None])[..., 0]) / STEP
-            inertial = mass * (fast + np.array([0.0, 0.0, GRAVITY]))
-            force = force + inertial
-            moment = moment + np.cross(where, inertial) + turn
-        force, moment = np.asarray(force), np.asarray(moment)
-        if symbol.sub == "x":
-            return scalar((height * force[..., 0] - moment[..., 1]) / force[..., 2])
-        return scalar((height * force[..., 1] + moment[..., 0]) / force[..., 2])

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from scout_pin.thesis.state import BODIES, coordinate_index
-from scout_pin.thesis.symbols.dynamics import Dynamics, element
+from scout_pin.thesis.symbols.dynamics import element
+from scout_pin.thesis.symbols.momentum import Momentum
 from thesis_pin.equations.formula import Symbol
 from thesis_pin.equations.values import Value, matrix, scalar, vector
 
@@ -34,7 +35,7 @@ _PLAIN = frozenset(
 _PRIMED = frozenset({"V", "C"})
 
 
-class Forces(Dynamics):
+class Forces(Momentum):
     """A_τ, δW, Q, τ, φ, Φ, λ, Γ."""
 
     def _answer(self, symbol: Symbol, i: str) -> Value | None:

@@ -46,6 +46,7 @@ SLIPS = [
     ("scout:4.7:lagrange_equation_vector", "left", r"\ddot", r"\dot"),
     ("scout:4.7:lagrange_equation_stacked", "left", r"\mathbb{C}_{16}", r"\mathbb{C}_{15}"),
     ("scout:4.7:lagrange_equation_stacked", "printed", r"\Gamma_7^k", r"\Gamma_8^k"),
+    ("scout:4.7:4.23_constraints", "printed", "0", "1"),
     ("scout:4.5:Q#2", "printed", "Q_2", "Q_3"),
     ("scout:4.6.3:Gamma_k", "printed", "{18}", "{17}"),
     ("scout:4.6.1.6:lambda_1", "printed", r"\lambda_2^1", r"\lambda_3^1"),
