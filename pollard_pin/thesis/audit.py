@@ -19,6 +19,7 @@ from pollard_pin.thesis.references import LoopReferences, OpenReferences, Refere
 from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
+from pollard_pin.thesis.symbols.elements import elements
 from pollard_pin.thesis.symbols.rates import moving
 from thesis_pin.audit.residuals import Free
 from thesis_pin.audit.text import ranges
@@ -113,7 +114,10 @@ def ground(equations: Catalogue) -> Ground:
     closed = environments.closed
 
     def substituted(equation: Equation) -> Sequence[Free]:
-        return (Free(environments.coefficients),) if substitutes(equations, equation) else ()
+        if substitutes(equations, equation):
+            return (Free(environments.coefficients),)
+        free = elements(equations, equation)
+        return (Free(free),) if free else ()
 
     return Ground(
         described,

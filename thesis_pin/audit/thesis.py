@@ -154,7 +154,7 @@ class _Judge:
     def row(self, equation: Equation) -> Row:
         """The audit's answer on one equation."""
         environment = self.ground.references(equation)
-        ground, free = self.ground, self.ground.substituted(equation)
+        ground, free = self.ground, self._free(equation)
         row = judge(self.equations, equation, environment, ground.claims, self.name, free)
         if not row.failed or not self.with_effects:
             return row
@@ -168,6 +168,12 @@ class _Judge:
     @functools.cached_property
     def _users(self) -> Mapping[str, tuple[str, ...]]:
         return used_by(uses(self.equations))
+
+    def _free(self, equation: Equation) -> Environment | None:
+        try:
+            return self.ground.substituted(equation)
+        except TROUBLES:
+            return None  # a line that can't be read fails at the references as well
 
     def _effect(self, equation: Equation) -> Effect:
         try:

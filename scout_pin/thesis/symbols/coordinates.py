@@ -44,7 +44,7 @@ class Coordinates(Symbols):
         if by is not None and by.dots > 1:
             raise FormulaError("differentiates by an acceleration")
         if by is not None and by.name == "q":
-            columns = self.partial(of, Symbol("q", "j"), indices)
+            columns = self.partial(of, Symbol("q", "j", dots=by.dots), indices)
             swapped = np.swapaxes(columns.array, 1, -1)[:, None]
             return Value(swapped, 2, rows(columns.frames))
         if self.state.perturbed:

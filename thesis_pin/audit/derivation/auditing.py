@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -20,6 +21,9 @@ from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
 
 _ONLY = "holds with this robot's numbers, but not when its {what} change"
+_UNFORCED = (
+    "it would hold with no generalized force on {what}: if that is meant, say it in [forces]"
+)
 _POINTS = "it would hold for point masses: the robot's bodies have inertia about their centres"
 _GUESS = ("with one change it would hold: {what}", "with any of these it would hold: {what}")
 
@@ -31,11 +35,13 @@ class DerivationThesis(Thesis):
     Attributes:
         changes: What of the robot is changed to see whether a line holds for it alone.
         references: What the symbols must equal, for this robot and for changed ones.
+        unforced: The same where nothing pushes some coordinates, with their symbols.
         points: The same for a robot of point masses.
     """
 
     changes: tuple[str, ...] = ()
     references: tuple[References, ...] = ()
+    unforced: Callable[[], tuple[tuple[str, References], ...]] = tuple
     points: References | None = None
 
     def audit(
@@ -73,6 +79,16 @@ class DerivationThesis(Thesis):
         note = _ONLY.format(what=" and ".join(self.changes))
         return replace(row, note=f"{row.note}; {note}" if row.note else note)
 
+    def _passive(self, row: Row, equations: Catalogue) -> str:
+        """That a failing line would hold if nothing pushed some coordinate; empty if not."""
+        one = equations[row.id]
+        if row.residual_printed is None or not math.isfinite(row.residual_printed):
+            return ""
+        for symbols, references in self.unforced():
+            if residual(equations, one, one.printed, references, row.left).value < HOLDS:
+                return _UNFORCED.format(what=symbols)
+        return ""
+
     def _guess(self, row: Row, equations: Catalogue) -> str:
         """What would make a line hold that fails and that nothing is given in the place of."""
         one = equations[row.id]
@@ -81,6 +97,8 @@ class DerivationThesis(Thesis):
             and residual(equations, one, one.printed, self.points, row.left).value < HOLDS
         ):
             return _POINTS
+        if passive := self._passive(row, equations):
+            return passive
         found = mends(one, equations, self.references)
         return _GUESS[len(found) > 1].format(what=" | ".join(found)) if found else ""
 
@@ -119,6 +137,7 @@ def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesi
         changes=made.changes,
         points=made.points,
         references=tuple(filter(None, (made.references, made.second))),
+        unforced=lambda: made.unforced,
     )
 
 

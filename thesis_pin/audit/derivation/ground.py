@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from thesis_pin.audit.derivation import meaning
+from thesis_pin.audit.derivation.forces import forces
 from thesis_pin.audit.derivation.moving import coordinates as coordinates_of
+from thesis_pin.audit.derivation.moving.driven import driven, unforced
 from thesis_pin.audit.derivation.moving.states import Frames, States
 from thesis_pin.audit.derivation.moving.tree import Tree
 from thesis_pin.audit.derivation.moving.varied import KINDS, varied
@@ -22,7 +24,7 @@ from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Symbol
-from thesis_pin.errors import BadInput
+from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.loops.closures import ClosedRobot
 
 
@@ -100,7 +102,29 @@ class Derivation:
         """The states at which the lines are judged."""
         states = States.random(self.tree, self.frames, self.coordinates, self.gravity)
         states.check(self.robot.model)
-        return states
+        return self._driven(states)
+
+    def _driven(self, states: States) -> States:
+        """The states with the accelerations that follow from the forces that the file gives."""
+        if not self.file.forces:
+            return states
+        numbers, law = forces(self.file, self.glossary, self.plain, self.where, states)
+        return driven(states, numbers, law)
+
+    @cached_property
+    def unforced(self) -> tuple[tuple[str, References], ...]:
+        """Symbols of coordinates, and the references where nothing pushes these: each, then all."""
+        if self.file.forces:
+            return ()
+        every, found = tuple(range(self.coordinates.count)), []
+        for chosen in dict.fromkeys((*((k,) for k in every), every)):
+            try:
+                states = driven(self.states, chosen, unforced(len(chosen)))
+            except ModelError:
+                continue
+            symbols = ", ".join(self.coordinates.symbols[k] for k in chosen)
+            found.append((symbols, References(states, self.glossary, self.plain)))
+        return tuple(found)
 
     @cached_property
     def plain(self) -> Catalogue:
@@ -158,12 +182,16 @@ class Derivation:
         count = len(self.states.x)
         tree, frames = varied(self.tree, self.frames, self.changes, count)
         states = replace(self.states, tree=tree, frames=frames)
-        return References(states, self.glossary, self.plain)
+        return References(self._driven(states), self.glossary, self.plain)
 
     @cached_property
-    def points(self) -> References:
-        """The references of a robot of point masses."""
-        return References(self.states.of_points, self.glossary, self.plain)
+    def points(self) -> References | None:
+        """The references of a robot of point masses; None if a given force would move no mass."""
+        try:
+            states = self._driven(self.states.of_points)
+        except ModelError:
+            return None
+        return References(states, self.glossary, self.plain)
 
     @property
     def described(self) -> str:
@@ -176,6 +204,8 @@ class Derivation:
         ]
         if still:
             told.append(f"Joints that stand still at their zero: {', '.join(still)}.")
+        if self.file.forces:
+            told.append(f"Accelerations follow from the forces of {', '.join(self.file.forces)}.")
         if self.changes:
             changed = ", ".join(self.changes)
             told.append(f"What holds is tried with other {changed} of the robot, too.")

@@ -5,14 +5,18 @@ Two formulas that are equal here are equal whatever their symbols mean.
 
 from __future__ import annotations
 
+import functools
 import zlib
+from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
 from thesis_pin.audit.rows import HOLDS
+from thesis_pin.equations import formula as nt
 from thesis_pin.equations.evaluation import Environment, evaluate
-from thesis_pin.equations.formula import Node, Symbol
-from thesis_pin.equations.values import Value
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.values import ZERO, Value, add, blocks, cross, multiply, transpose
 
 _STATES = 3
 
@@ -36,14 +40,76 @@ class RandomSymbols:
         return self._values[key]
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
-        """A random value of the derivative's shape: of what is derived and by what."""
+        """A derivative by the rules for sums and products; of a symbol, random of its shape."""
+        if by is not None and not by.sub and by.base == "q":
+            return self._atom(of, by, indices)  # by all coordinates: of another shape
+
+        def d(part: Node) -> Value:
+            return self.partial(part, by, indices)
+
+        def value(part: Node) -> Value:
+            return evaluate(part, self, indices)
+
+        match of:
+            case nt.Number():
+                return ZERO
+            case nt.Sum(terms) if all(sign in "+-" for sign, _ in terms):
+                return _total(_signed(sign, d(term)) for sign, term in terms)
+            case nt.Product(factors):
+                return _total(
+                    functools.reduce(
+                        multiply, [(d if k == n else value)(f) for n, f in enumerate(factors)]
+                    )
+                    for k in range(len(factors))
+                )
+            case nt.Cross(left, right):
+                return add(cross(d(left), value(right)), cross(value(left), d(right)))
+            case nt.Transpose(inner):
+                return transpose(d(inner))
+            case nt.Matrix(rows):
+                return blocks([[d(cell) for cell in row] for row in rows], self.columns)
+        return self._atom(of, by, indices)
+
+    def _atom(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         bound = of.bound(indices) if isinstance(of, Symbol) else of
         key = ("∂", bound, by, tuple(sorted(indices.items())))
         if key not in self._values:
             shape = evaluate(of, self._references, indices)
             value = self._references.partial(of, by, indices)
-            self._values[key] = _like(value if value.rank >= 0 else shape, key)
+            if self._never_moves(of, by, value, indices):
+                self._values[key] = ZERO
+            else:
+                self._values[key] = _like(value if value.rank >= 0 else shape, key)
         return self._values[key]
+
+    def _never_moves(
+        self, of: Node, by: Symbol | None, value: Value, indices: dict[str, str]
+    ) -> bool:
+        """Whether a derivative is zero by what its symbol is, and not for this robot's shape.
+
+        A constant doesn't move by anything; what depends on no rate has no derivative by one.
+        """
+        if value.array.any():
+            return False
+        if by is not None and by.dots and not any(symbol.dots for symbol in nt.symbols(of)):
+            return True
+        try:
+            others = [self._references.partial(of, one, indices) for one in (None, _EACH)]
+        except FormulaError:
+            return False
+        return not any(other.array.any() for other in others)
+
+
+_EACH = Symbol("q", "j")
+"""Every coordinate at once."""
+
+
+def _signed(sign: str, value: Value) -> Value:
+    return value if sign == "+" else replace(value, array=-value.array)
+
+
+def _total(values: Iterable[Value]) -> Value:
+    return functools.reduce(add, values, ZERO)
 
 
 def _like(value: Value, key: tuple[object, ...]) -> Value:

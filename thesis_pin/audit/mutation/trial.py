@@ -5,11 +5,11 @@ from __future__ import annotations
 import itertools
 import random
 import zlib
-from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
+from thesis_pin.audit.mutation.exchange import exchanged, replaced
 from thesis_pin.audit.mutation.random_symbols import RandomSymbols
 from thesis_pin.audit.mutation.slips import SLIPS, Planted, planted
 from thesis_pin.audit.residuals import TROUBLES, difference, residual
@@ -18,7 +18,7 @@ from thesis_pin.audit.thesis import Ground
 from thesis_pin.audit.verdicts import judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, evaluate
-from thesis_pin.equations.formula import FormulaError, Node, Symbol, symbols
+from thesis_pin.equations.formula import FormulaError, Node, Number, Symbol, symbols
 
 EACH = 5
 """Slips of a kind tried in the members of a line, and as many on its left side."""
@@ -42,7 +42,8 @@ class Trial:
         answer: "caught": the line doesn't hold with it; "identity": it says the same, shown
             at the audit's states and at random symbols; "same": the symbol that came is
             another name of what the one that went is, at every state of every robot, so
-            that the line is as true as before; "missed": none of these.
+            that the line is as true as before (or, where a line says that something is
+            zero, of another thing that is); "missed": none of these.
     """
 
     id: str
@@ -125,9 +126,28 @@ class Trials:
         before = equation.printed[member - 1] if member else equation.left_printed or equation.left
         if equation.claim:
             return "missed"
+        if member == 0 and self._says_zero(equation):
+            return self._of_zero(equation, before, slip)
         if self._identical(equation, before, slip):
             return "identity"
         return "same" if self._renamed(equation, before, slip) else "missed"
+
+    def _says_zero(self, equation: Equation) -> bool:
+        """Whether a line says nothing but that its left side is zero."""
+        return all(self.equations.parse(text) == Number(0.0) for text in equation.printed)
+
+    def _of_zero(self, equation: Equation, before: str, slip: Planted) -> Answer:
+        """What else is zero: a multiple or the rate of what is, and other things by themselves."""
+        if any(self._identical(equation, f"{times} ({before})", slip) for times in ("-", "2")):
+            return "identity"
+        change = exchanged(self.equations.parse(before), self.equations.parse(slip.text))
+        if change and change[0].base != "q":  # ∂/∂q̇ says another thing than ∂/∂q
+            old, new = change
+            if new == replace(old, dots=old.dots + 1):
+                return "identity"
+            if slip.kind in ("index", "frame"):
+                return "same"
+        return "missed"
 
     def _identical(self, equation: Equation, before: str, slip: Planted) -> bool:
         """Whether the formula says the same with the slip, whatever its symbols are."""
@@ -139,16 +159,23 @@ class Trials:
         return found.value < HOLDS
 
     def _renamed(self, equation: Equation, before: str, slip: Planted) -> bool:
-        """Whether one symbol gave way to another name of the same thing, which isn't zero."""
-        first, second = (Counter(occurrences(self.equations.parse(t))) for t in (before, slip.text))
-        gone, come = list((first - second).elements()), list((second - first).elements())
-        if len(gone) != 1 or len(come) != 1:
+        """Whether one symbol gave way to another name of the same thing, which isn't zero.
+
+        Also where only the product is the same in which it stands: ω_5 × i_10 = ω_6 × i_10,
+        since the axis of joint 6 is i_10 on either side of it.
+        """
+        sides = self.equations.parse(before), self.equations.parse(slip.text)
+        if not exchanged(*sides):
             return False
         environment = self.ground.references(equation)
+        return any(self._equal(*pair, environment) for pair in replaced(*sides))
+
+    def _equal(self, old: Node, new: Node, environment: Environment) -> bool:
+        """Whether two formulas are one value at all states, and not zero."""
         try:
-            for indices in self.equations.indices(*gone, *come):
-                old, new = (evaluate(symbol, environment, indices) for symbol in (*gone, *come))
-                if not old.array.any() or difference(old, new) >= HOLDS:
+            for indices in self.equations.indices(old, new):
+                first, second = (evaluate(one, environment, indices) for one in (old, new))
+                if not first.array.any() or difference(first, second) >= HOLDS:
                     return False
         except TROUBLES:
             return False
@@ -168,17 +195,6 @@ def with_slip(equation: Equation, member: int, slip: Planted) -> Equation:
     printed = list(equation.printed)
     printed[member - 1] = slip.text
     return equation.model_copy(update={"printed": tuple(printed)})
-
-
-def occurrences(node: object) -> Iterator[Symbol]:
-    """The symbols of a formula, each as often as it stands there."""
-    if isinstance(node, Symbol):
-        yield node
-    elif isinstance(node, tuple):
-        for part in node:
-            yield from occurrences(part)
-    elif isinstance(node, Node):
-        yield from occurrences(tuple(vars(node).values()))
 
 
 def _names(equations: Catalogue) -> Iterator[str]:

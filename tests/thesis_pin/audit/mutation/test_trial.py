@@ -7,9 +7,9 @@ from thesis_pin.audit.mutation.trial import Trials, with_slip
 from thesis_pin.audit.thesis import Ground
 from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
-from thesis_pin.equations.formula import FormulaError
+from thesis_pin.equations.formula import FormulaError, symbols
 from thesis_pin.equations.notation import Notation
-from thesis_pin.equations.values import scalar
+from thesis_pin.equations.values import scalar, vector
 
 
 class World:
@@ -97,3 +97,69 @@ def test_a_slip_is_put_into_its_member_alone(member):
     changed = with_slip(equation, member, Slip())
     sides = [changed.left, *changed.printed]
     assert [k for k, text in enumerate(sides) if text == "x"] == [member]
+
+
+class Axes:
+    """ω_1 and ω_2 = ω_1 + 3 k at each state; a β that moves by nothing, a θ that does."""
+
+    columns = 6
+
+    def __init__(self):
+        generator = np.random.default_rng(5)
+        self.omega, self.k, self.r = generator.normal(size=(3, 8, 3))
+
+    def lookup(self, symbol, indices):
+        known = {
+            **{"omega_1": self.omega, "omega_2": self.omega + 3 * self.k},
+            **{"k_1": self.k, "v_1": np.cross(self.omega, self.k)},
+        }
+        if symbol.name in known:
+            return vector(known[symbol.name])
+        if symbol.name in ("theta_1", "beta_1", "beta_2") and not symbol.dots:
+            return scalar(np.arange(8.0) + len(symbol.name))
+        raise FormulaError(f"the symbol {symbol.name} isn't defined anywhere")
+
+    def partial(self, of, by, indices):
+        moves = any(symbol.base == "theta" for symbol in symbols(of))
+        return scalar(np.full(8, float(moves)))
+
+
+def at_axes(**fields):
+    equation = Equation(**{"id": "robot:1:c", **fields})
+    names = ("omega_1", "omega_2", "beta_1", "beta_2", "theta_1", "k_1", "v_1")
+    others = [Equation(id=f"robot:2:{name}", left=tex(name), printed="1") for name in names]
+    ground = Ground("", lambda equation: Axes.shared, {}, lambda equation: {})
+    return list(Trials(Catalogue([equation, *others], Notation()), ground).of(equation))
+
+
+def tex(name):
+    letter, _, index = name.partition("_")
+    greek = rf"\{letter}" if len(letter) > 1 else rf"\mathbf{{{letter}}}"
+    return f"{greek}_{index}"
+
+
+Axes.shared = Axes()
+
+
+def test_a_product_that_can_not_tell_two_symbols_apart_is_the_same_but_a_sum_is_not():
+    found = at_axes(left=r"\mathbf{v}_1", printed=r"\omega_1 \times \mathbf{k}_1")
+    swapped = [t.answer for t in found if t.member == 1 and r"\omega_[1 → 2]" in t.said]
+    assert swapped == ["same"]
+
+
+def test_a_constant_in_a_derivative_is_an_identity_and_a_coordinate_is_not():
+    line = {
+        "left": r"\frac{\partial \theta_1}{\partial q_j}",
+        "printed": r"\frac{\partial (\theta_1 + \beta_1)}{\partial q_j}",
+    }
+    found = at_axes(**line)
+    beta = {t.answer for t in found if t.kind == "index" and r"\beta_[1 → 2]" in t.said}
+    assert beta == {"identity"}
+    assert {t.answer for t in found if t.kind == "sign" and "[+ → -]" in t.said} == {"identity"}
+
+
+def test_a_line_that_says_zero_says_the_same_of_twice_and_of_the_rate_of_it():
+    found = trials(left="z_1", printed="0")
+    assert answers(found, "sign") == answers(found, "factor") == {"identity"}
+    index = {t.answer for t in found if t.kind == "index" and "1 → 2" in t.said}
+    assert index == {"same"}

@@ -53,12 +53,14 @@ class DerivationFile(EquationFile):
         coordinates: Symbol → the joint it is the coordinate of, or a sum of joints.
         constants: Symbol → a number, one with its unit, or where the model has it.
         symbols: Symbol → what it must be.
+        forces: Coordinate's symbol → its generalized force, a formula; all others are free.
     """
 
     derivation: Header
     coordinates: dict[str, str]
     constants: dict[str, float | str] = Field(default_factory=dict)
     symbols: dict[str, str] = Field(default_factory=dict)
+    forces: dict[str, float | str] = Field(default_factory=dict)
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Ids that begin with the name; symbols said once; something to judge."""
