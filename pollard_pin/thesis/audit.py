@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.symbols.elements import elements
 from pollard_pin.thesis.symbols.rates import moving
+from thesis_pin.audit.residuals import Free
 from thesis_pin.audit.text import ranges
 from thesis_pin.audit.thesis import Ground, Thesis
 from thesis_pin.equations.catalogue import Catalogue, Equation
@@ -112,10 +114,11 @@ def ground(equations: Catalogue) -> Ground:
     )
     closed = environments.closed
 
-    def substituted(equation: Equation) -> Environment | None:
+    def substituted(equation: Equation) -> Sequence[Free]:
         if substitutes(equations, equation):
-            return environments.coefficients
-        return elements(equations, equation)
+            return (Free(environments.coefficients),)
+        free = elements(equations, equation)
+        return (Free(free),) if free else ()
 
     return Ground(
         described,
