@@ -42,7 +42,7 @@ def markdown(report: AuditReport, command: str) -> str:
     for section in report.sections:
         gaps = _gaps(section.gaps)
         lines.append(f"| {section.name} | {section.rows} | {section.checked} | {gaps} |")
-    lines += ["", "Outside the audit:", ""]
+    lines += ["", "Outside the audit:", ""] * bool(report.beyond)
     lines += [f"- {what}: {why}." for what, why in report.beyond]
     lines += _lost([row for row in report.rows if row.verdict == "rebuilt"])
     lines += ["", "## Verdicts by chapter", ""]
@@ -52,7 +52,9 @@ def markdown(report: AuditReport, command: str) -> str:
     lines += ["", KIND_NOTE, "", "## Failures by cause", ""]
     lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
     lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
-    lines += ["", "## Root causes", "", "Slips that several lines share, and where they enter.", ""]
+    lines += [""]
+    if used_causes(report):
+        lines += ["## Root causes", "", "Slips that several lines share, and where they enter.", ""]
     for cause, rows_of_cause in used_causes(report):
         lines += _cause(cause, rows_of_cause)
     lines += ["## Failures", ""]

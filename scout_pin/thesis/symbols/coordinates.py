@@ -116,4 +116,6 @@ class Coordinates(Symbols):
     def _of_g(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub or symbol.sup or symbol.dots:
             return None
-        return vector(np.array([[[0, 0, -GRAVITY]]])) if symbol.bold else scalar(GRAVITY)
+        if not symbol.bold:
+            return scalar(GRAVITY)
+        return vector(-GRAVITY * np.atleast_2d(self.state.own("k0"))[..., None, :])

@@ -40,7 +40,7 @@ def errata(report: AuditReport, command: str, say: Phrases = _ENGLISH) -> str:
         if len(rows := [row for row in failures if row.cause == name]) > 1
     ]
     grouped = {row.id for _, rows in shared for row in rows}
-    lines += ["", f"## {say('Slips with a common cause')}", ""]
+    lines += ["", f"## {say('Slips with a common cause')}", ""] if shared else [""]
     for number, (cause, rows) in enumerate(sorted(shared, key=lambda s: order[s[1][0].id]), 1):
         lines += _cause(number, cause, rows, say)
     lines += [f"## {say('Single slips, in the order of the thesis')}", ""]
@@ -74,14 +74,16 @@ def _summary(report: AuditReport, say: Phrases) -> Iterator[str]:
         border=f"{HOLDS:.0e}".replace("e-0", "e-"),
     )
     yield say(report.states)
-    yield ""
-    yield say(
-        "The text that was typed in is a scan of the thesis, turned into LaTeX. A slip may "
-        "therefore be the scan’s: {scan} lines are ascribed to it and {thesis} to the thesis, as "
-        "far as one can guess. Line numbers count the lines of that text.",
-        scan=sum(row.attribution == "scan" for row in failures),
-        thesis=sum(row.attribution == "thesis" for row in failures),
-    )
+    scanned = sum(row.attribution == "scan" for row in failures)
+    if scanned:
+        yield ""
+        yield say(
+            "The text that was typed in is a scan of the thesis, turned into LaTeX. A slip may "
+            "therefore be the scan’s: {scan} lines are ascribed to it and {thesis} to the thesis, "
+            "as far as one can guess. Line numbers count the lines of that text.",
+            scan=scanned,
+            thesis=sum(row.attribution == "thesis" for row in failures),
+        )
     if report.effects:
         yield ""
         yield say(" ".join(report.effects))
