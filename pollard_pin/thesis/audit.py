@@ -38,7 +38,8 @@ EFFECTS = (
     "Effects say what a reader meets who follows that one line and is right elsewhere: the change",
     "of D q̈ + V q̇ + C at the closed states, relative to each state's largest component (median",
     "and worst), and the largest change of a motor's torque on the default path, where no",
-    "denominator of the thesis's formulas is near zero.",
+    "denominator of the thesis's formulas is near zero. Where the law of motion doesn't rest on a",
+    "line, the change of the line that uses it, relative to its largest value.",
 )
 _STATES, _SEED = 32, 20172
 
@@ -123,7 +124,7 @@ def ground(equations: Catalogue) -> Ground:
         described,
         environments.of,
         claims(equations, closed),
-        Effects(equations, closed).of,
+        Effects(equations, closed, environments.of).of,
         substituted,
     )
 
