@@ -169,11 +169,11 @@ class _Judge:
     def _users(self) -> Mapping[str, tuple[str, ...]]:
         return used_by(uses(self.equations))
 
-    def _free(self, equation: Equation) -> Environment | None:
+    def _free(self, equation: Equation) -> Sequence[Free]:
         try:
             return self.ground.substituted(equation)
         except TROUBLES:
-            return None  # a line that can't be read fails at the references as well
+            return ()  # a line that can't be read fails at the references as well
 
     def _effect(self, equation: Equation) -> Effect:
         try:
