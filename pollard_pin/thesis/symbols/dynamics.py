@@ -43,7 +43,9 @@ class Dynamics(KSymbols):
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """As its parent does; ∂L/∂q̇ is the momentum, without a step."""
         of = of.bound(indices) if isinstance(of, Symbol) else of
-        if isinstance(of, Symbol) and of.base == "L" and by is not None and by.dots:
+        of_L = isinstance(of, Symbol) and of.base == "L" and not of.dots
+        if of_L and by is not None and by.dots == 1:
+            assert isinstance(of, Symbol)
             mass = lagrangian.mass_matrix(self._chosen(of, indices.get("i", "")))
             momentum = (mass @ self.pose_rates[..., None])[..., 0]
             return scalar(np.moveaxis(momentum, -1, 0))
