@@ -90,7 +90,8 @@ def _names_below(catalogue: Catalogue, equation: Equation) -> ClaimResult:
         names = [_any_number(name) for name in text.split(", ")]
         return 0.0 if names == announced[: len(names)] else _OTHER
 
-    return both(equation, residual, f"the lines below are {', '.join(announced[:count])}")
+    named = ", ".join(f"`{name}`" for name in announced[:count])
+    return both(equation, residual, f"the lines below are {named}")
 
 
 def _any_number(name: str) -> str:
