@@ -63,7 +63,13 @@ def test_a_line_has_its_place_print_correction_why_and_effect():
         "- effect: torque 9 N·m",
     ):
         assert part in said
-    assert "- effect: nothing uses it" in entry(text, "c_1")
+    assert "- no effect: nothing uses it" in entry(text, "c_1")
+
+
+def test_of_a_print_that_takes_pages_the_left_side_is_shown():
+    long = replace(failing("far"), printed=("a + " * 200 + "b",))
+    text = errata(AuditReport("Scout thesis", (long,), (), "", {}), "make it")
+    assert "- printed: $far$ = …" in entry(text, "far")
 
 
 def test_lines_of_a_cause_stand_together_and_the_others_in_the_thesiss_order():
