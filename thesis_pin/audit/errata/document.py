@@ -54,10 +54,10 @@ def _summary(report: AuditReport, say: Phrases) -> Iterator[str]:
     """How the errata were found, in a few paragraphs."""
     counts, failures = report.counts, report.failures
     yield say(
-        "{total} displayed equations and statements of the thesis were typed as printed and "
-        "judged by a program: {holds} hold, {failed} don’t. {misprint} are misprints, which hold "
-        "when mended; {wrong} are statements that are wrong, whose right form holds. {none} have "
-        "no verdict, most because the text is lost.",
+        "{total} displayed equations and statements were typed as printed and judged by a "
+        "program. Hold: {holds}. Don’t hold: {failed}, of these misprints, which hold when "
+        "mended: {misprint}; wrong statements, whose right form holds: {wrong}. Without a "
+        "verdict, most because the text is lost: {none}.",
         total=len(report.rows),
         holds=counts["holds"],
         failed=len(failures),

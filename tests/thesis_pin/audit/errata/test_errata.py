@@ -88,8 +88,8 @@ def test_a_reason_that_all_lines_of_a_cause_share_is_given_once():
 def test_the_first_page_counts_by_verdict_kind_and_severity():
     text = errata(REPORT, "make it")
     first = text[: text.index("## Slips with")]
-    assert "1 hold, 3 don’t" in first
-    assert "2 are misprints" in first
+    assert "Hold: 1. Don’t hold: 3, of these" in first
+    assert "hold when mended: 2" in first
     assert "2 lines are ascribed to it and 1 to the thesis" in first
     assert "| misprint | 1 | 1 | 2 |" in first
     assert "| sign | 1 | 1 | 3 |" in first
