@@ -9,6 +9,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
+import numpy as np
+
 from thesis_pin.audit.mutation.exchange import exchanged, replaced
 from thesis_pin.audit.mutation.random_symbols import RandomSymbols
 from thesis_pin.audit.mutation.slips import SLIPS, Planted, planted
@@ -76,7 +78,8 @@ class Trials:
             return
         for kind in SLIPS:
             for member, slip in self._chosen(equation, kind):
-                answer = self._answer(equation, member, slip)
+                with np.errstate(all="ignore"):  # a slip may well divide by zero
+                    answer = self._answer(equation, member, slip)
                 self.equations.forget(slip.text)
                 yield Trial(equation.id, member, kind, slip.said, answer)
 
