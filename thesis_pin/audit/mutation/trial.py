@@ -163,12 +163,17 @@ class Trials:
     def _renamed(self, equation: Equation, before: str, slip: Planted) -> bool:
         """Whether one symbol gave way to another name of the same thing, which isn't zero.
 
+        Or an index to one of its values, where the line holds for each by itself.
+
         Also where only the product is the same in which it stands: ω_5 × i_10 = ω_6 × i_10,
         since the axis of joint 6 is i_10 on either side of it.
         """
         sides = self.equations.parse(before), self.equations.parse(slip.text)
-        if not exchanged(*sides):
+        change = exchanged(*sides)
+        if not change:
             return False
+        if any(change[0].bound(one) == change[1] for one in self.equations.indices(change[0])):
+            return True  # the line for one leg or chain alone
         environment = self.ground.references(equation)
         return any(self._equal(*pair, environment) for pair in replaced(*sides))
 
