@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,9 @@ from pollard_pin.thesis.references import LoopReferences, OpenReferences, Refere
 from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
+from pollard_pin.thesis.symbols.elements import elements
 from pollard_pin.thesis.symbols.rates import moving
+from thesis_pin.audit.residuals import Free
 from thesis_pin.audit.text import ranges
 from thesis_pin.audit.thesis import Ground, Thesis
 from thesis_pin.equations.catalogue import Catalogue, Equation
@@ -35,7 +38,8 @@ EFFECTS = (
     "Effects say what a reader meets who follows that one line and is right elsewhere: the change",
     "of D q̈ + V q̇ + C at the closed states, relative to each state's largest component (median",
     "and worst), and the largest change of a motor's torque on the default path, where no",
-    "denominator of the thesis's formulas is near zero.",
+    "denominator of the thesis's formulas is near zero. Where the law of motion doesn't rest on a",
+    "line, the change of the line that uses it, relative to its largest value.",
 )
 _STATES, _SEED = 32, 20172
 
@@ -110,14 +114,17 @@ def ground(equations: Catalogue) -> Ground:
     )
     closed = environments.closed
 
-    def substituted(equation: Equation) -> Environment | None:
-        return environments.coefficients if substitutes(equations, equation) else None
+    def substituted(equation: Equation) -> Sequence[Free]:
+        if substitutes(equations, equation):
+            return (Free(environments.coefficients),)
+        free = elements(equations, equation)
+        return (Free(free),) if free else ()
 
     return Ground(
         described,
         environments.of,
         claims(equations, closed),
-        Effects(equations, closed).of,
+        Effects(equations, closed, environments.of).of,
         substituted,
     )
 

@@ -3,11 +3,13 @@
 Two measures: the change of D q̈ + V q̇ + C at random states of random robots,
 relative to that state's largest component (median and worst), where no length
 or centre of gravity is zero by accident; and the change of the six motors'
-torques of the thesis's robot along the default path.
+torques of the thesis's robot along the default path. Of a line that the law of
+motion doesn't rest on, the change of a line that uses it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 
@@ -17,10 +19,12 @@ from pollard_pin.motion.curves import appendix_b
 from pollard_pin.specification import ACTUATORS
 from pollard_pin.thesis.claims.dynamics import AWAY
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
+from pollard_pin.thesis.following import effect_where_used
 from pollard_pin.thesis.references import References
 from thesis_pin.audit.rows import Effect
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.editions import EditionEnvironment
+from thesis_pin.equations.evaluation import Environment
 from thesis_pin.equations.formula import FormulaError, Symbol
 
 _SEED = 20174
@@ -34,10 +38,17 @@ class Effects:
     Args:
         equations: The equations.
         random: Closed states of random robots with random bodies.
+        references: Equation → what its symbols must equal, for lines that the law of motion
+            doesn't rest on; None to leave these without an effect.
     """
 
-    def __init__(self, equations: Catalogue, random: References) -> None:
-        self.equations, self._states = equations, random
+    def __init__(
+        self,
+        equations: Catalogue,
+        random: References,
+        references: Callable[[Equation], Environment] | None = None,
+    ) -> None:
+        self.equations, self._states, self._references = equations, random, references
 
     @cached_property
     def random(self) -> _Model:
@@ -56,9 +67,11 @@ class Effects:
         return _Model(self.equations, along_path())
 
     def of(self, equation: Equation) -> Effect:
-        """Changes by quantity; empty if the dynamics don't rest on the line."""
+        """Changes by quantity; empty if neither the dynamics nor another line rest on it."""
         if not self.random.rests_on(equation):
-            return {}
+            if self._references is None:
+                return {}
+            return effect_where_used(self.equations, self._references, equation)
         try:
             changed, force = self.random.change(equation), self.random.force
             on_path = self.path.change(equation)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from scout_pin.specification import Specification
+from scout_pin.thesis import open_states
 from scout_pin.thesis.catalogue import catalogue
 from scout_pin.thesis.causes import CAUSES
 from scout_pin.thesis.claims import claims
@@ -79,10 +80,12 @@ def ground(equations: Catalogue) -> Ground:
     described = (
         f"States: {len(references.state.q)}, seeded, of four robots (the thesis's under both "
         f"inertia readings, two with unequal legs), 36 of them single-axis; the law of motion "
-        f"at {LAW_STATES} more."
+        f"at {LAW_STATES} more. Lines also hold on robots whose axes point anywhere, unless "
+        "they say what of the biped's shape they rest on."
     )
     checks = claims(equations, LAW_STATES)
-    return Ground(described, lambda equation: references, checks, Effects(equations).of)
+    effect = Effects(equations).of
+    return Ground(described, lambda equation: references, checks, effect, open_states.free)
 
 
 def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:

@@ -8,7 +8,7 @@ Every array may be complex: that is how second derivatives are taken.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -26,16 +26,22 @@ COORDINATES = (
 )
 """Names of q_1 … q_18 (4.2)."""
 
+UNIT = {"i": np.array([1.0, 0, 0]), "j": np.array([0, 1.0, 0]), "k": np.array([0, 0, 1.0])}
 LENGTHS = ("x_0", "z_1", "x_2", "x_3", "x_4", "x_5", "y_6")
 BODIES = ("B", *(f"{n}{i}" for i in (1, 2) for n in range(1, 7)))
 """Torso, then links 1 to 6 of the left and of the right leg."""
 
-# Elementary transforms of a leg after the torso's frame (3.1): axis, length or
-# angle. Joint 6 turns about x: the printed T_z6 is the thesis's slip.
+# Elementary transforms (3.1): move, the thesis's vector along or about which it is, and of a
+# leg its length or angle. Joint 6 turns about x: the printed T_z6 is the thesis's slip.
+_TORSO = (
+    *(("x", "i0"), ("y", "j0"), ("z", "k0")),
+    *(("Rx", "ithetaB"), ("Ry", "jphiB"), ("Rz", "kpsiB")),
+)
 _LEG = (
-    *(("x", "x_0"), ("Rz", 1), ("z", "z_1"), ("Ry", 2), ("x", "x_2"), ("Rz", 3), ("x", "x_3")),
-    *(("Rz", 4), ("x", "x_4"), ("Rz", 5), ("x", "x_5"), ("Rx", 6), ("y", "y_6")),
-    *(("Rz", "beta_7"), ("Ry", "beta_8")),
+    *(("x", "x_0", "iB"), ("Rz", 1, "k0"), ("z", "z_1", "k1"), ("Ry", 2, "j2")),
+    *(("x", "x_2", "i3"), ("Rz", 3, "k4"), ("x", "x_3", "i5"), ("Rz", 4, "k6")),
+    *(("x", "x_4", "i7"), ("Rz", 5, "k8"), ("x", "x_5", "i9"), ("Rx", 6, "i10")),
+    *(("y", "y_6", "j11"), ("Rz", "beta_7", ""), ("Ry", "beta_8", "")),
 )
 
 
@@ -159,8 +165,8 @@ class State:
         """Frames after each elementary factor of T_{0,B}; the last is the torso's."""
         frame = Dual(np.broadcast_to(np.eye(4), (1, 1, 4, 4)), {})
         frames = []
-        for k, move in enumerate(("x", "y", "z", "Rx", "Ry", "Rz")):
-            frame = frame.then(move, self.q[..., k], {k: 1.0})
+        for k, (move, axis) in enumerate(_TORSO):
+            frame = self._then(frame, move, self.q[..., k], {k: 1.0}, axis)
             frames.append(frame)
         return frames
 
@@ -172,18 +178,38 @@ class State:
     def _leg(self, i: int) -> list[Dual]:
         frame, frames = self.torso[-1], []
         constants = self.parameters.values
-        for move, what in _LEG:
+        for move, what, vector in _LEG:
+            axis = vector + str(i) * (vector not in ("", "iB"))
             if isinstance(what, int):
                 k = 5 + 6 * (i - 1) + what
                 angle = self.q[..., k] + constants[f"beta_{what}{i}"]
-                frame = frame.then(move, angle, {k: 1.0})
+                frame = self._then(frame, move, angle, {k: 1.0}, axis)
                 frames.append(frame)
                 continue
             sign = -1 if what == "z_1" or (what == "x_0" and i == 1) else 1
             value = constants[what if what.startswith("beta") else f"{what}{i}"]
-            frame = frame.then(move, sign * value, {})
+            frame = self._then(frame, move, sign * value, {}, axis)
         frames.append(frame)
         return frames
+
+    def _then(
+        self, frame: Dual, move: str, by: np.ndarray, speeds: Mapping[Hashable, float], axis: str
+    ) -> Dual:
+        """A frame after an elementary move along or about one of the thesis's vectors."""
+        return frame.then(move, by, speeds)
+
+    @property
+    def steady(self) -> bool:
+        """Whether unit vectors stay as they are in their own frames."""
+        return True
+
+    def own(self, name: str) -> np.ndarray:
+        """Components of a unit vector in its own frame: "k111" is (0, 0, 1)."""
+        return UNIT[name[0]]
+
+    def turned(self, body: str, name: str) -> np.ndarray:
+        """A unit vector of a link's frame in the world, shape ``(N, J, 3)``."""
+        return np.asarray((self.frame(body).rotation @ self.own(name)[..., None])[..., 0])
 
     def frame(self, body: str) -> Dual:
         """Frame of a link: "B" or "31" for link 3 of the left leg; "71" is its sole."""

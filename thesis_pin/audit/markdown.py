@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from thesis_pin.audit.finger import slip_text
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.text import (
@@ -41,7 +42,7 @@ def markdown(report: AuditReport, command: str) -> str:
     for section in report.sections:
         gaps = _gaps(section.gaps)
         lines.append(f"| {section.name} | {section.rows} | {section.checked} | {gaps} |")
-    lines += ["", "Outside the audit:", ""]
+    lines += ["", "Outside the audit:", ""] * bool(report.beyond)
     lines += [f"- {what}: {why}." for what, why in report.beyond]
     lines += _lost([row for row in report.rows if row.verdict == "rebuilt"])
     lines += ["", "## Verdicts by chapter", ""]
@@ -51,7 +52,9 @@ def markdown(report: AuditReport, command: str) -> str:
     lines += ["", KIND_NOTE, "", "## Failures by cause", ""]
     lines += ["| cause | lines | verdict | by | worst effect |", "| --- | ---: | --- | --- | --- |"]
     lines += ["| " + " | ".join(_cell(x) for x in row) + " |" for row in failure_rows(report)]
-    lines += ["", "## Root causes", "", "Slips that several lines share, and where they enter.", ""]
+    lines += [""]
+    if used_causes(report):
+        lines += ["## Root causes", "", "Slips that several lines share, and where they enter.", ""]
     for cause, rows_of_cause in used_causes(report):
         lines += _cause(cause, rows_of_cause)
     lines += ["## Failures", ""]
@@ -129,10 +132,15 @@ def _row(row: Row) -> Iterator[str]:
     yield f"- residual as printed: {residual_text(row.residual_printed)}"
     if row.reason:
         yield f"- finding: {row.reason}"
-    for place in row.places:
-        yield f"- where: `{place}`"
+    if row.line:
+        yield f"- line of the text: {row.line}"
+    for slip in row.slips:
+        yield f"- where: {slip_text(row, slip)}"
+    if row.severity:
+        yield f"- severity: {row.severity}"
     if row.kinds:
         yield f"- kind: {', '.join(row.kinds)}"
-    if row.effect:
-        yield f"- effect: {effect_text(row)}"
+    effect = effect_text(row) or row.no_effect
+    if effect:
+        yield f"- effect: {effect}"
     yield ""

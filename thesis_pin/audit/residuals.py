@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from thesis_pin.errors import BadInput
 _FLOOR = 1e-3  # what counts as zero is zero against this
 _OTHER_FRAME = 1.0
 """Residual of a member seen from another frame whose numbers happen to agree."""
+
+_VANISHES = "holds only because something in it vanishes: not as the substitution that it is"
 
 TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
 """What a line that can't be read or evaluated raises: it is that line's error alone."""
@@ -73,18 +75,28 @@ def residual(
     members: Sequence[str],
     environment: Environment,
     left: str,
+    only: tuple[int, ...] = (),
 ) -> Residual:
-    """How far members are from the left side, symbols taken from the environment."""
+    """How far members, or some of them, are from the left side by an environment's symbols."""
     values, reasons = [], []
     for number, member in enumerate(members, start=1):
-        if number in equation.imposes:
+        if number in equation.imposes or (only and number not in only):
             continue
         try:
+            if only:
+                _refuse_repetition(catalogue, (left, *members[: number - 1]), member)
             values.append(max(_member(catalogue, left, member, environment)))
         except TROUBLES as error:
             values.append(_without_frames(catalogue, left, member, environment, error))
             reasons.append(f"member {number} {what(error)}" if len(members) > 1 else what(error))
     return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
+
+
+def _refuse_repetition(catalogue: Catalogue, before: Sequence[str], member: str) -> None:
+    """A series that says one thing twice leaves out what should stand there."""
+    node = catalogue.parse(member) if member else None
+    if any(text and catalogue.parse(text) == node for text in before):
+        raise FormulaError("says what the line has said before")
 
 
 def _without_frames(
@@ -125,17 +137,35 @@ def _left(text: str, node: Node, environment: Environment, indices: dict[str, st
     return _lefts[key][1]
 
 
+@dataclass(frozen=True)
+class Free:
+    """Where what a line takes as given is free, so that nothing vanishes.
+
+    Attributes:
+        environment: What its symbols are there.
+        members: Numbers of the members that are the same there as well; () for all.
+    """
+
+    environment: Environment
+    members: tuple[int, ...] = ()
+
+
 def residual_as_said(
     catalogue: Catalogue,
     equation: Equation,
     members: Sequence[str],
-    environments: Sequence[Environment],
+    environment: Environment,
     left: str,
+    free: Sequence[Free] = (),
 ) -> Residual:
-    """How far members are from the left side in the first environment where they don't hold."""
-    found = Residual(math.inf)
-    for environment in environments:
-        found = residual(catalogue, equation, members, environment, left)
+    """How far members are from the left side where they have to hold, or else where all is free."""
+    found = residual(catalogue, equation, members, environment, left)
+    for ground in free:
         if found.value >= HOLDS:
             break
+        other = residual(catalogue, equation, members, ground.environment, left, ground.members)
+        if other.members:
+            found = (
+                other if other.value < HOLDS else replace(other, reason=other.reason or _VANISHES)
+            )
     return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
+from thesis_pin.audit.places import pieces
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Severity
 from thesis_pin.equations.catalogue import Equation
 
@@ -43,8 +44,13 @@ _NAMED = 3
 
 
 def severity(row: Row, effect: Effect, nothing: str) -> Severity:
-    """Whether a failing line gives another number to who follows it, or none at all."""
+    """Whether a failing line gives another number to who follows it, or none at all.
+
+    A right formula under a wrong name gives the right number.
+    """
     if not nothing and effect:
         return "changes a result"
+    if set(row.corrected) == {0} and len(pieces(row.left)[0]) == 1:
+        return "notation only"
     finite = row.residual_printed is not None and HOLDS <= row.residual_printed < math.inf
     return "changes a result" if finite else "notation only"

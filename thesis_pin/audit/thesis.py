@@ -10,7 +10,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from thesis_pin.audit.residuals import TROUBLES, what
+from thesis_pin.audit.residuals import TROUBLES, Free, what
 from thesis_pin.audit.rows import AuditReport, Effect, Row
 from thesis_pin.audit.severity import severity, without_effect
 from thesis_pin.audit.slips import Cause
@@ -35,14 +35,14 @@ class Ground:
         claims: The checks in code, by name.
         effect: Failing equation → what following its print does, by quantity.
         substituted: Equation → what its symbols are where those that it takes as given are
-            free, so that nothing vanishes; None for a line that is no substitution.
+            free, so that nothing vanishes; nothing for a line that is no substitution.
     """
 
     states: str
     references: Callable[[Equation], Environment]
     claims: Claims
     effect: Callable[[Equation], Effect]
-    substituted: Callable[[Equation], Environment | None] = lambda equation: None
+    substituted: Callable[[Equation], Sequence[Free]] = lambda equation: ()
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Thesis:
         causes: Each slip that several lines share, by its name in the data.
         beyond: Equations → what lies outside the audit, and why.
         effects: What the effects are, as lines for the document.
-        spanish: File with its texts in Spanish; see :mod:`thesis_pin.audit.errata.phrases`.
+        spanish: File with its texts in Spanish; see :mod:`thesis_pin.audit.languages.phrases`.
         command: What runs the audit, where it isn't ``ROBOT-pin audit``.
     """
 
@@ -154,7 +154,7 @@ class _Judge:
     def row(self, equation: Equation) -> Row:
         """The audit's answer on one equation."""
         environment = self.ground.references(equation)
-        ground, free = self.ground, self.ground.substituted(equation)
+        ground, free = self.ground, self._free(equation)
         row = judge(self.equations, equation, environment, ground.claims, self.name, free)
         if not row.failed or not self.with_effects:
             return row
@@ -168,6 +168,12 @@ class _Judge:
     @functools.cached_property
     def _users(self) -> Mapping[str, tuple[str, ...]]:
         return used_by(uses(self.equations))
+
+    def _free(self, equation: Equation) -> Sequence[Free]:
+        try:
+            return self.ground.substituted(equation)
+        except TROUBLES:
+            return ()  # a line that can't be read fails at the references as well
 
     def _effect(self, equation: Equation) -> Effect:
         try:

@@ -15,7 +15,7 @@ from typing import Any
 
 from thesis_pin.audit import kinds, places, single
 from thesis_pin.audit.reading import Reading
-from thesis_pin.audit.residuals import TROUBLES, residual_as_said, what
+from thesis_pin.audit.residuals import TROUBLES, Free, residual_as_said, what
 from thesis_pin.audit.residuals import difference as difference
 from thesis_pin.audit.residuals import largest_relative as largest_relative
 from thesis_pin.audit.residuals import residual as residual
@@ -68,7 +68,7 @@ def judge(
     environment: Environment,
     claims: Claims,
     thesis: str,
-    substituted: Environment | None = None,
+    free: Sequence[Free] = (),
 ) -> Row:
     """The audit's answer on one equation.
 
@@ -78,8 +78,8 @@ def judge(
         environment: What its symbols must equal.
         claims: Checks in code.
         thesis: What it is called.
-        substituted: What its symbols are where what it takes as given is free, if the line
-            is a substitution: it then has to hold there too.
+        free: What its symbols are where what it takes as given is free, if the line is a
+            substitution: it then has to hold there too.
     """
     number = f" ({', '.join(equation.number)})" if equation.number else ""
     row = Row(
@@ -132,17 +132,18 @@ def judge(
             places=tuple(_places(equation)),
             slips=_slips(catalogue, equation, answer, claimed_alone),
         )
-    grounds = (environment, substituted) if substituted else (environment,)
 
     def printed_alone(changed: Equation) -> float:
-        found = residual_as_said(catalogue, changed, changed.printed, grounds, changed.left)
+        found = residual_as_said(
+            catalogue, changed, changed.printed, environment, changed.left, free
+        )
         return found.value
 
-    printed = residual_as_said(catalogue, equation, equation.printed, grounds, row.left)
+    printed = residual_as_said(catalogue, equation, equation.printed, environment, row.left, free)
     mended = None
     if equation.mending or equation.left_printed:
         members = equation.members("corrected")
-        mended = residual_as_said(catalogue, equation, members, grounds, equation.left)
+        mended = residual_as_said(catalogue, equation, members, environment, equation.left, free)
     answer = verdict(printed.value, mended.value if mended else None, physical=bool(equation.right))
     return _with(
         row,

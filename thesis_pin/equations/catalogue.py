@@ -70,6 +70,9 @@ class Equation(Strict):
         closed: Whether it holds only where the mechanism's loops are closed.
         defines: Symbol that stands for the first factor of the member before the last, as
             J in ``ḃ = [i j k …] q̇ = J q̇``.
+        special: What of the robot's own shape it rests on, where it doesn't hold on one built
+            alike whose axes point anywhere.
+        free: Kind of states where nothing vanishes → numbers of the members that hold there.
     """
 
     id: Annotated[str, Field(pattern=r"^[a-z]+:[\w.]+:\S+$")]
@@ -95,6 +98,8 @@ class Equation(Strict):
     not_checkable: str = ""
     closed: bool = False
     defines: str = ""
+    special: str = ""
+    free: dict[str, tuple[int, ...]] = Field(default_factory=dict)
 
     @property
     def section(self) -> str:

@@ -61,6 +61,14 @@ class Framed(Protocol):
         """Frames of a rotation by a formula about "x", "y" or "z": ANY if no joint turns so."""
 
 
+@runtime_checkable
+class Skewed(Protocol):
+    """An environment whose joints turn about other axes than the print's x, y and z."""
+
+    def skew(self, axis: str, argument: Node, indices: dict[str, str]) -> np.ndarray | None:
+        """Rotation of a printed axis into the joint's, ``(3, 3)``; None where they agree."""
+
+
 class Movable(Environment, Protocol):
     """An environment whose states can take a complex step."""
 
@@ -191,24 +199,28 @@ def _call(node: nt.Call, environment: Environment, indices: dict[str, str]) -> V
         turned = rotation(_ROTATIONS[name], x)
         if name[0] == "T":
             return matrix(transform(turned, np.zeros(3)))
-        return Value(turned, 2, _turning(node, environment, indices))
+        return _turned(turned, node, environment, indices)
     if name in _TURNINGS:
         slope = rotation_derivative(_TURNINGS[name], x)
-        return Value(slope, 2, _turning(node, environment, indices))
+        return _turned(slope, node, environment, indices)
     if name in _TRANSLATIONS:
         shift = np.zeros((*x.shape, 3), dtype=x.dtype)
         shift[..., _TRANSLATIONS[name]] = x
         return matrix(transform(np.eye(3), shift))
     if name in _SPINS:
         spin = rotation_derivative(_SPINS[name], np.zeros(()))
-        return matrix(spin * x[..., None, None])
+        return _turned(spin * x[..., None, None], node, environment, indices)
     raise FormulaError(f"unknown function {name!r}")
 
 
-def _turning(node: nt.Call, environment: Environment, indices: dict[str, str]) -> Frames:
-    if isinstance(environment, Framed):
-        return environment.turning(node.function[-1], node.argument, indices)
-    return ANY
+def _turned(
+    rotation: np.ndarray, node: nt.Call, environment: Environment, indices: dict[str, str]
+) -> Value:
+    """A printed rotation, or its slope, with its frames and about the joint's axis."""
+    asked = node.function[-1], node.argument, indices
+    frames = environment.turning(*asked) if isinstance(environment, Framed) else ANY
+    bent = environment.skew(*asked) if isinstance(environment, Skewed) else None
+    return Value(rotation if bent is None else bent @ rotation @ bent.T, 2, frames)
 
 
 def _derivative(
@@ -217,7 +229,7 @@ def _derivative(
     if isinstance(of, nt.Call) and of.argument == by and of.function in _ROTATIONS:
         angle = evaluate(of.argument, environment, indices)
         slope = rotation_derivative(_ROTATIONS[of.function], angle.array)
-        return Value(slope, 2, _turning(of, environment, indices))
+        return _turned(slope, of, environment, indices)
     if isinstance(of, nt.Transpose):
         return transpose(_derivative(of.of, by, environment, indices))
     if by is None or isinstance(by, Symbol):

@@ -20,6 +20,8 @@ import numpy as np
 from thesis_pin.equations.values import STEP
 from thesis_pin.tolerances import GRAVITY
 
+_UP = np.array([0.0, 0.0, 1.0])
+
 
 @dataclass(frozen=True)
 class Body:
@@ -88,7 +90,11 @@ def exact_rates(moved: Sequence[Body]) -> np.ndarray:
 
 
 def assemble(
-    bodies: Sequence[Body], rate: np.ndarray, varied: np.ndarray, rates: np.ndarray
+    bodies: Sequence[Body],
+    rate: np.ndarray,
+    varied: np.ndarray,
+    rates: np.ndarray,
+    up: np.ndarray = _UP,
 ) -> Terms:
     """D, V and C.
 
@@ -97,9 +103,11 @@ def assemble(
         rate: Ṅ, shape ``(..., n, n)``.
         varied: ∂N/∂q_j, shape ``(..., n, n, n)`` with j first of the three.
         rates: q̇, shape ``(..., n)``.
+        up: Which way weight is lifted, shape ``(..., 3)``.
     """
     half = 0.5 * np.einsum("...k,...jkl->...jl", rates, varied)
     weight = sum(
-        GRAVITY * np.asarray(body.mass)[..., None] * body.linear[..., 2, :] for body in bodies
+        GRAVITY * np.asarray(body.mass)[..., None] * (up[..., None] * body.linear).sum(axis=-2)
+        for body in bodies
     )
     return Terms(mass_matrix(bodies), rate - half, np.asarray(weight), rate)

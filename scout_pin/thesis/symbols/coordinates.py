@@ -44,7 +44,7 @@ class Coordinates(Symbols):
         if by is not None and by.dots > 1:
             raise FormulaError("differentiates by an acceleration")
         if by is not None and by.name == "q":
-            columns = self.partial(of, Symbol("q", "j"), indices)
+            columns = self.partial(of, Symbol("q", "j", dots=by.dots), indices)
             swapped = np.swapaxes(columns.array, 1, -1)[:, None]
             return Value(swapped, 2, rows(columns.frames))
         if self.state.perturbed:
@@ -116,4 +116,6 @@ class Coordinates(Symbols):
     def _of_g(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sub or symbol.sup or symbol.dots:
             return None
-        return vector(np.array([[[0, 0, -GRAVITY]]])) if symbol.bold else scalar(GRAVITY)
+        if not symbol.bold:
+            return scalar(GRAVITY)
+        return vector(-GRAVITY * np.atleast_2d(self.state.own("k0"))[..., None, :])

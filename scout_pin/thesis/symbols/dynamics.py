@@ -113,7 +113,9 @@ class Dynamics(Vectors):
 
     def _potential(self, body: str) -> np.ndarray:
         mass = self.state.parameters.values[f"m_{body}"]
-        return np.asarray(GRAVITY * mass * self.bodies[body].centre[..., 2])
+        return np.asarray(
+            GRAVITY * mass * (self.bodies[body].centre * self.state.own("k0")).sum(-1)
+        )
 
     def _of_L(self, symbol: Symbol, i: str) -> Value | None:
         bodies = [symbol.sub] if symbol.sub in BODIES else list(BODIES) if not symbol.sub else []
@@ -154,7 +156,8 @@ class Dynamics(Vectors):
         if body not in BODIES or j != "j" or symbol.primes != 1:
             return None
         weight = -GRAVITY * self.state.parameters.values[f"m_{body}"]
-        return scalar(weight * self.state.centre(body)[1][:, 0, 2, :])
+        raised = (self.state.centre(body)[1] * self.state.own("k0")[..., None]).sum(axis=-2)
+        return scalar(weight * raised[:, 0])
 
     @cached_property
     def terms(self) -> lagrangian.Terms:
@@ -164,7 +167,8 @@ class Dynamics(Vectors):
             for along in (None, "q_j")
         )
         bodies = list(self.bodies.values())
-        terms = lagrangian.assemble(bodies, time, varied[:, None], self.state.v)
+        up = self.state.own("k0")
+        terms = lagrangian.assemble(bodies, time, varied[:, None], self.state.v, up)
         return lagrangian.Terms(*(x[:, 0] for x in vars(terms).values()))
 
     def _of_bb_D(self, symbol: Symbol, i: str) -> Value | None:

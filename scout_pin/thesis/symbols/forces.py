@@ -57,6 +57,8 @@ class Forces(Momentum):
         return scalar(self.state.tau[..., coordinate_index(f"theta_{symbol.sub}") - 6])
 
     def _of_A(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.dots:
+            return None
         if symbol.bold and symbol.sub in ("1", "2"):
             return vector(self._foot_side(int(symbol.sub), rates=False))
         full = np.vstack([np.zeros((6, 12)), np.eye(12)])
@@ -98,7 +100,7 @@ class Forces(Momentum):
         if symbol.sub not in ("1", "2") or symbol.sup != "0" or symbol.dots:
             return None
         length = self.state.parameters.values[f"b{symbol.sub}_y"][..., None]
-        return vector(length * self.state.frame(f"7{symbol.sub}").rotation[..., 1])
+        return vector(length * self.state.turned(f"7{symbol.sub}", f"j14{symbol.sub}"))
 
     def constraint(self, number: int, interval: int) -> np.ndarray:
         """φ_number of interval T_interval, as (4.15), (4.19), (4.21) say in words.
@@ -110,16 +112,17 @@ class Forces(Momentum):
         right = interval == 3 or number > 6
         i, which = (2 if right else 1), (number - 1) % 6 + 1
         if which <= 3:
-            component = {1: 2, 2: 1, 3: 0}[which]
+            axis = self.state.own({1: "k0", 2: "j0", 3: "i0"}[which])
             vector_l = self._of_l(Symbol("l", str(i), "0"), "")
             assert vector_l
             offset = self.state.parameters.values[f"b{i}_y"] if which == 2 else 0.0
-            return np.asarray(vector_l.array[..., component] - offset)
+            return np.asarray((vector_l.array * axis).sum(axis=-1) - offset)
         if which <= 5:
-            axis = self._axis(f"k8{i}")
-            assert axis is not None
-            return axis[..., {4: 1, 5: 2}[which]]
-        return self.state.frame(f"6{i}").rotation[..., 2, 2]
+            turning = self._axis(f"k8{i}")
+            assert turning is not None
+            return np.asarray((turning * self.state.own({4: "j0", 5: "k0"}[which])).sum(axis=-1))
+        upright = self.state.turned(f"6{i}", f"k11{i}")
+        return np.asarray((upright * self.state.own("k0")).sum(axis=-1))
 
     def _of_varphi(self, symbol: Symbol, i: str) -> Value | None:
         limits = {"1": 6, "2": 12, "3": 6}

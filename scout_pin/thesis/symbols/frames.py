@@ -11,6 +11,7 @@ Source: Scout thesis, 3.1, (3.7), (3.10), (3.11), 4.6.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from thesis_pin.equations.formula import Node, Sum, Symbol, symbols
 from thesis_pin.equations.frames import ANY, Frames, columns_seen_from, seen_from, swapped, turning
@@ -64,15 +65,36 @@ def _turns() -> dict[str, tuple[str, Frames]]:
 _TURNS = _turns()
 
 
+_ABOUT = {"theta_B": "ithetaB", "phi_B": "jphiB", "psi_B": "kpsiB"} | {
+    f"theta_{n}{i}": f"{start}{i}"
+    for i in "12"
+    for n, start in enumerate(("k0", "j2", "k4", "k6", "k8", "i10"), start=1)
+}
+"""Angle → name of the thesis's vector that it turns about."""
+
+
+def axis_of(axis: str, argument: Node, indices: dict[str, str]) -> str | None:
+    """The vector that a printed rotation, or Ω of a rate, turns about; None if no joint does."""
+    if isinstance(argument, Symbol) and argument.dots:
+        argument = replace(argument, dots=0)
+    angle, _ = _angle(axis, argument, indices)
+    return _ABOUT.get(angle)
+
+
 def of_rotation(axis: str, argument: Node, indices: dict[str, str]) -> Frames:
     """Frames of a rotation by an angle, its constant part beside it or not."""
+    angle, back = _angle(axis, argument, indices)
+    found = _TURNS[angle][1] if angle else ANY
+    return swapped(found) if back else found
+
+
+def _angle(axis: str, argument: Node, indices: dict[str, str]) -> tuple[str, bool]:
+    """The one known angle in an argument, "" if none turns about the axis; whether it's minus."""
     named = {symbol.bound(indices).name: symbol for symbol in symbols(argument) if not symbol.dots}
     angles = [name for name in named if name in _TURNS]
     if len(angles) != 1 or _TURNS[angles[0]][0] != axis:
-        return ANY
-    back = isinstance(argument, Sum) and ("-", named[angles[0]]) in argument.terms
-    found = _TURNS[angles[0]][1]
-    return swapped(found) if back else found
+        return "", False
+    return angles[0], isinstance(argument, Sum) and ("-", named[angles[0]]) in argument.terms
 
 
 def of_symbol(symbol: Symbol, tail: tuple[int, ...]) -> Frames:

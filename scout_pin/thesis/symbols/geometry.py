@@ -13,7 +13,6 @@ from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.frames import Frames
 from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
 
-_UNIT = {"i": np.array([1.0, 0, 0]), "j": np.array([0, 1.0, 0]), "k": np.array([0, 0, 1.0])}
 # The axes ω is made of (3.10): letter and number of each joint's axis vector.
 JOINT_AXES = {"k0": 1, "j2": 2, "k4": 3, "k6": 4, "k8": 5, "i10": 6}
 _EULER_AXES = {"itheta": 0, "jphi": 1, "kpsi": 2}
@@ -55,20 +54,19 @@ class Geometry(Coordinates):
         letter, sub = symbol.base, symbol.sub
         if not symbol.sup and frames.own_frame(letter + sub) is None:
             return None
-        if symbol.dots and (sub == "0" or not symbol.sup):
-            return ZERO
         if symbol.dots:
-            return None
-        unit = np.broadcast_to(_UNIT[letter], (1, 1, 3))
+            still = self.state.steady and (sub == "0" or not symbol.sup)
+            return ZERO if still else None
         if sub == "0" or not symbol.sup:
-            return vector(unit)
+            own = self.state.own(letter + sub)
+            return vector(np.broadcast_to(own, np.broadcast_shapes(own.shape, (1, 1, 3))))
         if symbol.sup != "0":
             return None
         axis = self._axis(letter + sub)
         if axis is not None:
             return vector(axis)
         body = self._body(sub)
-        return None if body is None else vector(self.state.frame(body).rotation @ unit[0, 0])
+        return None if body is None else vector(self.state.turned(body, letter + sub))
 
     _of_j = _of_k = _of_i
 

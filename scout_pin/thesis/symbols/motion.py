@@ -46,6 +46,10 @@ class MotionSymbols(Geometry):
             return self._constant(symbol.sub) if symbol.sup == same else None
         return None
 
+    def _along_world(self, array: np.ndarray) -> np.ndarray:
+        """Components of vectors along i_0, j_0 and k_0."""
+        return array
+
     def _moving(self, found: tuple[np.ndarray, np.ndarray], dots: int) -> np.ndarray:
         where, jacobian = found
         return where if dots == 0 else (jacobian @ self.state.v[..., None])[..., 0]
@@ -105,11 +109,9 @@ class MotionSymbols(Geometry):
         if symbol.sub in ("1", "2"):
             where, jacobian = self.state.point(f"7{symbol.sub}")
             k = "xyz".index(symbol.base)
-            if symbol.dots == 0:
-                return scalar(where[..., k])
-            return (
-                scalar((jacobian[..., k, :] * self.state.v).sum(-1)) if symbol.dots == 1 else None
-            )
+            if symbol.dots > 1:
+                return None
+            return scalar(self._along_world(self._moving((where, jacobian), symbol.dots))[..., k])
         constant = None if symbol.dots else self._constant(symbol.name)
         return self._coordinate(symbol.name, symbol.dots) or constant
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from thesis_pin.audit.errata.phrases import Phrases
-from thesis_pin.audit.errata.places import math, where
+from thesis_pin.audit.errata.formulas import math
+from thesis_pin.audit.finger import slip_text
 from thesis_pin.audit.kinds import KINDS
+from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import HOLDS, NO_VERDICT, AuditReport, Row
 from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.text import effect_text
@@ -39,7 +40,7 @@ def errata(report: AuditReport, command: str, say: Phrases = _ENGLISH) -> str:
         if len(rows := [row for row in failures if row.cause == name]) > 1
     ]
     grouped = {row.id for _, rows in shared for row in rows}
-    lines += ["", f"## {say('Slips with a common cause')}", ""]
+    lines += ["", f"## {say('Slips with a common cause')}", ""] if shared else [""]
     for number, (cause, rows) in enumerate(sorted(shared, key=lambda s: order[s[1][0].id]), 1):
         lines += _cause(number, cause, rows, say)
     lines += [f"## {say('Single slips, in the order of the thesis')}", ""]
@@ -73,14 +74,16 @@ def _summary(report: AuditReport, say: Phrases) -> Iterator[str]:
         border=f"{HOLDS:.0e}".replace("e-0", "e-"),
     )
     yield say(report.states)
-    yield ""
-    yield say(
-        "The text that was typed in is a scan of the thesis, turned into LaTeX. A slip may "
-        "therefore be the scan’s: {scan} lines are ascribed to it and {thesis} to the thesis, as "
-        "far as one can guess. Line numbers count the lines of that text.",
-        scan=sum(row.attribution == "scan" for row in failures),
-        thesis=sum(row.attribution == "thesis" for row in failures),
-    )
+    scanned = sum(row.attribution == "scan" for row in failures)
+    if scanned:
+        yield ""
+        yield say(
+            "The text that was typed in is a scan of the thesis, turned into LaTeX. A slip may "
+            "therefore be the scan’s: {scan} lines are ascribed to it and {thesis} to the thesis, "
+            "as far as one can guess. Line numbers count the lines of that text.",
+            scan=scanned,
+            thesis=sum(row.attribution == "thesis" for row in failures),
+        )
     if report.effects:
         yield ""
         yield say(" ".join(report.effects))
@@ -157,8 +160,9 @@ def _said(row: Row, say: Phrases) -> Iterator[tuple[str, str]]:
         shown = math([text]) if text else say("nothing")
         if shown:
             yield label, shown
-    for place in where(row, say):
-        yield say("where"), place
+    places = [slip_text(row, slip, say) for slip in row.slips]
+    if places != [say("the whole statement")]:
+        yield from ((say("where"), place) for place in places)
     if row.why:
         yield say("why"), say(row.why)
     if row.note:

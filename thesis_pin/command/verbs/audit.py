@@ -89,16 +89,29 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     print_text(*lines[:1])
     chapters, kinds = faces.chapter_table(report), faces.kind_table(report, defined=False)
     narrow = [_NARROW.get(heading, heading) for heading in chapters.columns]
-    print_parts([replace(chapters, columns=narrow), kinds, kinds.note, ""])
+    mended = (kinds, kinds.note) if kinds.rows else ()
+    print_parts([replace(chapters, columns=narrow), *mended, ""])
+    if not report.failures:
+        print_text("No line fails.", *lines[1:])
+        return _rest(report)
     columns = ("failures, worst effect first", "lines", "verdict", "by", "effect")
     print_table(columns, faces.failure_rows(report, every=arguments.every, width=_TITLE))
     print_text(
         "Effect: the largest number of a row or group; blocked: the line can't be computed, or "
         "following it leaves nothing to compute.",
         *lines[1:],
-        "Without a verdict:",
     )
-    print_entries(_without_verdict(report))
+    return _rest(report)
+
+
+def _rest(report: AuditReport) -> ExitCode:
+    """Print what has no verdict and what lies outside."""
+    from thesis_pin.command.output import print_entries, print_text
+
+    without = list(_without_verdict(report))
+    if without:
+        print_text("Without a verdict:")
+        print_entries(without)
     print_text(*(f"Outside: {what} ({why})" for what, why in report.beyond))
     return ExitCode.DONE
 
@@ -106,10 +119,10 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
 def _errata(report: AuditReport, thesis: Thesis, language: str) -> str:
     """The errata in a language; says what it has no words for, which stay in English."""
     from thesis_pin.audit.errata.document import errata
-    from thesis_pin.audit.errata.phrases import SPANISH, Phrases, read_phrases
+    from thesis_pin.audit.languages.phrases import Phrases
 
-    files = [SPANISH, *([thesis.spanish] if thesis.spanish else [])]
-    phrases = Phrases(read_phrases(*files) if language == "es" else {})
+    texts = [thesis.spanish] if thesis.spanish else []
+    phrases = Phrases.spanish(*texts) if language == "es" else Phrases()
     text = errata(report, thesis.errata_command(language), phrases)
     if phrases.missing:
         say(f"{len(phrases.missing)} texts have no Spanish yet and stay in English")

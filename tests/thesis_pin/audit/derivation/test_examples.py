@@ -196,3 +196,18 @@ def test_a_line_without_a_value_is_its_own_error(tmp_path):
     new = r"'m_2 l_{c2} g c_{12} + 1/(\theta_1 - \theta_1)'"
     found, _ = changed(tmp_path, "two_link_arm", (r"'m_2 l_{c2} g c_{12}'", new))
     assert found["G_2"].reason == "isn't finite"
+
+
+def test_the_ur5_of_a_data_sheet_holds_on_the_urdf_of_another_source():
+    """An index stands for all six joints, and a formula for six matrices."""
+    rows = audit_derivation(FOLDER / "ur5.toml", "example:ur5_robot").rows
+    assert [row.verdict for row in rows] == ["not checkable", "holds", "holds", "holds"]
+
+
+def test_an_index_runs_over_all_that_the_header_says(tmp_path):
+    """A slip that only the sixth joint shows."""
+    text = (FOLDER / "ur5.toml").read_text(encoding="utf-8")
+    path = tmp_path / "ur5.toml"
+    path.write_text(text.replace('d_6 = "82.3 mm"', 'd_6 = "83.2 mm"'), encoding="utf-8")
+    rows = audit_derivation(path, "example:ur5_robot", only=["ur:1:T"]).rows
+    assert rows[0].verdict == "unexplained"

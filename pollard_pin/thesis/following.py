@@ -1,0 +1,156 @@
+"""What following a printed line does in a line that uses it, where the law of motion doesn't.
+
+The symbol that the line defines takes the printed value, all others what they must equal.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+from thesis_pin.audit.rows import HOLDS, Effect
+from thesis_pin.audit.verdicts import difference
+from thesis_pin.equations import formula as nt
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.values import Value, transpose
+
+TRIED = 24
+"""Lines with the symbol that are followed, those behind it first."""
+
+
+@dataclass
+class Printed:
+    """Symbols as they must be, but for the one that a printed line defines.
+
+    Attributes:
+        references: What symbols must equal.
+        symbol: What the line defines, or differentiates by q_j.
+        derived: Whether it does.
+        value: Indices → what the print gives.
+        columns: Number of generalized coordinates.
+    """
+
+    references: Environment
+    symbol: Symbol
+    derived: bool
+    value: Callable[[dict[str, str]], Value]
+    columns: int
+
+    def lookup(self, symbol: Symbol, indices: dict[str, str]) -> Value:
+        """Value of a symbol."""
+        if not self.derived and self._same(symbol, indices):
+            return self.value(indices)
+        return self.references.lookup(symbol, indices)
+
+    def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
+        """Value of a derivative."""
+        if isinstance(of, Symbol):
+            dotted = replace(of, dots=of.dots + 1)
+            if self.derived and by == Symbol("q", "j") and self._same(of, indices):
+                return self.value(indices)
+            if not self.derived and by is None and self._same(dotted, indices):
+                return self.value(indices)
+        return self.references.partial(of, by, indices)
+
+    def _same(self, symbol: Symbol, indices: dict[str, str]) -> bool:
+        own, other = self.symbol.bound(indices), symbol.bound(indices)
+        return (own.name, own.dots) == (other.name, other.dots)
+
+
+def effect_where_used(
+    equations: Catalogue, references: Callable[[Equation], Environment], equation: Equation
+) -> Effect:
+    """Largest change of a line that uses a failing one, relative to its size.
+
+    Args:
+        equations: All equations.
+        references: Equation → what its symbols must equal.
+        equation: The failing line.
+
+    Returns:
+        The change by the line's number or name; empty if none changes, or the print can't be
+        read.
+    """
+    defined, failing = _defined(equations, equation), min(equation.mending, default=0)
+    if defined is None or not 0 < failing <= len(equation.printed):
+        return {}
+    left, derived, turned = defined
+    try:
+        node = equations.parse(equation.printed[failing - 1])
+    except FormulaError:
+        return {}
+
+    found = {}
+    for user in _behind_first(equations, equation):
+        where = Unframed(references(user))
+
+        def printed(indices: dict[str, str], where: Environment = where) -> Value:
+            value = evaluate(node, where, indices)
+            return transpose(value) if turned else value
+
+        both: tuple[Environment, ...] = where, Printed(where, left, derived, printed, where.columns)
+        try:
+            member = equations.parse(user.members("corrected")[-1])
+            found[user.id] = max(
+                difference(*(evaluate(member, symbols, i) for symbols in both))
+                for i in equations.indices(equations.parse(user.left), member)
+            )
+        except FormulaError:
+            continue
+    worst = max(found, key=lambda name: found[name], default="")
+    if not worst or found[worst] < HOLDS:
+        return {}
+    number = equations[worst].number
+    name = f"({number[0]})" if number else worst.split(":", 1)[1]
+    return {f"change of {name}, which uses it, worst [-]": found[worst]}
+
+
+def _defined(equations: Catalogue, equation: Equation) -> tuple[Symbol, bool, bool] | None:
+    """Symbol that a line defines; whether it is its derivative by q_j, and whether transposed."""
+    node = equations.parse(equation.left)
+    derived = isinstance(node, nt.Derivative) and node.by == Symbol("q", "j")
+    timed = isinstance(node, nt.Derivative) and node.by is None
+    node = node.of if isinstance(node, nt.Derivative) and (derived or timed) else node
+    turned = isinstance(node, nt.Transpose)
+    node = node.of if isinstance(node, nt.Transpose) else node
+    if not isinstance(node, Symbol):
+        return None
+    return (replace(node, dots=node.dots + 1) if timed else node), derived, turned
+
+
+def _behind_first(equations: Catalogue, equation: Equation) -> Iterator[Equation]:
+    """Lines with the symbol, from the line on and then from the thesis's start."""
+    node = equations.parse(equation.left)
+    own = {
+        symbol.bound(indices).name
+        for symbol in nt.symbols(node) - {Symbol("q", "j")}
+        for indices in equations.indices(node)
+    }
+    listed, names = equations.equations, _names(equations)
+    here = next(k for k, other in enumerate(listed) if other.id == equation.id)
+    found = [
+        other
+        for other in (*listed[here:], *listed[:here])
+        if other.id != equation.id and own & names[other.id] and other.printed and not other.claim
+    ]
+    yield from found[:TRIED]
+
+
+@functools.lru_cache(maxsize=4)
+def _names(equations: Catalogue) -> dict[str, frozenset[str]]:
+    """Names of the symbols in each line's members, as they should be, by the line's id."""
+    found = {}
+    for equation in equations.equations:
+        names: set[str] = set()
+        for text in equation.members("corrected"):
+            try:
+                inside = nt.symbols(equations.parse(text))
+            except FormulaError:
+                continue
+            for symbol in inside:
+                names |= {symbol.bound(values).name for values in equations.indices(symbol)}
+        found[equation.id] = frozenset(names)
+    return found
