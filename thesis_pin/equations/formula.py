@@ -25,10 +25,6 @@ class Unreadable(FormulaError):
         super().__init__(what, allowed="the notation of notation.lark")
 
 
-class Undefined(FormulaError):
-    """A formula has a symbol that nothing says the meaning of."""
-
-
 class FrameError(FormulaError):
     """A formula puts together what is seen from different frames."""
 

@@ -13,7 +13,6 @@ from thesis_pin.audit.derivation.effects import EFFECTS, Effects
 from thesis_pin.audit.derivation.ground import Derivation
 from thesis_pin.audit.derivation.mends import mends
 from thesis_pin.audit.derivation.references import References
-from thesis_pin.audit.derivation.undefined import undecided, undefined
 from thesis_pin.audit.residuals import residual
 from thesis_pin.audit.rows import HOLDS, AuditReport, Row
 from thesis_pin.audit.thesis import Ground, Progress, Thesis
@@ -69,10 +68,8 @@ class DerivationThesis(Thesis):
     def _noted(self, row: Row, equations: Catalogue) -> Row:
         one = equations[row.id]
         if row.verdict == "unexplained" and not one.mending and not one.illegible:
-            symbols = undefined(one, equations, self.references[0])
             guess = self._guess(row, equations)
-            told = replace(row, note="; ".join(filter(None, (row.note, guess))))
-            return undecided(told, symbols) if symbols else told
+            return replace(row, note="; ".join(filter(None, (row.note, guess))))
         if row.verdict != "holds" or all(
             residual(equations, one, one.printed, other, row.left).value < HOLDS
             for other in self.references[1:]

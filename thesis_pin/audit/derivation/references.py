@@ -16,7 +16,7 @@ from thesis_pin.audit.derivation.said.glossary import Glossary, Key, key
 from thesis_pin.audit.derivation.said.phrases import Phrase
 from thesis_pin.equations.catalogue import Catalogue, Edition
 from thesis_pin.equations.evaluation import evaluate
-from thesis_pin.equations.formula import FormulaError, Node, Symbol, Undefined
+from thesis_pin.equations.formula import FormulaError, Node, Symbol
 from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
 
 _STENCIL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
@@ -66,7 +66,7 @@ class References:
         if place not in self._values:
             value = self._find(symbol, indices)
             if value is None:
-                raise Undefined(self._unknown(symbol))
+                raise FormulaError(self._unknown(symbol))
             self._values[place] = value
         return self._values[place]
 
@@ -177,8 +177,6 @@ class References:
         shared.busy.append(slot)
         try:
             return evaluate(shared.catalogue.parse(members[-1]), self, dict(bound))
-        except Undefined as error:
-            raise Undefined(f"needs {symbol.name}, for which {error.what}") from error
         except FormulaError as error:
             raise FormulaError(f"needs {symbol.name}, which {error.what}") from error
         finally:
