@@ -88,14 +88,15 @@ class RandomSymbols:
     ) -> bool:
         """Whether a derivative is zero by what its symbol is, and not for this robot's shape.
 
-        A constant doesn't move by anything; what depends on no rate has no derivative by one,
-        and coordinates have none by each other.
+        A constant doesn't move by anything, coordinates not by each other, and a velocity
+        depends on a rate if that joint, or another of its kind, comes before it on the way.
         """
         if value.array.any():
             return False
-        if isinstance(of, Symbol) and self._is_coordinate(of) and self._is_coordinate(by):
+        by_one = by is not None and (by.base == "q" or self._is_coordinate(by))
+        if by_one and isinstance(of, Symbol) and self._is_coordinate(of):
             return True
-        if by is not None and by.dots and not any(symbol.dots for symbol in nt.symbols(of)):
+        if by is not None and by.dots:
             return True
         try:
             others = [self._references.partial(of, one, indices) for one in (None, _EACH)]
@@ -103,10 +104,8 @@ class RandomSymbols:
             return False
         return not any(other.array.any() for other in others)
 
-    def _is_coordinate(self, symbol: Symbol | None) -> bool:
+    def _is_coordinate(self, symbol: Symbol) -> bool:
         """Whether a symbol, or what it is the rate of, can be differentiated by."""
-        if symbol is None:
-            return False
         plain = replace(symbol, dots=0)
         try:
             own = self._references.partial(plain, plain, {})
