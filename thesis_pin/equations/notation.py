@@ -16,6 +16,7 @@ from typing import Any, cast
 
 from lark import Lark, Token, Transformer, UnexpectedInput
 
+from thesis_pin.equations.brackets import Brackets
 from thesis_pin.equations.formula import (
     Call,
     Cross,
@@ -110,9 +111,14 @@ class Notation:
         Raises:
             FormulaError: The formula isn't in the notation; says where.
         """
+        parser = _parser(self)
+        text = plain(formula).replace("\0", "\1")  # \0 marks brackets that are read already
         try:
-            # Nodes are built while it is parsed: a tree in between took half as long again.
-            found: object = _parser(self).parse(plain(formula))
+            return _read(parser.lark, parser.brackets.shortened(text))
+        except (UnexpectedInput, ValueError):
+            pass  # read whole, it says what is wrong and where
+        try:
+            return _read(parser.lark, text)
         except UnexpectedInput as error:
             at = error.pos_in_stream or 0
             place = formula[max(0, at - 25) : at + 25]
@@ -123,8 +129,6 @@ class Notation:
             ) from None
         except ValueError as error:
             raise FormulaError(f"the formula can't be read: {error}") from None
-        assert isinstance(found, tuple)
-        return found
 
     def symbol(self, text: str) -> Symbol:
         """Read a formula that is a single symbol."""
@@ -134,12 +138,35 @@ class Notation:
         return node
 
 
+@dataclass(frozen=True)
+class _Parser:
+    lark: Lark
+    brackets: Brackets
+
+
+def _read(lark: Lark, text: str) -> tuple[Node, ...]:
+    # Nodes are built while it is parsed: a tree in between took half as long again.
+    found: object = lark.parse(text)
+    assert isinstance(found, tuple)
+    return found
+
+
 @functools.cache
-def _parser(notation: Notation) -> Lark:
+def _parser(notation: Notation) -> _Parser:
     text = (Path(__file__).parent / "notation.lark").read_text(encoding="utf-8")
     listed = "|".join(sorted(map(re.escape, notation.words), key=len, reverse=True))
     grammar = text.replace("__WORDS__", f"{listed}|" if listed else "")
-    return Lark(grammar, parser="lalr", transformer=_Builder(notation))
+
+    def inside(part: str) -> Node | None:
+        try:
+            sides = _read(lark, part)
+        except (UnexpectedInput, ValueError):
+            return None
+        return sides[0] if len(sides) == 1 else None
+
+    brackets = Brackets(inside)
+    lark = Lark(grammar, parser="lalr", transformer=_Builder(notation, brackets))
+    return _Parser(lark, brackets)
 
 
 _TRANSPOSED = ("top", "intercal", "mathsfT", "rmT")
@@ -157,9 +184,9 @@ def flatten(script: str) -> str:
 class _Builder(Transformer[Token, tuple[Node, ...]]):
     """Turns the grammar's tree into nodes."""
 
-    def __init__(self, notation: Notation) -> None:
+    def __init__(self, notation: Notation, brackets: Brackets) -> None:
         super().__init__()
-        self.notation = notation
+        self.notation, self.brackets = notation, brackets
 
     def start(self, parts: list[Node]) -> tuple[Node, ...]:
         return tuple(_open(part) for part in parts)
@@ -202,6 +229,9 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
 
     def group(self, parts: list[Node]) -> Node:
         return _Group(_open(parts[0]))
+
+    def read(self, parts: list[Token]) -> Node:
+        return self.brackets.node(parts[0])
 
     def row(self, parts: list[Any]) -> Node:
         cells = tuple(_open(part) for part in parts if not isinstance(part, Token))
