@@ -34,7 +34,7 @@ def test_the_command_explains_the_lines_of_a_printed_number_or_symbol(asked, ids
 def test_a_whole_statement_isnt_shown_twice(capsys):
     assert main(["audit", "--equation", "2.4.2:Z"]) == 0
     shown = " ".join(capsys.readouterr().out.split())
-    assert "where the whole statement kind" in shown
+    assert "where the whole statement (alone: " in shown
 
 
 def test_the_command_writes_all_rows_as_json(pollard_audit, monkeypatch, tmp_path, capsys):

@@ -15,6 +15,7 @@ from xml.etree.ElementTree import Element
 
 from thesis_pin.equations.layout import plain
 
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _DOTS = {"˙": "\u0307", "¨": "\u0308"}
 _BRACKETS = frozenset("()[]|‖")
 _WORDS = frozenset({"sin", "cos", "tan", "sec", "csc", "cot", "arctan", "log", "exp"})
@@ -51,11 +52,19 @@ def _flat(node: Element) -> list[Element]:
         if child.tag in ("mrow", "mstyle") and not fenced:
             found += _flat(child)
         else:
-            found.append(_short(child))
+            found += _parts(_short(child))
     for left, table, right in zip(found, found[1:], found[2:], strict=False):
         if table.tag == "mtable" and left.tag == right.tag == "mn":
             left.tag = right.tag = "mo"  # these do have to grow
     return _merged(found)
+
+
+def _parts(node: Element) -> list[Element]:
+    """A dotted letter and the number below it side by side, as that of a plain letter is."""
+    if node.tag == "msub" and node[0].tag == "mover" and (node[1].text or "").isdigit():
+        number = (node[1].text or "").translate(_LOWERED)
+        return [node[0], _node("mi", number, **node[0][0].attrib)]
+    return [node]
 
 
 def _short(node: Element) -> Element:
@@ -75,6 +84,9 @@ def _short(node: Element) -> Element:
     new.extend(_one(child) for child in node)
     if node.tag in _SCRIPTED:
         new[1:] = [_script(part) for part in new[1:]]
+    if node.tag == "msub" and new[0].tag == "mi" and (new[1].text or "").isdigit():
+        new[0].text = f"{new[0].text}{(new[1].text or '').translate(_LOWERED)}"
+        return new[0]
     lonely = node.tag == "msup" and not len(new[0]) and not new[0].text
     return new[1] if lonely else new
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from thesis_pin.audit.finger import slip_text
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.text import (
@@ -131,10 +132,15 @@ def _row(row: Row) -> Iterator[str]:
     yield f"- residual as printed: {residual_text(row.residual_printed)}"
     if row.reason:
         yield f"- finding: {row.reason}"
-    for place in row.places:
-        yield f"- where: `{place}`"
+    if row.line:
+        yield f"- line of the text: {row.line}"
+    for slip in row.slips:
+        yield f"- where: {slip_text(row, slip)}"
+    if row.severity:
+        yield f"- severity: {row.severity}"
     if row.kinds:
         yield f"- kind: {', '.join(row.kinds)}"
-    if row.effect:
-        yield f"- effect: {effect_text(row)}"
+    effect = effect_text(row) or row.no_effect
+    if effect:
+        yield f"- effect: {effect}"
     yield ""

@@ -6,15 +6,16 @@ import html
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from thesis_pin.audit.finger import slip_text
 from thesis_pin.audit.formulas import mathml
 from thesis_pin.audit.kinds import KINDS
-from thesis_pin.audit.rows import AuditReport, Row
+from thesis_pin.audit.rows import AuditReport, Row, Severity
+from thesis_pin.audit.slips import Slip
 from thesis_pin.audit.text import (
     VERDICT_NOTE,
     chapter_table,
     effect_text,
     kind_table,
-    place_text,
     residual_text,
     summary_lines,
     surviving_text,
@@ -24,7 +25,8 @@ from thesis_pin.equations.uses import Uses
 from thesis_pin.pages.player import render, web_file
 from thesis_pin.report.tables import Table
 
-_PAGES = 2000
+_SEVERITIES: tuple[Severity, ...] = ("changes a result", "notation only")
+_PAGES = 1200
 """Characters of LaTeX from which a correction stands as source: it repeats pages of print."""
 
 
@@ -79,8 +81,8 @@ class _Article:
     Attributes:
         id: Its id, which is also its anchor.
         name: The id without the robot.
-        number: Numbers printed beside it.
-        verdict, style: Its verdict, and the same as a class.
+        about: Numbers printed beside it, line of the text, verdict and what it changes.
+        style: Its verdict as a class.
         formula: What is printed.
         entries: Label and content of what is said of it.
         uses: Names of the lines it uses.
@@ -88,8 +90,7 @@ class _Article:
 
     id: str
     name: str
-    number: str
-    verdict: str
+    about: str
     style: str
     formula: str
     entries: list[tuple[str, object]]
@@ -100,13 +101,20 @@ class _Article:
         return cls(
             row.id,
             _name(row.id),
-            ", ".join(f"({number})" for number in row.number),
-            row.verdict,
+            " ".join(_about(row)),
             row.verdict.replace(" ", "-"),
             markup(" ".join(_printed(row))),
             list(_entries(row, cause, markup)),
             uses,
         )
+
+
+def _about(row: Row) -> Iterator[str]:
+    """What the heading of a line says beside its name."""
+    yield from (f"({number})" for number in row.number)
+    if row.line:
+        yield f"line {row.line}:"
+    yield f"{row.verdict}, {row.severity}" if row.severity else row.verdict
 
 
 def _name(identity: str) -> str:
@@ -118,11 +126,15 @@ def _links(row: Row, uses: Uses, known: set[str]) -> list[str]:
 
 
 def _index(failures: Sequence[Row]) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-    """Failing lines by kind of slip: what the kind is, and ids and names of its lines."""
+    """Failing lines by severity and by kind of slip: titles, ids and names of the lines."""
+    groups: list[tuple[str, list[Row]]] = [
+        (name, [r for r in failures if r.severity == name]) for name in _SEVERITIES
+    ]
     for kind, what in KINDS.items():
-        found = [(row.id, _name(row.id)) for row in failures if kind in row.kinds]
-        if found:
-            yield f"{kind}: {what}", found
+        groups.append((f"{kind}: {what}", [row for row in failures if kind in row.kinds]))
+    for title, rows in groups:
+        if rows:
+            yield title, [(row.id, _name(row.id)) for row in rows]
 
 
 def _printed(row: Row) -> Iterator[str]:
@@ -137,6 +149,19 @@ def _correction(text: str) -> str:
         return mathml(text)
     said = f"its source, {len(text)} characters"
     return f"<details><summary>{said}</summary><code>{html.escape(text)}</code></details>"
+
+
+def _piece(formula: str) -> str:
+    """A piece of a formula that has a slip; one that can't be set alone as its source."""
+    cells = any(mark in formula for mark in ("&", r"\\", "begin", "end", "left", "right"))
+    return f"<code>{html.escape(formula)}</code>" if cells else mathml(formula)
+
+
+def _alone(slip: Slip) -> str:
+    """What one slip alone does to the corrected line."""
+    if slip.residual is None:
+        return "<small>(can’t be told apart from the others)</small>"
+    return f"<small>(alone: residual {residual_text(slip.residual)})</small>"
 
 
 def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, object]]:
@@ -154,13 +179,12 @@ def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, obj
         residuals = {"as printed": row.residual_printed, mended: row.residual_corrected}
         said = [f"{k} {residual_text(v)}" for k, v in residuals.items() if v is not None]
         yield "residual", ", ".join(said)
-    for place in row.places:
-        yield "where", markup(f"<code>{html.escape(place_text(place))}</code>")
+    for slip in row.slips:
+        yield "where", markup(f"{slip_text(row, slip, quote=_piece)} {_alone(slip)}")
     texts = (
-        *(("kind", ", ".join(row.kinds)), ("cause", cause), ("effect", effect_text(row))),
+        *(("kind", ", ".join(row.kinds)), ("cause", cause)),
+        ("effect", effect_text(row) or row.no_effect),
         *(("finding", row.reason), ("note", row.note)),
         ("guess", f"{row.attribution}: {row.why}" if row.attribution else ""),
     )
     yield from ((label, text) for label, text in texts if text)
-    if row.line:
-        yield "line", f"{row.line} of the source text"

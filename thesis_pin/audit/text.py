@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from thesis_pin.audit.finger import slip_text
 from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.rows import HOLDS, VERDICTS, AuditReport, Row
 from thesis_pin.audit.slips import Cause
@@ -19,11 +20,6 @@ def residual_text(value: float | None) -> str:
     if math.isinf(value):
         return "not computable"
     return f"< {HOLDS:.0e}".replace("e-0", "e-") if value < HOLDS else f"{value:.1e}"
-
-
-def place_text(place: str) -> str:
-    """A place for who sees the correction beside it: without repeating a whole statement."""
-    return re.sub(r"(?<=\bstatement): .*", "", place)
 
 
 def effect_text(row: Row, say: Callable[[str], str] = str) -> str:
@@ -181,12 +177,15 @@ def explain(row: Row, cause: Cause | None = None) -> Iterator[tuple[str, str]]:
         way = "rebuilt" if row.rebuilt else "corrected"
         label = "residual" if row.residual_printed is None else ""
         yield label, f"{way} {residual_text(row.residual_corrected)}"
-    for place in row.places:
-        yield "where", place_text(place)
+    for slip in row.slips:
+        alone = "" if slip.residual is None else f" (alone: {residual_text(slip.residual)})"
+        yield "where", slip_text(row, slip) + alone
+    if row.severity:
+        yield "severity", row.severity
     if row.kinds:
         yield "kind", ", ".join(f"{kind} ({KINDS[kind]})" for kind in row.kinds)
     texts = (
-        *(("effect", effect_text(row)), ("because", row.reason)),
+        *(("effect", effect_text(row) or row.no_effect), ("because", row.reason)),
         *(("guess", row.why), ("note", row.note)),
     )
     yield from ((label, text) for label, text in texts if text)

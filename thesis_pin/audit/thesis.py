@@ -58,7 +58,7 @@ class Thesis:
         causes: Each slip that several lines share, by its name in the data.
         beyond: Equations → what lies outside the audit, and why.
         effects: What the effects are, as lines for the document.
-        spanish: File with its texts in Spanish; see :mod:`thesis_pin.audit.errata.phrases`.
+        spanish: File with its texts in Spanish; see :mod:`thesis_pin.audit.languages.phrases`.
         command: What runs the audit, where it isn't ``ROBOT-pin audit``.
     """
 

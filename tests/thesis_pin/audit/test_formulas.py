@@ -21,7 +21,10 @@ def text(markup):
         (r"\dot{\mathbf{r}}_{G1}^0", "<msubsup><mi class=b>ṙ</mi><mn>G1</mn><mn>0</mn></msubsup>"),
         (r"\mathbf{R}", "<mi class=b>R</mi>"),
         ("(a)", "<mn>(</mn><mi>a</mi><mn>)</mn>"),
-        (r"c\theta_{21}", "<msub><mi>cθ</mi><mn>21</mn></msub>"),
+        (r"c\theta_{21}", "<mi>cθ₂₁</mi>"),
+        (r"x_{21i}", "<msub><mi>x</mi><mn>21i</mn></msub>"),
+        (r"\dot{\theta}_{21} c", "<mover><mi>θ</mi><mn>˙</mn></mover><mi>₂₁c</mi>"),
+        (r"\mathbf{R}_{2}^0", "<msubsup><mi class=b>R</mi><mn>2</mn><mn>0</mn></msubsup>"),
         (r"x'", "<msup><mi>x</mi><mn>′</mn></msup>"),
     ],
 )
@@ -42,7 +45,9 @@ def test_a_long_sum_breaks_between_terms_and_loses_nothing():
     lines = re.findall(r"<math>.*?</math>", shown)
     assert len(lines) > 3
     assert all(line.startswith("<math><mo>+</mo>") for line in lines[1:])
-    assert text(shown) == "+".join(f"x{k}y{k}" for k in range(30))
+    assert text(shown) == "+".join(f"x{k}y{k}" for k in range(30)).translate(
+        str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+    )
 
 
 def test_what_cant_be_set_is_shown_as_its_source():

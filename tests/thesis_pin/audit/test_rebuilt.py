@@ -37,7 +37,7 @@ def test_the_page_shows_it_too():
     text = page(AuditReport("Thesis", (LOST,), (), "", {}))
     assert "… + c &lt; …" in text
     assert "rebuilt, member 2" in text
-    assert "7 of the source text" in text
+    assert "line 7: rebuilt" in text
 
 
 def test_the_document_lists_where_it_is_lost_and_what_it_follows_from():

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from thesis_pin.audit.errata.phrases import Phrases
-from thesis_pin.audit.errata.places import math, where
+from thesis_pin.audit.errata.formulas import math
+from thesis_pin.audit.finger import slip_text
 from thesis_pin.audit.kinds import KINDS
+from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import HOLDS, NO_VERDICT, AuditReport, Row
 from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.text import effect_text
@@ -159,8 +160,9 @@ def _said(row: Row, say: Phrases) -> Iterator[tuple[str, str]]:
         shown = math([text]) if text else say("nothing")
         if shown:
             yield label, shown
-    for place in where(row, say):
-        yield say("where"), place
+    places = [slip_text(row, slip, say) for slip in row.slips]
+    if places != [say("the whole statement")]:
+        yield from ((say("where"), place) for place in places)
     if row.why:
         yield say("why"), say(row.why)
     if row.note:

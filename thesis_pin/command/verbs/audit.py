@@ -119,10 +119,10 @@ def _rest(report: AuditReport) -> ExitCode:
 def _errata(report: AuditReport, thesis: Thesis, language: str) -> str:
     """The errata in a language; says what it has no words for, which stay in English."""
     from thesis_pin.audit.errata.document import errata
-    from thesis_pin.audit.errata.phrases import SPANISH, Phrases, read_phrases
+    from thesis_pin.audit.languages.phrases import Phrases
 
-    files = [SPANISH, *([thesis.spanish] if thesis.spanish else [])]
-    phrases = Phrases(read_phrases(*files) if language == "es" else {})
+    texts = [thesis.spanish] if thesis.spanish else []
+    phrases = Phrases.spanish(*texts) if language == "es" else Phrases()
     text = errata(report, thesis.errata_command(language), phrases)
     if phrases.missing:
         say(f"{len(phrases.missing)} texts have no Spanish yet and stay in English")

@@ -47,24 +47,32 @@ addEventListener('hashchange', follow);
 // The page names what a line uses; here the names become links, and the other way round.
 const robot = rows[0]?.id.split(':')[0];
 const users = new Map();
-function link(line, names) {
+const MANY = 12;  // names that a line shows without being asked
+function line(label, names) {
+  const box = document.createElement(names.length > MANY ? 'details' : 'p');
+  const head = names.length > MANY ? document.createElement('summary') : box;
+  if (head !== box) box.append(head);
+  box.className = 'links';
+  head.append(`${label} `);
   for (const name of names) {
     const one = document.createElement('a');
     one.href = `#${robot}:${name}`;
     one.textContent = name;
-    line.append(one, ' ');
+    box.append(one, ' ');
   }
+  return box;
 }
-for (const line of document.querySelectorAll('article > .links')) {
-  const names = line.textContent.trim().split(/\s+/).slice(1), id = line.parentElement.id;
+for (const head of document.querySelectorAll('article h4')) {
+  const one = document.createElement('a');
+  one.href = `#${head.parentElement.id}`;
+  one.append(head.firstChild);
+  head.prepend(one);
+}
+for (const written of document.querySelectorAll('article > .links')) {
+  const names = written.textContent.trim().split(/\s+/).slice(1), id = written.parentElement.id;
   for (const name of names) users.set(name, [...users.get(name) ?? [], id.slice(robot.length + 1)]);
-  line.textContent = 'uses ';
-  link(line, names);
+  written.replaceWith(line(names.length > MANY ? `uses ${names.length}` : 'uses', names));
 }
 for (const [name, found] of users) {
-  const line = document.createElement('p');
-  line.className = 'links';
-  line.append(`used by ${found.length}: `);
-  link(line, found);
-  document.getElementById(`${robot}:${name}`).append(line);
+  document.getElementById(`${robot}:${name}`).append(line(`used by ${found.length}:`, found));
 }

@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 
 from thesis_pin.audit.errata.document import errata
-from thesis_pin.audit.errata.phrases import SPANISH, Phrases, read_phrases
-from thesis_pin.audit.errata.places import math
+from thesis_pin.audit.errata.formulas import math
+from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import AuditReport, Row
-from thesis_pin.audit.slips import Cause
+from thesis_pin.audit.slips import Cause, Slip
 
 
 def failing(name, cause="", **more):
@@ -29,6 +29,7 @@ def failing(name, cause="", **more):
         effect={"torque [N·m]": 0.25},
         cause=cause,
         line=17,
+        slips=(Slip(1, 2, "+", "-", ("a", "b"), kind="sign", residual=1.0),),
     )
     return replace(row, **more)
 
@@ -57,7 +58,7 @@ def test_a_line_has_its_place_print_correction_why_and_effect():
         "misprint, by the scan, changes a result.",
         "- printed: $late = a + b$",
         "- correct: $a - b$",
-        "- where: `symbol 2: + should be -`",
+        "- where: between `a` and `b`, `+` should be `-`",
         "- why: the sign is lost",
         "- effect: torque 9 N·m",
     ):
@@ -88,25 +89,26 @@ def test_the_first_page_counts_by_verdict_kind_and_severity():
     assert "| sign | 1 | 1 | 3 |" in first
 
 
-def test_the_same_errata_are_said_in_spanish():
-    say = Phrases(
-        read_phrases(SPANISH)
-        | {
-            "Scout thesis": "tesis Scout",
-            "States: 3.": "Estados: 3.",
-            "a slip": "un desliz",
-            "One took the wrong turn.": "Uno dobló mal.",
-            "the sign is lost": "se perdió el signo",
-            "nothing uses it": "nada lo usa",
-            "torque": "torque",
-        }
-    )
+def test_the_same_errata_are_said_in_spanish(tmp_path):
+    file = tmp_path / "spanish.toml"
+    pairs = {
+        "Scout thesis": "tesis Scout",
+        "States: 3.": "Estados: 3.",
+        "a slip": "un desliz",
+        "One took the wrong turn.": "Uno dobló mal.",
+        "the sign is lost": "se perdió el signo",
+        "nothing uses it": "nada lo usa",
+        "torque": "torque",
+    }
+    entries = [f'[[phrase]]\nen = "{en}"\nes = "{es}"\n' for en, es in pairs.items()]
+    file.write_text("".join(entries), encoding="utf-8")
+    say = Phrases.spanish(file)
     text = errata(REPORT, "make it", say)
     assert say.missing == set()
     assert text.startswith("# Erratas de la tesis Scout\n")
     said = entry(text, "late")
     assert "errata, de la digitalización, cambia un resultado." in said
-    assert "- dónde: `símbolo 2: en vez de + debe decir -`" in said
+    assert "- dónde: entre `a` y `b`, en vez de `+` debe decir `-`" in said
     assert text.count("\n**") == errata(REPORT, "make it").count("\n**")
 
 

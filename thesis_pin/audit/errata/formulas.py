@@ -1,13 +1,9 @@
-"""Formulas and places of errata: as mathematics where it is short, else as source."""
+"""Formulas of errata: as mathematics where they are short and whole."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-
-from thesis_pin.audit.errata.phrases import Phrases
-from thesis_pin.audit.rows import Row
-from thesis_pin.audit.text import place_text
+from collections.abc import Sequence
 
 _LONG = 420
 """Characters of LaTeX above which only the places are shown."""
@@ -43,11 +39,3 @@ def _balanced(text: str) -> bool:
             return False
     stretched = len(re.findall(r"\\left\b", text)) == len(re.findall(r"\\right\b", text))
     return depth == 0 and stretched and text.count(r"\begin") == text.count(r"\end")
-
-
-def where(row: Row, say: Phrases) -> Iterator[str]:
-    """Places of a row's slips in words."""
-    for place in row.places:
-        text = place_text(place)
-        if text != "the whole statement":
-            yield f"`{say(text)}`"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from thesis_pin.model.specification import Key, Strict, read_toml
 
-SPANISH = Path(__file__).with_name("spanish.toml")
+_SPANISH = Path(__file__).with_name("spanish.toml")
 """What every thesis's errata say, in Spanish."""
 
 _FIELD = re.compile(r"\{(\*?)(\w+)\}")
@@ -22,33 +22,18 @@ class _Phrase(Strict):
 
 
 class _PhraseFile(Strict):
-    phrase: tuple[_Phrase, ...]
+    phrase: tuple[_Phrase, ...] = ()
+    template: tuple[_Phrase, ...] = ()
 
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
-        known: set[str] = set()
-        for k, phrase in enumerate(self.phrase):
-            if sorted(_FIELD.findall(phrase.en)) != sorted(_FIELD.findall(phrase.es)):
-                yield ("phrase", k, "es"), "the translation has other fields", phrase.es
-            if phrase.en in known:
-                yield ("phrase", k, "en"), "used twice", phrase.en
-            known.add(phrase.en)
-
-
-def read_phrases(*paths: Path) -> dict[str, str]:
-    """English → Spanish, from TOML files with a table ``phrase`` for each pair.
-
-    ``{name}`` in a phrase stands for anything, which is kept, ``{*name}`` for something that is
-    translated in turn.
-
-    Raises:
-        SpecificationError: A file breaks the schema, or a translation has other fields than
-            what it translates.
-    """
-    found: dict[str, str] = {}
-    for path in paths:
-        file = read_toml("phrases", _PhraseFile, path)
-        found |= {phrase.en: phrase.es for phrase in file.phrase}
-    return found
+        for name in ("phrase", "template"):
+            known: set[str] = set()
+            for k, phrase in enumerate(getattr(self, name)):
+                if sorted(_FIELD.findall(phrase.en)) != sorted(_FIELD.findall(phrase.es)):
+                    yield (name, k, "es"), "the translation has other fields", phrase.es
+                if phrase.en in known:
+                    yield (name, k, "en"), "used twice", phrase.en
+                known.add(phrase.en)
 
 
 @dataclass(frozen=True)
@@ -56,16 +41,38 @@ class Phrases:
     """Says English sentences in a language.
 
     Attributes:
-        table: English → that language; empty for English.
-        missing: Sentences asked for that the table lacks; they are left in English.
+        table: English → that language; empty for English. ``{name}`` in a phrase stands for
+            anything, which is kept, ``{*name}`` for something that is translated in turn.
+        templates: The same for sentences of a document, whose fields are filled afterwards.
+        missing: Sentences asked for that the tables lack; they are left in English.
     """
 
     table: Mapping[str, str] = field(default_factory=dict)
+    templates: Mapping[str, str] = field(default_factory=dict)
     missing: set[str] = field(default_factory=set)
 
+    @classmethod
+    def spanish(cls, *paths: Path) -> Phrases:
+        """Spanish, from TOML files with tables ``phrase`` and ``template``.
+
+        Args:
+            *paths: What a thesis says, beside what every thesis's errata say.
+
+        Raises:
+            SpecificationError: A file breaks the schema, or a translation has other fields than
+                what it translates.
+        """
+        table: dict[str, str] = {}
+        templates: dict[str, str] = {}
+        for path in (_SPANISH, *paths):
+            file = read_toml("phrases", _PhraseFile, path)
+            table |= {phrase.en: phrase.es for phrase in file.phrase}
+            templates |= {phrase.en: phrase.es for phrase in file.template}
+        return cls(table, templates)
+
     def __call__(self, text: str, **values: object) -> str:
-        """A sentence, with values put into its fields afterwards."""
-        said = self._of(text)
+        """A sentence; with values, a template and what belongs in its fields."""
+        said = self.templates.get(text, None if self.table else text) if values else self._of(text)
         if said is None:
             self.missing.add(text)
             said = text

@@ -2,7 +2,7 @@
 
 import pytest
 
-from thesis_pin.audit.errata.phrases import SPANISH, Phrases, read_phrases
+from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.errors import SpecificationError
 
 TABLE = {
@@ -11,8 +11,8 @@ TABLE = {
     "one; two": "uno; dos",
     "is {*one} where {*other} belongs": "es {*one} donde corresponde {*other}",
     "by {d} mm": "por {d} mm",
-    "{n} lines": "{n} renglones",
 }
+TEMPLATES = {"{n} lines": "{n} renglones"}
 
 
 @pytest.mark.parametrize(
@@ -40,9 +40,13 @@ def test_what_the_table_lacks_stays_and_is_noted_whole(english):
     assert say.missing == {english}
 
 
-def test_values_are_put_in_after_translating():
-    assert Phrases(TABLE)("{n} lines", n=3) == "3 renglones"
+def test_a_template_is_filled_afterwards_and_matches_no_other_sentence():
+    say = Phrases(TABLE, TEMPLATES)
+    assert say("{n} lines", n=3) == "3 renglones"
     assert Phrases()("{n} lines", n=3) == "3 lines"
+    assert say("3 lines") == "3 lines"
+    assert say("{n} dogs", n=3) == "3 dogs"
+    assert say.missing == {"3 lines", "{n} dogs"}
 
 
 def test_braces_of_a_formula_are_no_fields():
@@ -51,7 +55,7 @@ def test_braces_of_a_formula_are_no_fields():
 
 
 def test_the_checked_in_table_can_be_read():
-    assert read_phrases(SPANISH)["misprint"] == "errata"
+    assert Phrases.spanish()("misprint") == "errata"
 
 
 @pytest.mark.parametrize(
@@ -66,4 +70,4 @@ def test_a_table_with_a_mistake_is_refused(text, word, tmp_path):
     file = tmp_path / "words.toml"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(SpecificationError, match=word):
-        read_phrases(file)
+        Phrases.spanish(file)

@@ -1,0 +1,1 @@
+"""What the audits say in other languages than English."""
