@@ -32,11 +32,11 @@ def _moves(catalogue: Catalogue, closed: References, equation: Equation) -> Clai
         axis = np.flatnonzero(~turned.any(axis=1) if turns else np.abs(matrix[:3, 3]))
         found.append(("R" if turns else "T") + "_" + "xyz"[int(axis[0])])
     # A name that isn't the one meant is no value that is off by so much.
-    residuals = [
+    before, after = (
         0.0 if all(list(names_in(catalogue, text)) == found for text in members) else math.inf
         for members in (equation.printed, equation.members("corrected"))
-    ]
-    return ClaimResult(*residuals, f"the matrices are {', '.join(found)}")
+    )
+    return ClaimResult(before, after, f"the matrices are {', '.join(found)}")
 
 
 def counts(robot: Pollard) -> dict[str, int]:
