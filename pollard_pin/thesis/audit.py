@@ -21,6 +21,7 @@ from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.symbols.elements import elements
 from pollard_pin.thesis.symbols.rates import moving
+from pollard_pin.thesis.symbols.vectors import FreeVectors, definitions
 from thesis_pin.audit.residuals import Free
 from thesis_pin.audit.text import ranges
 from thesis_pin.audit.thesis import Ground, Thesis
@@ -110,13 +111,17 @@ def ground(equations: Catalogue) -> Ground:
         f"States: {_STATES} open ones, where nothing of the loops is assumed, and {_STATES} closed "
         "ones for equations that need the loops; each on a random robot with unequal side chains "
         "and β54 ≠ 0, angles on the whole circle, both side chains. Lines that name coefficients "
-        "or make some of others also hold where all of them are free and none vanishes."
+        "or make some of others also hold where all of them are free and none vanishes; so "
+        "do lines of vectors that vanish on the mechanism, with frames and vectors free."
     )
-    closed = environments.closed
+    closed, known = environments.closed, definitions(equations)
 
     def substituted(equation: Equation) -> Sequence[Free]:
         if substitutes(equations, equation):
             return (Free(environments.coefficients),)
+        if "vectors" in equation.free:
+            vectors = FreeVectors(equations, known, equation.id)
+            return (Free(vectors, equation.free["vectors"]),)
         free = elements(equations, equation)
         return (Free(free),) if free else ()
 

@@ -67,6 +67,12 @@ def test_an_equation_that_holds_says_so(capsys):
     assert "holds" in capsys.readouterr().out
 
 
+def test_one_equation_names_the_lines_it_uses(capsys):
+    assert main(["audit", "--equation", "4.1:V_B"]) == 0
+    (used,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith("uses ")]
+    assert "4.1:b_B" in used.split()
+
+
 def test_json_on_standard_output_is_only_json(capsysbinary):
     assert main(["audit", "--equation", "6.2:ZMP_x", "--json", "-"]) == 0
     document = orjson.loads(capsysbinary.readouterr().out)

@@ -12,7 +12,7 @@ from thesis_pin.audit.text import (
     KIND_NOTE,
     VERDICT_NOTE,
     chapter_table,
-    effect_text,
+    effect_entry,
     failure_rows,
     kind_table,
     ranges,
@@ -140,7 +140,5 @@ def _row(row: Row) -> Iterator[str]:
         yield f"- severity: {row.severity}"
     if row.kinds:
         yield f"- kind: {', '.join(row.kinds)}"
-    effect = effect_text(row) or row.no_effect
-    if effect:
-        yield f"- effect: {effect}"
+    yield from (f"- {label}: {text}" for label, text in effect_entry(row))
     yield ""

@@ -14,7 +14,7 @@ from thesis_pin.audit.slips import Slip
 from thesis_pin.audit.text import (
     VERDICT_NOTE,
     chapter_table,
-    effect_text,
+    effect_entry,
     kind_table,
     residual_text,
     summary_lines,
@@ -183,7 +183,7 @@ def _entries(row: Row, cause: str, markup: type[str]) -> Iterator[tuple[str, obj
         yield "where", markup(f"{slip_text(row, slip, quote=_piece)} {_alone(slip)}")
     texts = (
         *(("kind", ", ".join(row.kinds)), ("cause", cause)),
-        ("effect", effect_text(row) or row.no_effect),
+        *effect_entry(row),
         *(("finding", row.reason), ("note", row.note)),
         ("guess", f"{row.attribution}: {row.why}" if row.attribution else ""),
     )

@@ -35,6 +35,15 @@ def effect_text(row: Row, say: Callable[[str], str] = str) -> str:
     return "; ".join(parts)
 
 
+def effect_entry(row: Row) -> Iterator[tuple[str, str]]:
+    """What following the print does, or why nothing, with its label."""
+    effect = effect_text(row)
+    if effect:
+        yield "effect", effect
+    elif row.no_effect:
+        yield "no effect", row.no_effect
+
+
 SURVIVES = 600
 """Characters of a torn line that are shown at once; Pollard's G_92 has 87 000."""
 
@@ -185,7 +194,8 @@ def explain(row: Row, cause: Cause | None = None) -> Iterator[tuple[str, str]]:
     if row.kinds:
         yield "kind", ", ".join(f"{kind} ({KINDS[kind]})" for kind in row.kinds)
     texts = (
-        *(("effect", effect_text(row) or row.no_effect), ("because", row.reason)),
+        *effect_entry(row),
+        ("because", row.reason),
         *(("guess", row.why), ("note", row.note)),
     )
     yield from ((label, text) for label, text in texts if text)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from thesis_pin.audit.residuals import TROUBLES, Free, what
-from thesis_pin.audit.rows import AuditReport, Effect, Row
+from thesis_pin.audit.rows import AuditReport, Effect, Row, Severity
 from thesis_pin.audit.severity import severity, without_effect
 from thesis_pin.audit.slips import Cause
 from thesis_pin.audit.verdicts import Claims, judge
@@ -162,7 +162,9 @@ class _Judge:
         nothing = without_effect(equation, row, effect, lambda: self._users[row.id])
         if not effect and row.residual_printed == math.inf and not equation.no_effect:
             effect = {"this line": "can't be computed"}
-        weight = severity(row, effect, nothing)
+        weight: Severity = "notation only"
+        if not equation.notation:
+            weight = severity(row, effect, nothing)
         return replace(row, effect=effect, no_effect=nothing, severity=weight)
 
     @functools.cached_property

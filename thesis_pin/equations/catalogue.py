@@ -66,6 +66,8 @@ class Equation(Strict):
         misread: Member number → the member with all slips mended but those of its statement,
             where ``right`` says another statement.
         no_effect: Why following the print changes nothing, where that can't be computed.
+        notation: Whether its notation alone fails, where a check in code gives no number that
+            a reader would compute from it.
         not_checkable: Why nothing can be computed, if so.
         closed: Whether it holds only where the mechanism's loops are closed.
         defines: Symbol that stands for the first factor of the member before the last, as
@@ -95,6 +97,7 @@ class Equation(Strict):
     line: Annotated[int, Field(ge=0)] = 0
     misread: Replacements = Field(default_factory=dict)
     no_effect: str = ""
+    notation: bool = False
     not_checkable: str = ""
     closed: bool = False
     defines: str = ""
@@ -155,6 +158,8 @@ class EquationFile(Strict):
                 yield key, "only an illegible line is rebuilt", equation.id
             if not set(equation.misread) <= set(equation.right):
                 yield (*key, "misread"), "belongs to members that `right` mends", equation.id
+            if equation.notation and not (equation.claim and equation.corrected):
+                yield (*key, "notation"), "is said of misprints that a check decides", equation.id
             if equation.corrected and equation.right:
                 yield key, "either misprinted (corrected) or wrong (right), not both", equation.id
 

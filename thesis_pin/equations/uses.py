@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from thesis_pin.equations import formula as nt
@@ -13,16 +13,20 @@ Uses = Mapping[str, tuple[str, ...]]
 """Id of a line → ids of other lines, in the thesis's order."""
 
 
-def uses(catalogue: Catalogue) -> dict[str, tuple[str, ...]]:
+def uses(catalogue: Catalogue, only: Iterable[str] | None = None) -> dict[str, tuple[str, ...]]:
     """The lines that define what each line's members are made of.
 
     A symbol's first definition counts. Of a rate that no line defines it is that of the
     symbol itself, and of a derivative by q_j likewise.
+
+    Args:
+        catalogue: The equations.
+        only: Ids of the lines asked for; None for all.
     """
     order = {equation.id: k for k, equation in enumerate(catalogue.equations)}
     return {
         equation.id: tuple(sorted({*_used(catalogue, equation)}, key=order.__getitem__))
-        for equation in catalogue.equations
+        for equation in (catalogue.equations if only is None else map(catalogue.__getitem__, only))
     }
 
 

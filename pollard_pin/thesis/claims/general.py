@@ -5,8 +5,9 @@ Source: Pollard thesis, 2.1 (homogeneous matrices), (3.1), 3.3.2 (each V), 3.6 (
 
 from __future__ import annotations
 
+import functools
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, replace
 from typing import TypeVar
 
@@ -75,7 +76,7 @@ def with_indices(part: Part, indexed: Mapping[str, str]) -> Part:
 
 def _depends(catalogue: Catalogue, closed: References, equation: Equation) -> ClaimResult:
     """V = V(…): the variables listed are those on which some V of chain 0 depends."""
-    found = moving_coefficients(closed)
+    found = set(moving_coefficients(closed))
     shares = []
     for text in equation.printed:
         name, _, inside = text.partition("(")
@@ -87,7 +88,8 @@ def _depends(catalogue: Catalogue, closed: References, equation: Equation) -> Cl
     return ClaimResult(max(shares), note=note)
 
 
-def moving_coefficients(closed: References) -> set[str]:
+@functools.lru_cache(maxsize=4)
+def moving_coefficients(closed: References) -> frozenset[str]:
     """Angles and coordinates on which V_1 … V_43 depend."""
 
     def moves(name: str) -> bool:
@@ -95,38 +97,43 @@ def moving_coefficients(closed: References) -> set[str]:
         values = (coefficient(state, f"V_{k}", "") for k in range(1, 44))
         return any(v is not None and bool(np.abs(np.imag(v)).max() > 0) for v in values)
 
-    return {name for name in VARIABLES if moves(name)}
+    return frozenset(name for name in VARIABLES if moves(name))
 
 
 # -- blocks of a matrix -----------------------------------------------------------------
 
-_SIZE = re.compile(r"\((\d)x(\d)\)")
+_WHOLE = re.compile(r"\\begin\{bmatrix\}(.*)\\end\{bmatrix\}", re.DOTALL)
+_BLOCK = re.compile(r"\s*(\S.*?)\((\d)x(\d)\)\s*", re.DOTALL)
 
 
 def _blocks(catalogue: Catalogue, closed: References, equation: Equation) -> ClaimResult:
     """The named blocks fill a 4×4 matrix, and are what the text says in T_z1 … T_z6."""
+    if catalogue.notation.symbol(equation.left) != Symbol("T", "B", "A", bold=True):
+        raise FormulaError(f"cuts {equation.left}, not the matrix from B to A")
     worst = 0.0
     for text in equation.printed:
         for k in range(1, 7):
             (printed,) = catalogue[f"pollard:2.1:T_z{k}"].printed
             whole = evaluate(catalogue.parse(printed), closed, {}).array
             for name, block in _cut(text, whole):
-                worst = max(worst, _off(name, block))
+                worst = max(worst, _off(catalogue.notation.symbol(name), block))
     return ClaimResult(worst, note="cut so, T_z1 … T_z6 have a rotation, a place, zeros and a one")
 
 
 def _cut(text: str, whole: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """Name and numbers of each block of a matrix, by the sizes printed beside the names."""
-    inside = re.sub(r"\\(begin|end)\{bmatrix\}", "", text)
+    inside = _WHOLE.fullmatch(text.strip())
+    if inside is None:
+        raise FormulaError("isn't a matrix of blocks")
     above = 0
-    for row in inside.split(r"\\"):
+    for row in inside[1].split(r"\\"):
         beside, high = 0, 0
         for cell in row.split("&"):
-            size = _SIZE.search(cell)
-            if size is None:
+            found = _BLOCK.fullmatch(cell)
+            if found is None:
                 raise FormulaError(f"gives no size of {cell.strip()}")
-            height, width = int(size[1]), int(size[2])
-            yield cell[: size.start()].strip(), whole[..., above:, beside:][..., :height, :width]
+            height, width = int(found[2]), int(found[3])
+            yield found[1], whole[..., above:, beside:][..., :height, :width]
             if high not in (0, height):
                 raise FormulaError("puts blocks of different height side by side")
             beside, high = beside + width, height
@@ -137,19 +144,21 @@ def _cut(text: str, whole: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
         raise FormulaError(f"has {above} rows in a matrix of {whole.shape[-2]}")
 
 
-def _off(name: str, block: np.ndarray) -> float:
-    """How far a block is from what its name means: R turns, q is a place, γ is 0, ρ is 1."""
-    shape = block.shape[-2:]
-    if "mathbf{R}" in name and shape == (3, 3):
-        turned = np.swapaxes(block, -1, -2) @ block - np.eye(3)
-        return float(max(np.abs(turned).max(), np.abs(np.linalg.det(block) - 1).max()))
-    if "mathbf{q}" in name and shape == (3, 1):
-        return 0.0
-    if "gamma" in name and shape == (1, 3):
-        return float(np.abs(block).max())
-    if "rho" in name and shape == (1, 1):
-        return float(np.abs(block - 1).max())
-    raise FormulaError(f"calls {name} a block of {shape[0]}×{shape[1]}")
+_MEANT: dict[Symbol, tuple[tuple[int, int], Callable[[np.ndarray], np.ndarray]]] = {
+    Symbol("R", "B", "A", bold=True): ((3, 3), lambda x: np.swapaxes(x, -1, -2) @ x - np.eye(3)),
+    Symbol("q", bold=True): ((3, 1), np.zeros_like),
+    Symbol("gamma", bold=True): ((1, 3), lambda x: x),
+    Symbol("rho"): ((1, 1), lambda x: x - 1),
+}
+"""Name of a block → its size, and what must vanish: R turns, q is a place, γ is 0, ρ is 1."""
+
+
+def _off(name: Symbol, block: np.ndarray) -> float:
+    """How far a block is from what its name means."""
+    size, gap = _MEANT.get(name, ((0, 0), np.zeros_like))
+    if block.shape[-2:] != size:
+        raise FormulaError(f"calls {name.name} a block of {block.shape[-2]}×{block.shape[-1]}")
+    return float(np.abs(gap(block)).max())
 
 
 CHECKS: Mapping[str, Check] = {

@@ -61,4 +61,5 @@ def names_in(catalogue: Catalogue, text: str) -> tuple[str, ...]:
         FormulaError: A part of the list isn't a symbol.
     """
     parts = text.strip().removeprefix("(").removesuffix(")").split(",")
-    return tuple(replace(catalogue.notation.symbol(part), kept="").name for part in parts)
+    symbols = (catalogue.notation.symbol(part) for part in parts)
+    return tuple(replace(one, kept="").name + "." * one.dots for one in symbols)

@@ -93,13 +93,14 @@ def _inertia(catalogue: Catalogue, closed: References, equation: Equation) -> Cl
 def link_of(catalogue: Catalogue, left: str) -> str:
     """Link whose inertia in its own frame a symbol is: J_2^5 the forearm's, J_1^{2i} an arm's.
 
-    An arm's frame 3i has the axes of 2i, which 4.4 names.
+    An arm's own frame 3i has the axes of 2i, and 4.4 names the latter.
     """
     symbol = catalogue.notation.symbol(left)
     chain = "1" if symbol.sup.endswith("i") else ""
     body = symbol.sub.removesuffix("i") + chain
     frame = own_frame(body)[0] if body in BODIES else ""
-    known = symbol.base == "J" and symbol.sup in (frame, "2i" if frame == "3i" else frame)
+    plain = symbol.base == "J" and not (symbol.dots or symbol.primes)
+    known = plain and symbol.sup == ("2i" if frame == "3i" else frame)
     return LINK_NAMES[BODIES.index(body)] if known else ""
 
 

@@ -43,7 +43,8 @@ class Dynamics(KSymbols):
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """As its parent does; ∂L/∂q̇ is the momentum, without a step."""
         of = of.bound(indices) if isinstance(of, Symbol) else of
-        if isinstance(of, Symbol) and of.base == "L" and by is not None and by.dots:
+        once = by is not None and by.base == "q" and by.dots == 1
+        if isinstance(of, Symbol) and of.base == "L" and once and not of.dots:
             mass = lagrangian.mass_matrix(self._chosen(of, indices.get("i", "")))
             momentum = (mass @ self.pose_rates[..., None])[..., 0]
             return scalar(np.moveaxis(momentum, -1, 0))
@@ -246,9 +247,13 @@ class Dynamics(KSymbols):
         return np.asarray((self.rows[name] * self.drive.virtual).sum(axis=-1))
 
     def _of_delta_q(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.dots:
+            return None
         return self._entry(self.drive.virtual, symbol.sub)
 
     def _of_delta_theta(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.dots:
+            return None
         if symbol.sub:
             name = f"theta_{symbol.sub}"
             return scalar(self._turn(name)) if name in self.rows else None
@@ -258,6 +263,8 @@ class Dynamics(KSymbols):
     _of_delta_psi = _of_delta_phi = _of_delta_theta
 
     def _of_delta_Q(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.dots:
+            return None
         if symbol.sub not in ("1", "2", "3"):
             return None
         motor = int(symbol.sub)
@@ -265,5 +272,7 @@ class Dynamics(KSymbols):
         return vector(self._turn(MOTORS[motor - 1])[..., None] * axis)
 
     def _of_delta_W(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.dots:
+            return None
         turns = np.stack([self._turn(name) for name in MOTORS], axis=-1)
         return scalar((turns * self.drive.torque).sum(axis=-1))

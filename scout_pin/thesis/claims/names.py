@@ -85,11 +85,14 @@ def _names_below(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     ]
     announced = list(dict.fromkeys(below))
 
+    count = len(equation.printed[0].split(", "))
+
     def residual(text: str, left: str) -> float:
         names = [_any_number(name) for name in text.split(", ")]
         return 0.0 if names == announced[: len(names)] else _OTHER
 
-    return both(equation, residual, "as the lines below it are called")
+    named = ", ".join(f"`{name}`" for name in announced[:count])
+    return both(equation, residual, f"the lines below are {named}")
 
 
 def _any_number(name: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import itertools
 import re
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from scout_pin.motion.gait import Gait
 from scout_pin.thesis.claims.texts import (
     Check,
     Piece,
+    at,
     beyond,
     both,
     pieces,
@@ -34,6 +36,7 @@ CURVES = {
     "z_2": ("right_foot", 2),
 }
 """Coordinates that move (5.2 to 5.6), in the thesis's order, and what the gait calls them."""
+_END = 40.0  # t runs from 0 to it
 WRONG = 1.0
 """Residual of a statement that no number measures."""
 
@@ -69,7 +72,7 @@ def _spline(exact: Gait, equation: Equation) -> ClaimResult:
 
     def residual(text: str, left: str) -> float:
         found, worst = pieces(text), 0.0
-        if not _tiles(found, 0.0, 40.0):
+        if not _tiles(found, 0.0, _END):
             return WRONG
         for piece in found:
             if not all(np.isclose(curve.x, t).any() for t in (piece.start, piece.end)):
@@ -80,7 +83,12 @@ def _spline(exact: Gait, equation: Equation) -> ClaimResult:
             worst = max(worst, beyond(gap, piece.rounding(t), STEP))
         return worst
 
-    return both(equation, residual, "the spline through its own nodes, to the digits printed")
+    result = both(equation, residual, "the spline through its own nodes, to the digits printed")
+    if not result.printed or not equation.mending:
+        return result
+    last = np.array([_END])
+    lost = [text for text in equation.printed if np.isnan(at(pieces(text), last)[0][0])]
+    return replace(result, note=f"t = {_END:g} is in none of its intervals") if lost else result
 
 
 def _tiles(found: list[Piece], start: float, end: float) -> bool:

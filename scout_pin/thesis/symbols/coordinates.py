@@ -28,6 +28,7 @@ class Coordinates(Symbols):
     def __init__(self, state: State) -> None:
         super().__init__()
         self.state = state
+        self._beside: dict[tuple[str | None, bool], list[Coordinates]] = {}
 
     def _find(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.name in DUMMIES and symbol.dots < 2:
@@ -60,10 +61,11 @@ class Coordinates(Symbols):
         self, of: Node, along: str | None, rates: bool, indices: dict[str, str]
     ) -> Value:
         """A derivative inside a derivative, which only misprints need: central difference."""
-        ends = [
-            evaluate(of, type(self)(self.state.step(along, rates, size)), indices)
-            for size in (1e-6, -1e-6)
-        ]
+        if (along, rates) not in self._beside:
+            self._beside[along, rates] = [
+                type(self)(self.state.step(along, rates, size)) for size in (1e-6, -1e-6)
+            ]
+        ends = [evaluate(of, end, indices) for end in self._beside[along, rates]]
         if ends[0].rank == -1:
             return ZERO
         return replace(ends[0], array=(ends[0].array - ends[1].array) / 2e-6)

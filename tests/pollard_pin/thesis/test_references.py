@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
+from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import Environments
 from pollard_pin.thesis.effects import Effects
 from pollard_pin.thesis.symbols.rates import explicit_rates, joint_rates
-from thesis_pin.equations.formula import Symbol
+from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.formula import FormulaError, Symbol
 from thesis_pin.equations.values import STEP
 
 
@@ -113,3 +115,17 @@ def test_effects_are_of_the_one_line_and_zero_for_a_line_that_is_right():
     assert effects.of(catalogue()["pollard:2.4.1:2.10"]) == {}
     lost = effects.of(catalogue()["pollard:D:V_5"])
     assert "can't be computed" in lost["generalized force"]
+
+
+@pytest.mark.parametrize("slip", [r"\dot{L}_1", r"L_1"])
+def test_a_lagrangian_is_differentiated_by_a_rate_and_by_nothing_else(mechanics, slip):
+    """∂L/∂q̈ and ∂L̇/∂q̇ aren't the momentum."""
+    by = r"\dot{q}_j" if "dot" in slip else r"\ddot{q}_j"
+    right = r"\frac{\partial L_1}{\partial \dot{q}_j}"
+    wrong = rf"\frac{{\partial {slip}}}{{\partial {by}}}"
+    momentum = evaluate(catalogue().parse(right), mechanics, {}).array
+    try:
+        found = evaluate(catalogue().parse(wrong), mechanics, {}).array
+    except FormulaError:
+        return
+    assert np.abs(found - momentum).max() > 1e-3

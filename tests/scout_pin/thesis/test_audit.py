@@ -188,6 +188,13 @@ def test_every_failure_has_an_effect_or_a_reason_why_it_has_none(rows):
             assert catalogue()[row.id].no_effect, row.id
 
 
+def test_a_name_in_a_sentence_or_an_interval_s_end_is_notation_and_a_wrong_number_is_not(rows):
+    for name in ("4.2:lines_announced", "4.5:lines_announced", "5:5.2", "5:5.6"):
+        assert rows[f"scout:{name}"].severity == "notation only", name
+    for name in ("5:x_i", "B.2:l_1", "D:y_B", "4.7:4.23"):
+        assert rows[f"scout:{name}"].severity == "changes a result", name
+
+
 def audit_rows_in_order(rows):
     from thesis_pin.audit.rows import AuditReport
 

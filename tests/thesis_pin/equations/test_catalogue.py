@@ -58,6 +58,7 @@ def test_a_correction_may_add_or_drop_a_member():
     [
         ("corrected = 'x'", "needs attribution and why"),
         ("corrected = 'x'\nright = 'y'\nattribution = 'scan'\nwhy = 'w'", "not both"),
+        ("notation = true", "misprints that a check decides"),
         ("verdict = 'holds'", "unknown key"),
         ("attribution = 'printer'", "'thesis', 'scan'"),
     ],
@@ -78,6 +79,12 @@ def test_an_id_may_be_used_once_and_something_must_be_printed():
 
 def test_a_verdict_can_not_be_written_into_a_file():
     assert "verdict" not in Equation.model_fields
+
+
+def test_what_is_stated_and_not_checkable_defines_nothing():
+    stated = {"id": "r:1:a", "left": "a", "printed": "7", "not_checkable": "stated"}
+    defined = {"id": "r:2:a", "left": "a", "printed": "b"}
+    assert catalogue(stated, defined).definitions["", "a", 0][0].id == "r:2:a"
 
 
 def test_the_first_definition_of_a_symbol_counts_and_indices_are_expanded():

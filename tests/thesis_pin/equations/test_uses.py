@@ -50,6 +50,10 @@ def test_a_line_that_cant_be_read_uses_what_its_correction_does(arm):
     assert names(uses(mended))["bad"] == ["a"]
 
 
+def test_some_lines_alone_are_asked_for(arm):
+    assert names(uses(arm, ["arm:1:w"])) == {"w": ["r", "v"]}
+
+
 def test_used_by_is_the_other_way_round(arm):
     assert names(used_by(uses(arm)))["r"] == ["w"]
     assert names(used_by(uses(arm)))["a"] == ["r", "v"]

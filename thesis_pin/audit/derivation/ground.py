@@ -27,6 +27,10 @@ from thesis_pin.equations.formula import FormulaError, Symbol
 from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.loops.closures import ClosedRobot
 
+SMALL = 1e-8
+"""Entries of the mass matrix [kg·m²], [kg] from which a slip of half a percent is seen: what counts
+as zero is zero against 1e-3 (:mod:`thesis_pin.audit.residuals`)."""
+
 
 class Derivation:
     """A derivation's file and the robot that it is about, checked against each other.
@@ -206,6 +210,12 @@ class Derivation:
             told.append(f"Joints that stand still at their zero: {', '.join(still)}.")
         if self.file.forces:
             told.append(f"Accelerations follow from the forces of {', '.join(self.file.forces)}.")
+        smallest = np.abs(self.references.meanings.mass_matrix()).max(axis=(0, 1)).min()
+        if smallest < SMALL:
+            told.append(
+                f"Its bodies are so light that entries of the mass matrix are below {SMALL:.0e}: "
+                "a slip in one of them can go unseen."
+            )
         if self.changes:
             changed = ", ".join(self.changes)
             told.append(f"What holds is tried with other {changed} of the robot, too.")

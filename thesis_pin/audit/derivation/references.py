@@ -33,6 +33,7 @@ class _Shared:
     following: str = ""
     busy: list[tuple[str, int]] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
+    unknown: dict[tuple[str, int], str] = field(default_factory=dict)
 
 
 class References:
@@ -66,7 +67,11 @@ class References:
         if place not in self._values:
             value = self._find(symbol, indices)
             if value is None:
-                raise FormulaError(self._unknown(symbol))
+                told = self._shared.unknown
+                name = symbol.name, symbol.dots
+                if name not in told:  # looking for what is near takes a millisecond
+                    told[name] = self._unknown(symbol)
+                raise FormulaError(told[name])
             self._values[place] = value
         return self._values[place]
 
@@ -75,13 +80,14 @@ class References:
         shared = self._shared
         if shared.glossary.find(symbol):
             return True
-        held, shared.catalogue = shared.catalogue, Catalogue([], shared.catalogue.notation)
+        held, told = shared.catalogue, dict(shared.unknown)
+        shared.catalogue = Catalogue([], held.notation)
         try:
             return self._find(symbol, {}) is not None
         except FormulaError:
             return False
         finally:
-            shared.catalogue = held
+            shared.catalogue, shared.unknown = held, told
 
     def _find(self, symbol: Symbol, indices: dict[str, str]) -> Value | None:
         glossary = self._shared.glossary

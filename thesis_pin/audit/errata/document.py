@@ -54,10 +54,10 @@ def _summary(report: AuditReport, say: Phrases) -> Iterator[str]:
     """How the errata were found, in a few paragraphs."""
     counts, failures = report.counts, report.failures
     yield say(
-        "{total} displayed equations and statements of the thesis were typed as printed and "
-        "judged by a program: {holds} hold, {failed} don’t. {misprint} are misprints, which hold "
-        "when mended; {wrong} are statements that are wrong, whose right form holds. {none} have "
-        "no verdict, most because the text is lost.",
+        "{total} displayed equations and statements were typed as printed and judged by a "
+        "program. Hold: {holds}. Don’t hold: {failed}, of these misprints, which hold when "
+        "mended: {misprint}; wrong statements, whose right form holds: {wrong}. Without a "
+        "verdict, most because the text is lost: {none}.",
         total=len(report.rows),
         holds=counts["holds"],
         failed=len(failures),
@@ -152,8 +152,8 @@ def _entry(row: Row, say: Phrases) -> Iterator[str]:
 def _said(row: Row, say: Phrases) -> Iterator[tuple[str, str]]:
     """Labels and what stands beside them."""
     printed = math([row.left, *row.printed])
-    if printed:
-        yield say("printed"), printed
+    if printed or row.printed:
+        yield say("printed"), printed or f"{math([row.left])} = …"
     for number, text in sorted(row.corrected.items()):
         label = say("correct, member {n}", n=number) if len(row.printed) > 1 else say("correct")
         label = label if number else say("correct, left side")
@@ -170,5 +170,7 @@ def _said(row: Row, say: Phrases) -> Iterator[tuple[str, str]]:
     if row.reason:
         yield say("finding"), say(row.reason)
     effect = effect_text(row, say)
-    if effect or row.no_effect:
-        yield say("effect"), effect or say(row.no_effect)
+    if effect:
+        yield say("effect"), effect
+    elif row.no_effect:
+        yield say("no effect"), say(row.no_effect)

@@ -12,10 +12,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from thesis_pin.audit.residuals import TROUBLES
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.evaluation import Environment, evaluate
-from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.values import ZERO, Value, add, blocks, cross, multiply, transpose
 
 _STATES = 3
@@ -87,17 +88,30 @@ class RandomSymbols:
     ) -> bool:
         """Whether a derivative is zero by what its symbol is, and not for this robot's shape.
 
-        A constant doesn't move by anything; what depends on no rate has no derivative by one.
+        A constant doesn't move by anything, coordinates not by each other, and a velocity
+        depends on a rate if that joint, or another of its kind, comes before it on the way.
         """
         if value.array.any():
             return False
-        if by is not None and by.dots and not any(symbol.dots for symbol in nt.symbols(of)):
+        by_one = by is not None and (by.base == "q" or self._is_coordinate(by))
+        if by_one and isinstance(of, Symbol) and self._is_coordinate(of):
+            return True
+        if by is not None and by.dots:
             return True
         try:
             others = [self._references.partial(of, one, indices) for one in (None, _EACH)]
-        except FormulaError:
+        except TROUBLES:
             return False
         return not any(other.array.any() for other in others)
+
+    def _is_coordinate(self, symbol: Symbol) -> bool:
+        """Whether a symbol, or what it is the rate of, can be differentiated by."""
+        plain = replace(symbol, dots=0)
+        try:
+            own = self._references.partial(plain, plain, {})
+        except TROUBLES:
+            return False
+        return own.rank == 0 and bool(np.all(own.array == 1.0))
 
 
 _EACH = Symbol("q", "j")

@@ -63,7 +63,9 @@ class Trials:
         seed: Of the choice of slips.
     """
 
-    def __init__(self, equations: Catalogue, ground: Ground, each: int = EACH, seed: int = 1):
+    def __init__(
+        self, equations: Catalogue, ground: Ground, each: int = EACH, seed: int = 1
+    ) -> None:
         self.equations, self.ground, self.each, self.seed = equations, ground, each, seed
         self._random: dict[int, RandomSymbols] = {}
         self._known = frozenset(_names(equations))

@@ -83,7 +83,9 @@ def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     if only:
         for k, row in enumerate(report.rows):
             print_text(*[""] * (k > 0))
-            print_entries(faces.explain(row, report.causes.get(row.cause)))
+            said = list(faces.explain(row, report.causes.get(row.cause)))
+            used = [name.split(":", 1)[1] for name in uses(thesis.catalogue(), [row.id])[row.id]]
+            print_entries([*said, *([("uses", ", ".join(used))] if used else [])])
         return ExitCode.DONE
     lines = list(faces.summary_lines(report))
     print_text(*lines[:1])

@@ -211,3 +211,13 @@ def test_an_index_runs_over_all_that_the_header_says(tmp_path):
     path.write_text(text.replace('d_6 = "82.3 mm"', 'd_6 = "83.2 mm"'), encoding="utf-8")
     rows = audit_derivation(path, "example:ur5_robot", only=["ur:1:T"]).rows
     assert rows[0].verdict == "unexplained"
+
+
+def test_a_robot_too_light_to_tell_slips_says_so(tmp_path):
+    urdf = (FOLDER / "double_pendulum.urdf").read_text(encoding="utf-8")
+    path = tmp_path / "light.urdf"
+    path.write_text(urdf.replace('"2.0"', '"2e-9"').replace('"1.5"', '"1e-9"'), encoding="utf-8")
+    told = audit_derivation(FOLDER / "double_pendulum.toml", path, only=["dp:1:x"]).states
+    assert "a slip in one of them can go unseen" in told
+    usual = audit_derivation(FOLDER / "double_pendulum.toml", FOLDER / "double_pendulum.urdf")
+    assert "unseen" not in usual.states

@@ -51,6 +51,10 @@ def refusal(tmp_path, old, new):
         (G_2, "left = '0'\nprinted = '0'", ["an equation of nothing"]),
         (G_2, "printed = 'G_2'", ["an equation has two sides"]),
         ('"arm:3:G_2"', '"leg:3:G_2"', ["ids begin with the derivation's name"]),
+        ('cos = "c"', 'cos = "cc"', ["derivation.cos"]),
+        ('cos = "c"', "indices = { ij = [1] }", ["derivation.indices.ij", "one letter"]),
+        ('cos = "c"', "indices = { i = [] }", ["a list of its numbers"]),
+        ('cos = "c"', 'words = ["("]', ["derivation.words", "two letters"]),
         ("title =", "titel =", ["unknown key", "title"]),
     ],
 )

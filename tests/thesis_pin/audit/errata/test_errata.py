@@ -63,7 +63,13 @@ def test_a_line_has_its_place_print_correction_why_and_effect():
         "- effect: torque 9 N·m",
     ):
         assert part in said
-    assert "- effect: nothing uses it" in entry(text, "c_1")
+    assert "- no effect: nothing uses it" in entry(text, "c_1")
+
+
+def test_of_a_print_that_takes_pages_the_left_side_is_shown():
+    long = replace(failing("far"), printed=("a + " * 200 + "b",))
+    text = errata(AuditReport("Scout thesis", (long,), (), "", {}), "make it")
+    assert "- printed: $far$ = …" in entry(text, "far")
 
 
 def test_lines_of_a_cause_stand_together_and_the_others_in_the_thesiss_order():
@@ -82,8 +88,8 @@ def test_a_reason_that_all_lines_of_a_cause_share_is_given_once():
 def test_the_first_page_counts_by_verdict_kind_and_severity():
     text = errata(REPORT, "make it")
     first = text[: text.index("## Slips with")]
-    assert "1 hold, 3 don’t" in first
-    assert "2 are misprints" in first
+    assert "Hold: 1. Don’t hold: 3, of these" in first
+    assert "hold when mended: 2" in first
     assert "2 lines are ascribed to it and 1 to the thesis" in first
     assert "| misprint | 1 | 1 | 2 |" in first
     assert "| sign | 1 | 1 | 3 |" in first

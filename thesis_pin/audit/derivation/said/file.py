@@ -39,8 +39,8 @@ class Header(Strict):
     name: Annotated[str, Field(pattern=r"^[a-z]+$")]
     numbers: tuple[str, ...] = ()
     gravity: Vector3 | None = None
-    cos: str = ""
-    sin: str = ""
+    cos: Annotated[str, Field(pattern=r"^[a-zA-Z]?$")] = ""
+    sin: Annotated[str, Field(pattern=r"^[a-zA-Z]?$")] = ""
     indices: dict[str, tuple[int, ...]] = Field(default_factory=dict)
     words: tuple[str, ...] = ()
 
@@ -65,6 +65,13 @@ class DerivationFile(EquationFile):
     def cross_check(self) -> Iterator[tuple[Key, str, object]]:
         """Ids that begin with the name; symbols said once; something to judge."""
         yield from super().cross_check()
+        for letter, values in self.derivation.indices.items():
+            if not re.fullmatch("[a-zA-Z]", letter) or not values:
+                place = ("derivation", "indices", letter)
+                yield place, "an index is one letter, with a list of its numbers", list(values)
+        for word in self.derivation.words:
+            if not re.fullmatch("[a-zA-Z]{2,}", word):
+                yield ("derivation", "words"), "a word is made of two letters or more", word
         if not self.coordinates:
             yield ("coordinates",), "no symbol is a joint's coordinate", None
         if not self.equation:
