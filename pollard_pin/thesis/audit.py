@@ -15,7 +15,12 @@ from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.causes import CAUSES
 from pollard_pin.thesis.claims import claims
 from pollard_pin.thesis.effects import Effects
-from pollard_pin.thesis.references import LoopReferences, OpenReferences, References
+from pollard_pin.thesis.references import (
+    LoopReferences,
+    OpenReferences,
+    References,
+    SlantedReferences,
+)
 from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
@@ -42,12 +47,15 @@ EFFECTS = (
     "denominator of the thesis's formulas is near zero. Where the law of motion doesn't rest on a",
     "line, the change of the line that uses it, relative to its largest value.",
 )
+_UPRIGHT = r"\mathbf{r}_{32i}^{2i}"
+"""The offset of an arm in its own frame: its line says that it lies along the axis."""
 _STATES, _SEED = 32, 20172
 
 
-def states(*, closed: bool) -> State:
+def states(*, closed: bool, slanted: bool = False) -> State:
     """Seeded states, each on a robot of its own; closed or with nothing in place."""
-    state = random_state(np.random.default_rng(_SEED + closed), _STATES, closed=closed)
+    generator = np.random.default_rng(_SEED + closed + slanted)
+    state = random_state(generator, _STATES, closed=closed, slanted=slanted)
     return accelerating(moving(state)) if closed else state
 
 
@@ -65,6 +73,12 @@ class Environments:
         return References.driven(states(closed=True), np.random.default_rng(_SEED))
 
     @functools.cached_property
+    def slanted(self) -> SlantedReferences:
+        """The same with arms whose offsets turning moves, and a slanting gravity."""
+        slanted = states(closed=True, slanted=True)
+        return SlantedReferences.driven(slanted, np.random.default_rng(_SEED))
+
+    @functools.cached_property
     def loops(self) -> LoopReferences:
         """For appendix A, which names the loops' Jacobians."""
         return LoopReferences.at(states(closed=True))
@@ -79,6 +93,12 @@ class Environments:
 
         From chapter 3 on the coordinates are the pose's six and the loops are closed.
         """
+        if equation.section.startswith(("3.4", "3.5")) and equation.left != _UPRIGHT:
+            return self.slanted
+        return self.as_built(equation)
+
+    def as_built(self, equation: Equation) -> Environment:
+        """The same on robots of the thesis's kind alone."""
         if equation.section == "A":
             return self.loops
         closed = equation.closed or equation.section.startswith("3")
@@ -112,7 +132,8 @@ def ground(equations: Catalogue) -> Ground:
         "ones for equations that need the loops; each on a random robot with unequal side chains "
         "and β54 ≠ 0, angles on the whole circle, both side chains. Lines that name coefficients "
         "or make some of others also hold where all of them are free and none vanishes; so "
-        "do lines of vectors that vanish on the mechanism, with frames and vectors free."
+        "do lines of vectors that vanish on the mechanism, with frames and vectors free. Those of "
+        "3.4 and 3.5 are held on robots whose arms' offsets and whose gravity slant."
     )
     closed, known = environments.closed, definitions(equations)
 
@@ -129,7 +150,7 @@ def ground(equations: Catalogue) -> Ground:
         described,
         environments.of,
         claims(equations, closed),
-        Effects(equations, closed, environments.of).of,
+        Effects(equations, closed, environments.as_built).of,
         substituted,
     )
 

@@ -38,6 +38,7 @@ the loops closed, ∂/∂θ one of that angle alone.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Self
 
 import numpy as np
 
@@ -69,7 +70,7 @@ class References(Dynamics):
     """All other symbols, at closed states."""
 
     @classmethod
-    def driven(cls, state: State, generator: np.random.Generator) -> References:
+    def driven(cls, state: State, generator: np.random.Generator) -> Self:
         """Closed states with random bodies, moved by random torques of the three base motors."""
         (size,) = state.shape
         state = replace(state, constants={**state.constants, **random_constants(generator, size)})
@@ -82,3 +83,13 @@ class References(Dynamics):
         acceleration = np.linalg.solve(still.terms.mass, rest[..., None])[..., 0]
         bent = replace(state, accelerations=dict(zip(POSE, acceleration.T, strict=True)))
         return cls(accelerating(bent), Drive(acceleration, torque, virtual))
+
+
+class SlantedReferences(References):
+    """Symbols of the side chains where nothing of them vanishes by the thesis's geometry.
+
+    An arm's offset lies along its axis, which is upright: turning doesn't move its end, nor
+    lift the arm. On slanted states it does the first, and this gravity does the second.
+    """
+
+    gravity = np.array([3.0, -4.0, -8.0])

@@ -37,6 +37,9 @@ VARIABLES = (*POSE, *JOINTS)
 LENGTHS_0 = ("z_10", "x_32", "x_65", "x_1514", "x_1918")
 CONSTANTS_I = ("y_10", "z_32", "x_43", "x_87", "x_1211", "z_1312", "beta_54", "beta_1413")
 
+SLANT = "slant_"
+"""What an arm's offset has across its axis; the thesis's robots have none."""
+
 # Factors of each transform: elementary move, sign, what it moves by.
 _FACTORS: dict[str, tuple[tuple[str, int, str], ...]] = {
     "T_03": (("z", 1, "z_10"), ("Ry", 1, "theta_21"), ("x", 1, "x_32")),
@@ -54,7 +57,10 @@ _FACTORS: dict[str, tuple[tuple[str, int, str], ...]] = {
     ),
     "nozzle": (("x", -1, "x_1918"),),
     "T_02i": (("y", 1, "signed_y_10i"), ("Rz", 1, "theta_21i")),
-    "T_24i": (("z", -1, "z_32i"), ("x", 1, "x_43i")),
+    "T_24i": (
+        *(("x", 1, "slant_x_32i"), ("y", 1, "slant_y_32i")),
+        *(("z", -1, "z_32i"), ("x", 1, "x_43i")),
+    ),
     "T_48i": (
         *(("Rx", 1, "beta_54i"), ("Ry", 1, "theta_65i"), ("Rz", 1, "theta_76i")),
         ("x", 1, "x_87i"),
@@ -119,6 +125,8 @@ class State:
         self, placement: Matrices, move: str, by: str, i: str = "", sign: int = 1
     ) -> Matrices:
         """A placement times a translation or rotation by ``sign`` times a constant or variable."""
+        if by.startswith(SLANT) and own_name(by, i) not in self.constants:
+            return placement
         value = sign * self.number(by, i)
         if self.along is None:
             return times_elementary(placement, move, value)
@@ -146,7 +154,9 @@ class State:
         return self.shape[-1]
 
 
-def random_state(generator: np.random.Generator, size: int, *, closed: bool) -> State:
+def random_state(
+    generator: np.random.Generator, size: int, *, closed: bool, slanted: bool = False
+) -> State:
     """Random geometry and random angles on the whole circle.
 
     Args:
@@ -154,6 +164,8 @@ def random_state(generator: np.random.Generator, size: int, *, closed: bool) -> 
         size: Number of states, each a robot of its own; its two side chains differ
             in every length and angle.
         closed: Whether the pose and the side chains' bases close the loops.
+        slanted: Whether the offsets r_32i of the arms have parts across their axes, so that
+            turning moves their ends.
     """
 
     def uniform(low: float, high: float) -> np.ndarray:
@@ -172,8 +184,19 @@ def random_state(generator: np.random.Generator, size: int, *, closed: bool) -> 
     }
     rates = {name: uniform(-2.0, 2.0) for name in VARIABLES}
     accelerations = {name: uniform(-2.0, 2.0) for name in VARIABLES}
+    if slanted:
+        names = [f"{SLANT}{x}_32{i}" for i in "12" for x in "xy"]
+        constants |= {name: uniform(0.3, 1.5) for name in names}
     state = State(constants, variables, rates, accelerations)
     return _closed(state) if closed else state
+
+
+def across(state: State, i: str) -> Matrices:
+    """The part of an arm's offset across its axis, as a transform."""
+    result: Matrices = np.eye(4)
+    for x in "xy":
+        result = state.after(result, x, f"{SLANT}{x}_32i", i)
+    return result
 
 
 def _closed(state: State) -> State:
@@ -186,7 +209,7 @@ def _closed(state: State) -> State:
         goal = state.transform("T_03") @ state.transform("T_311i", i)
         turned = times_elementary(np.eye(4), "Rz", state.number("theta_21i", i))
         rod = (turned @ state.transform("T_48i", i))[:, :3, 3]
-        gap = goal[:, :3, 3] - rod
+        gap = goal[:, :3, 3] - rod - (turned @ across(state, i))[:, :3, 3]
         # gap = (x_43 c θ21i, signo y_10 + x_43 s θ21i, −z_32)
         angle = state.number("theta_21i", i)
         arm = gap[:, 0] / np.cos(angle)

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable, Iterator
-from typing import SupportsIndex, TypeVar, overload
+from collections.abc import Iterator
+from typing import SupportsIndex, overload
 
 from thesis_pin.equations.catalogue import Edition, Equation
-
-Result = TypeVar("Result")
 
 
 class _Watched(tuple[str, ...]):
@@ -53,17 +50,3 @@ class Reading(Equation):
             return self.printed
         plain = Equation.made(**dict(self) | {"printed": tuple(tuple.__iter__(self.printed))})
         return plain.members(edition)
-
-
-def apart_from_text(check: Callable[[], Result]) -> Callable[[Equation], Result]:
-    """A check that compares two numbers of its own and takes the print as said.
-
-    Only for statements whose text has no number, sign or symbol to evaluate. It is run once.
-    """
-    once = functools.cache(check)
-
-    def read(equation: Equation) -> Result:
-        tuple(equation.printed)
-        return once()
-
-    return read

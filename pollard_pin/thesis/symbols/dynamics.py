@@ -27,7 +27,13 @@ MOTORS = ("theta_21", "theta_211", "theta_212")
 
 
 class Dynamics(KSymbols):
-    """All symbols of chapter 3 at closed states."""
+    """All symbols of chapter 3 at closed states.
+
+    Attributes:
+        gravity: Acceleration of bodies left to themselves [m/s²].
+    """
+
+    gravity = np.array([0.0, 0.0, -GRAVITY])
 
     @cached_property
     def bodies(self) -> dict[str, lagrangian.Body]:
@@ -122,14 +128,14 @@ class Dynamics(KSymbols):
             return None
         total = sum(
             kinetic * lagrangian.kinetic_energy(body, self.pose_rates)
-            + potential * GRAVITY * body.mass * body.centre[..., 2]
+            - potential * body.mass * (body.centre * self.gravity).sum(axis=-1)
             for body in chosen
         )
         return scalar(np.asarray(total))
 
     def _of_g(self, symbol: Symbol, i: str) -> Value | None:
         plain = not (symbol.sub or symbol.sup or symbol.dots)
-        return vector(np.array([0.0, 0.0, -GRAVITY])) if plain else None
+        return vector(self.gravity) if plain else None
 
     # -- equations of motion --------------------------------------------------------
 
@@ -161,7 +167,8 @@ class Dynamics(KSymbols):
         if body is None or not symbol.sub.endswith("j") or symbol.dots or symbol.primes:
             return None
         of = self.bodies[body]
-        return scalar(-GRAVITY * of.mass * np.moveaxis(of.linear[..., 2, :], -1, 0))
+        pull = np.einsum("k,...kj->j...", self.gravity, of.linear)
+        return scalar(of.mass * pull)
 
     @cached_property
     def terms(self) -> lagrangian.Terms:

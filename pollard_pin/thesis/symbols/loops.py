@@ -166,7 +166,7 @@ _TIP: Path = (
 )
 _TO_1I: Path = (("y", "signed_y_10i"),)
 _TO_2I: Path = (*_TO_1I, ("Rz", "theta_21i"))
-_TO_3I: Path = (*_TO_2I, ("-z", "z_32i"))
+_TO_3I: Path = (*_TO_2I, ("x", "slant_x_32i"), ("y", "slant_y_32i"), ("-z", "z_32i"))
 _TO_4I: Path = (*_TO_3I, ("x", "x_43i"))
 _TO_5I: Path = (*_TO_4I, ("Rx", "beta_54i"))
 _TO_6I: Path = (*_TO_5I, ("Ry", "theta_65i"))

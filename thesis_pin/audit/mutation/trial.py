@@ -9,6 +9,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
+import numpy as np
+
 from thesis_pin.audit.mutation.exchange import exchanged, replaced
 from thesis_pin.audit.mutation.random_symbols import RandomSymbols
 from thesis_pin.audit.mutation.slips import SLIPS, Planted, planted
@@ -76,7 +78,8 @@ class Trials:
             return
         for kind in SLIPS:
             for member, slip in self._chosen(equation, kind):
-                answer = self._answer(equation, member, slip)
+                with np.errstate(all="ignore"):  # a slip may well divide by zero
+                    answer = self._answer(equation, member, slip)
                 self.equations.forget(slip.text)
                 yield Trial(equation.id, member, kind, slip.said, answer)
 
@@ -163,12 +166,17 @@ class Trials:
     def _renamed(self, equation: Equation, before: str, slip: Planted) -> bool:
         """Whether one symbol gave way to another name of the same thing, which isn't zero.
 
+        Or an index to one of its values, where the line holds for each by itself.
+
         Also where only the product is the same in which it stands: ω_5 × i_10 = ω_6 × i_10,
         since the axis of joint 6 is i_10 on either side of it.
         """
         sides = self.equations.parse(before), self.equations.parse(slip.text)
-        if not exchanged(*sides):
+        change = exchanged(*sides)
+        if not change:
             return False
+        if any(change[0].bound(one) == change[1] for one in self.equations.indices(change[0])):
+            return True  # the line for one leg or chain alone
         environment = self.ground.references(equation)
         return any(self._equal(*pair, environment) for pair in replaced(*sides))
 
