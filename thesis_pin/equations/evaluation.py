@@ -122,7 +122,9 @@ def evaluate(node: Node, environment: Environment, indices: dict[str, str]) -> V
                 total = multiply(total, of(factor))
             return total
         case nt.Cross(left, right):
-            return cross(of(left), of(right))
+            first, second = of(left), of(right)
+            numbers = first.rank == second.rank == 0
+            return multiply(first, second) if numbers else cross(first, second)
         case nt.Dot(left, right):
             first, second = of(left), of(right)
             return multiply(transpose(first) if first.rank == 1 else first, second)

@@ -150,7 +150,7 @@ _FONTS = re.compile(r"\\(mathbf|boldsymbol|mathrm|text|bm)(?![a-zA-Z])")
 def flatten(script: str) -> str:
     """Sub- or superscript as plain characters: ``{\\theta_{1i}}`` → ``theta1i``."""
     text = _FONTS.sub("", script)
-    text = re.sub(r"\\(dot|ddot)(?![a-zA-Z])", "", text)
+    text = re.sub(r"\\(dot|ddot)(?![a-zA-Z])|\\[!,;: ]", "", text)
     return re.sub(r"[\\{}_\s,]", "", text)
 
 
@@ -236,6 +236,9 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             return Quotient(above, below)
         if of is not None and by is not None:
             return Derivative(of, None if by == Symbol("t") else by)
+        of = _differential(above, Power(Symbol("d"), 2))
+        if of is not None and by == Power(Symbol("t"), 2):
+            return Derivative(Derivative(of, None), None)
         return Quotient(above, below)
 
     def digits(self, parts: list[Token]) -> Node:
@@ -269,6 +272,8 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             raise ValueError("a prime on something that isn't a symbol")
         text = flatten(script[1:])
         if script.startswith("_"):
+            if isinstance(node, _Group) and isinstance(_open(node), Symbol):  # {\rm s}_1
+                node = _open(node)
             if isinstance(node, Symbol):
                 kept = self._not_indices(script) or node.kept
                 return replace(node, sub=node.sub + text, kept=kept)
@@ -461,9 +466,9 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return Sum(tuple(terms))
 
 
-def _differential(node: Node) -> Node | None:
+def _differential(node: Node, sign: Node = Symbol("d")) -> Node | None:  # noqa: B008 - frozen
     """x of "dx"; None if it isn't one."""
-    if isinstance(node, Product) and node.factors[0] == Symbol("d"):
+    if isinstance(node, Product) and node.factors[0] == sign:
         rest = node.factors[1:]
         return rest[0] if len(rest) == 1 else Product(rest)
     return None

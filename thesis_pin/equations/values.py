@@ -148,11 +148,13 @@ def transpose(value: Value) -> Value:
 
 
 def power(value: Value, exponent: int | str) -> Value:
-    """Integer power of a scalar, inverse of a matrix."""
+    """Integer power of a scalar, square of a vector's length, inverse of a matrix."""
     if isinstance(exponent, str):
         raise FormulaError(f"the exponent {exponent} has no value")
     if value.rank == 0:
         return scalar(value.array ** float(exponent))
+    if value.rank == 1 and exponent == 2:  # ½ m v², where v is a vector
+        return scalar((value.array * value.array).sum(axis=-1))
     if value.rank == 2 and exponent == -1 and value.tail[0] != value.tail[1]:
         raise FormulaError(f"inverts {value.describe()}, which has no inverse")
     if value.rank == 2 and exponent == -1:

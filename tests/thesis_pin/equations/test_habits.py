@@ -15,7 +15,7 @@ from thesis_pin.equations.formula import (
 )
 from thesis_pin.equations.layout import plain
 from thesis_pin.equations.notation import Notation
-from thesis_pin.equations.values import scalar
+from thesis_pin.equations.values import power, scalar, vector
 
 NOTATION = Notation(
     shorthand=(),
@@ -62,6 +62,21 @@ def number(formula):
         (r"\begin{split} a \\[2mm] + \displaystyle b \end{split} \label{eq:1}", 5.0),
         (r"a + b \,.", 5.0),
         (r"\bigl(a + b\bigr)^{2}", 25.0),
+        ("a % the first, $b$ \n + b %", 5.0),
+        (r"a \\ &\quad {}+ b", 5.0),
+        (r"a + \\ &\qquad b", 5.0),
+        (r"a \\ &\hphantom{= {}} [b + c]", 16.0),
+        (r"a \\ [b + c]", 16.0),
+        (r"\begin{aligned}[t] a \\[-0.5ex] + b \end{aligned}", 5.0),
+        (r"\det\begin{bmatrix} a & 0 \\[2mm] \hline b & c \end{bmatrix}", 10.0),
+        ("a \u2212 b \u2013 c", -6.0),
+        (r"{\rm l} + {\it m}", 18.0),
+        (r"{\rm \theta}_1", 0.4),
+        (r".5 a + 2 \times 10^{-1} b", 1.6),
+        (r"2 \cdot 10^{\!2}", 200.0),
+        (r"m \operatorname{sin}\theta", 7 * np.sin(0.3)),
+        (r"m \mathrm{cos}(\theta)", 7 * np.cos(0.3)),
+        (r"m sin(\theta) + cos^2\theta", 7 * np.sin(0.3) + np.cos(0.3) ** 2),
         (r"\theta_1 (a + b)", 2.0),
         (r"l(q)", 11.0),
         (r"l(q, \dot q)", 11.0),
@@ -144,3 +159,18 @@ def test_layout_is_blanked_in_place():
     assert blank.index("f") == formula.index("f ")
     assert r"\begin{pmatrix} b & c \\ d & e \end{pmatrix}" in blank
     assert blank.count("&") == formula.count("&") - 2
+
+
+def test_a_second_derivative_is_one_twice():
+    twice = Derivative(Derivative(Symbol("x"), None), None)
+    notation = Notation()
+    for text in (r"\frac{d^2 x}{dt^2}", r"\frac{\mathrm{d}^{2} x}{\mathrm{d}t^{2}}"):
+        assert notation.parse(text) == (twice,)
+
+
+def test_the_square_of_a_vector_is_that_of_its_length():
+    value = power(vector(np.array([[3.0, 4.0], [0.0, 1.0]])), 2)
+    assert value.rank == 0
+    assert value.array == pytest.approx([25.0, 1.0])
+    with pytest.raises(FormulaError):
+        power(vector(np.array([3.0, 4.0])), 3)

@@ -1,12 +1,9 @@
 """Forces that a derivation gives: passive joints and friction, held against Pinocchio."""
 
-from pathlib import Path
-
 import numpy as np
 import pinocchio as pin
 import pytest
 
-from thesis_pin import audit_derivation
 from thesis_pin.audit.derivation.moving import coordinates
 from thesis_pin.audit.derivation.moving.driven import driven, unforced
 from thesis_pin.audit.derivation.moving.states import Frames, States
@@ -14,8 +11,6 @@ from thesis_pin.audit.derivation.moving.tree import Tree
 from thesis_pin.errors import BadInput
 from thesis_pin.loops.loading import load
 
-FOLDER = Path(__file__).parents[4] / "examples" / "your_derivation"
-URDF = FOLDER / "cart_pole.urdf"
 FREE = r"(J + m \ell^2) \ddot\theta - m \ell \ddot x \cos\theta - m g \ell \sin\theta"
 SOLVED = r"\frac{m \ell (\ddot x \cos\theta + g \sin\theta)}{J + m \ell^2}"
 SOLVED_TWICE = (
@@ -24,19 +19,7 @@ SOLVED_TWICE = (
 )
 
 
-def rows(tmp_path, lines, forces=""):
-    """Verdicts and notes of lines (left, printed) on the example's cart-pole."""
-    header = (FOLDER / "cart_pole.toml").read_text(encoding="utf-8").split("[[equation]]")[0]
-    entries = [
-        f"[[equation]]\nid = 'cartpole:1:e_{k}'\nleft = '{left}'\nprinted = '{printed}'\n"
-        for k, (left, printed) in enumerate(lines)
-    ]
-    path = tmp_path / "mine.toml"
-    path.write_text(f"{header}\n{forces}\n{''.join(entries)}", encoding="utf-8")
-    return audit_derivation(path, URDF, with_effects=False).rows
-
-
-def test_lines_of_a_passive_joint_hold_where_the_file_says_so(tmp_path):
+def test_lines_of_a_passive_joint_hold_where_the_file_says_so(rows):
     lines = [
         ("0", FREE),
         (r"\ddot\theta", SOLVED),
@@ -45,33 +28,33 @@ def test_lines_of_a_passive_joint_hold_where_the_file_says_so(tmp_path):
         (r"\tau_\theta", "0"),
         (r"\frac{d}{dt}\left(\ddot\theta\right)", rf"\frac{{d}}{{dt}}\left({SOLVED}\right)"),
     ]
-    found = rows(tmp_path, lines, "[forces]\n'\\theta' = 0")
+    found = rows(lines, "[forces]\n'\\theta' = 0")
     assert [row.verdict for row in found] == [
         *("holds", "holds", "not checkable", "holds", "holds", "holds")
     ]
 
 
-def test_a_slip_in_such_a_line_is_found(tmp_path):
+def test_a_slip_in_such_a_line_is_found(rows):
     lines = [
         ("0", FREE.replace("- m g", "+ m g")),
         (r"\ddot\theta", SOLVED.replace(r"\sin\theta", r"\cos\theta")),
     ]
-    found = rows(tmp_path, lines, "[forces]\n'\\theta' = '0'")
+    found = rows(lines, "[forces]\n'\\theta' = '0'")
     assert {row.verdict for row in found} == {"unexplained"}
 
 
-def test_without_it_the_lines_fail_and_say_what_is_missing(tmp_path):
-    found = rows(tmp_path, [("0", FREE), (r"\ddot\theta", SOLVED)])
+def test_without_it_the_lines_fail_and_say_what_is_missing(rows):
+    found = rows([("0", FREE), (r"\ddot\theta", SOLVED)])
     assert {row.verdict for row in found} == {"unexplained"}
     for row in found:
         assert r"no generalized force on \theta" in row.note
         assert "[forces]" in row.note
 
 
-def test_friction_is_a_force(tmp_path):
+def test_friction_is_a_force(rows):
     forces = "[forces]\n'\\theta' = '-b \\dot\\theta'"
     lines = [("0", rf"{FREE} + b \dot\theta"), ("b", r"0.03"), ("0", FREE)]
-    found = rows(tmp_path, lines, forces)
+    found = rows(lines, forces)
     assert [row.verdict for row in found] == ["holds", "not checkable", "unexplained"]
 
 
@@ -87,9 +70,9 @@ def test_friction_is_a_force(tmp_path):
         (r"'x + \theta' = 0", ["unknown coordinate"]),
     ],
 )
-def test_a_force_that_makes_no_sense_is_refused(tmp_path, forces, says):
+def test_a_force_that_makes_no_sense_is_refused(rows, forces, says):
     with pytest.raises(BadInput) as error:
-        rows(tmp_path, [("0", FREE)], f"[forces]\n{forces}")
+        rows([("0", FREE)], f"[forces]\n{forces}")
     for part in says:
         assert part in str(error.value)
 
