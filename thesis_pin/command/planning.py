@@ -31,16 +31,6 @@ class MakeReport(Protocol):
         """
 
 
-def hook(robot: Robot, name: str) -> Any:
-    """One of the robot's functions, imported when it is needed."""
-    return found(robot.name_of(name))
-
-
-def load(robot: Robot, arguments: argparse.Namespace) -> Any:
-    with warned(strict=getattr(arguments, "strict", False)):
-        return hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
-
-
 def planned(
     robot: Robot,
     arguments: argparse.Namespace,
@@ -48,7 +38,21 @@ def planned(
     progress: Callable[[int, int], None],
 ) -> Report:
     """The report on the motion that the arguments ask for; see :class:`MakeReport`."""
-    make: MakeReport = hook(robot, robot.makes_report)
+    make: MakeReport = _hook(robot, robot.makes_report)
     loaded = load(robot, arguments)
     with warned():
         return make(arguments, loaded, samples, progress)
+
+
+def load(robot: Robot, arguments: argparse.Namespace) -> object:
+    """The robot that the arguments ask for; its warnings are told."""
+    with warned(strict=getattr(arguments, "strict", False)):
+        loaded: object = _hook(robot, robot.load)(
+            arguments.specification, inertia=arguments.inertia
+        )
+    return loaded
+
+
+def _hook(robot: Robot, name: str) -> Any:
+    """One of the robot's functions, imported when it is needed."""
+    return found(robot.name_of(name))

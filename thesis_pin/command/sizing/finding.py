@@ -7,9 +7,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, cast
 
 from thesis_pin.command.output import print_parts
-from thesis_pin.command.planning import hook, planned
+from thesis_pin.command.planning import planned
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.registry import Robot
+from thesis_pin.command.registry import Robot, found
 from thesis_pin.command.results import write_results
 from thesis_pin.command.running import ExitCode, free
 from thesis_pin.command.sizing.delivering import Found, deliver
@@ -109,7 +109,7 @@ def bounded(arguments: argparse.Namespace) -> Bounded:
 
 def _held(robot: Robot, arguments: argparse.Namespace, catalogue: Catalogue, bar: Bar) -> Sizing:
     report = planned(robot, arguments, lambda _: arguments.samples, bar)
-    sizing: Sizing = hook(robot, robot.size)(report, catalogue, arguments.factor)
+    sizing: Sizing = _hook(robot, robot.size)(report, catalogue, arguments.factor)
     return sizing
 
 
@@ -119,21 +119,23 @@ def _smallest(robot: Robot, arguments: argparse.Namespace, law: str, bar: Bar) -
     asked = {"factor": arguments.factor, "within": arguments.within, "progress": bar}
     answer: Found
     if arguments.servos:
-        answer = hook(robot, f"{module}:time_with_motors")(report, catalogue_of(arguments), **asked)
+        answer = _hook(robot, f"{module}:time_with_motors")(
+            report, catalogue_of(arguments), **asked
+        )
         return answer
     said = bounded(arguments) if hasattr(arguments, "bound") else kind(arguments)
-    family = hook(robot, f"{module}:motor_family")(report.robot, **said)
+    family = _hook(robot, f"{module}:motor_family")(report.robot, **said)
     if arguments.per is not None:
         asked["per"] = arguments.per
-    answer = hook(robot, robot.smallest)(report, family, law=law, curve=arguments.curve, **asked)
+    answer = _hook(robot, robot.smallest)(report, family, law=law, curve=arguments.curve, **asked)
     return answer
 
 
 def _walk(robot: Robot, arguments: argparse.Namespace, bar: Bar) -> Found:
     catalogue = catalogue_of(arguments) if arguments.servos else None
     with warned():
-        loaded = hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
-    answer: Found = hook(robot, robot.walks)(arguments, loaded, catalogue, bar)
+        loaded = _hook(robot, robot.load)(arguments.specification, inertia=arguments.inertia)
+    answer: Found = _hook(robot, robot.walks)(arguments, loaded, catalogue, bar)
     return answer
 
 
@@ -169,3 +171,8 @@ def deliver_sizes(
     if free(arguments):
         print_parts(summary(sizing))
     return ExitCode.NO if arguments.strict and not sizing.yes else ExitCode.DONE
+
+
+def _hook(robot: Robot, name: str) -> Any:
+    """One of the robot's functions, imported when it is needed."""
+    return found(robot.name_of(name))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from thesis_pin.command.flags.figured import chosen, without
 from thesis_pin.command.flags.options import refuse_beside
-from thesis_pin.command.planning import hook, load, planned
+from thesis_pin.command.planning import load, planned
 from thesis_pin.command.progress import Bar
-from thesis_pin.command.registry import Robot
+from thesis_pin.command.registry import Robot, found
 from thesis_pin.command.results import (
     Answer,
     deliver,
@@ -42,7 +42,7 @@ if TYPE_CHECKING:  # help has to be quick
 
 def report(robot: Robot, arguments: argparse.Namespace, what: str) -> ExitCode:
     """Report on a motion that the robot's own options ask for; see :func:`deliver`."""
-    known: Mapping[str, str] = hook(robot, robot.figure_numbers) if arguments.figure else {}
+    known: Mapping[str, str] = _hook(robot, robot.figure_numbers) if arguments.figure else {}
     names = chosen(arguments, known)
 
     def keep(files: dict[str, bytes]) -> dict[str, bytes]:
@@ -84,7 +84,7 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         from thesis_pin.command.showing.sliders import show_sliders
 
         def page() -> LivePage:
-            made: LivePage = hook(robot, robot.sliders)(arguments, load(robot, arguments))
+            made: LivePage = _hook(robot, robot.sliders)(arguments, load(robot, arguments))
             return made
 
         return show_sliders(arguments, robot.command, page)
@@ -96,9 +96,9 @@ def view(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
             return scene_of(_paired(robot, arguments, frames, bar))
         scene: Scene | None = None
         if robot.still:
-            scene = hook(robot, robot.still)(arguments, load(robot, arguments))
+            scene = _hook(robot, robot.still)(arguments, load(robot, arguments))
         if scene is None:
-            scene = hook(robot, robot.scene)(planned(robot, arguments, frames, bar))
+            scene = _hook(robot, robot.scene)(planned(robot, arguments, frames, bar))
         return scene
 
     return show_scene(arguments, robot.command, make)
@@ -165,9 +165,9 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
             raise BadInput("--servos belongs to ticks", remedy="Add --as ticks")
         if arguments.units is not None and form == "joint-trajectory":
             raise BadInput("a joint trajectory is in SI", remedy="Leave --units out")
-        loaded = load(robot, arguments)
+        loaded: Any = load(robot, arguments)
         with warned():
-            motion: Movement = hook(robot, robot.moves)(arguments, loaded)
+            motion: Movement = _hook(robot, robot.moves)(arguments, loaded)
         servos = USUAL
         if arguments.servos is not None:
             servos = read_servos(arguments.servos, motion.joints)
@@ -191,7 +191,7 @@ def convert(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
 
 def ik(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     """Inverse kinematics of one pose."""
-    return give(arguments, lambda: hook(robot, robot.solves)(arguments, load(robot, arguments)))
+    return give(arguments, lambda: _hook(robot, robot.solves)(arguments, load(robot, arguments)))
 
 
 def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
@@ -199,10 +199,10 @@ def info(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     from thesis_pin.report.info import told
 
     def answer() -> Answer:
-        loaded = load(robot, arguments)
-        document = hook(robot, robot.info)(loaded)
+        loaded: Any = load(robot, arguments)
+        document = _hook(robot, robot.info)(loaded)
         if arguments.html:
-            pages.append(hook(robot, robot.info_page)(loaded))
+            pages.append(_hook(robot, robot.info_page)(loaded))
         return Answer(lambda: document, lambda: told(document))
 
     pages: list[bytes] = []
@@ -218,10 +218,10 @@ def urdf(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
         from thesis_pin.model.loading import check_urdf
         from thesis_pin.report.writers import json_bytes
 
-        specification = hook(robot, robot.specification)(arguments.specification)
-        text: str = hook(robot, robot.urdf)(specification, arguments.inertia)
+        specification = _hook(robot, robot.specification)(arguments.specification)
+        text: str = _hook(robot, robot.urdf)(specification, arguments.inertia)
         check_urdf(text, where=specification.name)
-        made = hook(robot, robot.files)(specification)
+        made = _hook(robot, robot.files)(specification)
         files = {name: content.encode() for name, content in made.items()}
     document = {
         "schema": f"{robot.command}/urdf",
@@ -245,4 +245,9 @@ def audit(robot: Robot, arguments: argparse.Namespace) -> ExitCode:
     from thesis_pin.command.verbs.audit import run_verb
 
     refuse_beside(arguments, "equation", ("every",))
-    return run_verb(arguments, hook(robot, robot.thesis))
+    return run_verb(arguments, _hook(robot, robot.thesis))
+
+
+def _hook(robot: Robot, name: str) -> Any:
+    """One of the robot's functions, imported when it is needed."""
+    return found(robot.name_of(name))
