@@ -23,6 +23,7 @@ from pollard_pin.thesis.references import (
 )
 from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
+from pollard_pin.thesis.symbols.axes import AnyAxes, slopes
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.symbols.elements import elements
 from pollard_pin.thesis.symbols.rates import moving
@@ -88,6 +89,11 @@ class Environments:
         """With free V and G, where nothing vanishes."""
         return Coefficients(states(closed=False))
 
+    @functools.cached_property
+    def axes(self) -> AnyAxes:
+        """With joints that turn about axes that point anywhere."""
+        return AnyAxes.drawn()
+
     def of(self, equation: Equation) -> Environment:
         """Where an equation has to hold.
 
@@ -132,19 +138,21 @@ def ground(equations: Catalogue) -> Ground:
         "ones for equations that need the loops; each on a random robot with unequal side chains "
         "and β54 ≠ 0, angles on the whole circle, both side chains. Lines that name coefficients "
         "or make some of others also hold where all of them are free and none vanishes; so "
-        "do lines of vectors that vanish on the mechanism, with frames and vectors free. Those of "
-        "3.4 and 3.5 are held on robots whose arms' offsets and whose gravity slant."
+        "do lines of vectors that vanish on the mechanism, with frames and vectors free, and lines "
+        "that say how a vector k or V changes, with joints about axes that point anywhere. Those "
+        "of 3.4 and 3.5 are held on robots whose arms' offsets and whose gravity slant."
     )
     closed, known = environments.closed, definitions(equations)
 
     def substituted(equation: Equation) -> Sequence[Free]:
         if substitutes(equations, equation):
             return (Free(environments.coefficients),)
+        found = [Free(environments.axes)] if slopes(equations, equation) else []
         if "vectors" in equation.free:
             vectors = FreeVectors(equations, known, equation.id)
-            return (Free(vectors, equation.free["vectors"]),)
+            found.append(Free(vectors, equation.free["vectors"]))
         free = elements(equations, equation)
-        return (Free(free),) if free else ()
+        return (*found, Free(free)) if free else tuple(found)
 
     return Ground(
         described,

@@ -110,7 +110,10 @@ def effect_where_used(
 
 def _defined(equations: Catalogue, equation: Equation) -> tuple[Symbol, bool, bool] | None:
     """Symbol that a line defines; whether it is its derivative by q_j, and whether transposed."""
-    node = equations.parse(equation.left)
+    try:
+        node = equations.parse(equation.left)
+    except FormulaError:
+        return None  # a list of names, say
     derived = isinstance(node, nt.Derivative) and node.by == Symbol("q", "j")
     timed = isinstance(node, nt.Derivative) and node.by is None
     node = node.of if isinstance(node, nt.Derivative) and (derived or timed) else node

@@ -28,7 +28,7 @@ def without_effect(
     if effect:
         return "the law of motion rests on it, and comes out the same with the line as printed"
     if equation.claim:
-        return "a check in code decides it, which measures no effect"
+        return "a check in code decides it, and measures no effect"
     using = users()
     if not using:
         return "no other line uses what it defines"

@@ -160,7 +160,7 @@ class _Judge:
             return row
         effect = row.effect or self._effect(equation)
         nothing = without_effect(equation, row, effect, lambda: self._users[row.id])
-        if not effect and row.residual_printed == math.inf:
+        if not effect and row.residual_printed == math.inf and not equation.no_effect:
             effect = {"this line": "can't be computed"}
         weight: Severity = "notation only"
         if not equation.notation:

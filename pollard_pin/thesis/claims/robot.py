@@ -6,6 +6,7 @@ Source: Pollard thesis, 2.1, 2.2.
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -30,14 +31,12 @@ def _moves(catalogue: Catalogue, closed: References, equation: Equation) -> Clai
         turns = bool(turned.any())
         axis = np.flatnonzero(~turned.any(axis=1) if turns else np.abs(matrix[:3, 3]))
         found.append(("R" if turns else "T") + "_" + "xyz"[int(axis[0])])
-    shares = [
-        max(
-            np.mean([a != b for a, b in zip(names_in(catalogue, text), found, strict=True)])
-            for text in members
-        )
+    # A name that isn't the one meant is no value that is off by so much.
+    before, after = (
+        0.0 if all(list(names_in(catalogue, text)) == found for text in members) else math.inf
         for members in (equation.printed, equation.members("corrected"))
-    ]
-    return ClaimResult(float(shares[0]), float(shares[1]), f"the matrices are {', '.join(found)}")
+    )
+    return ClaimResult(before, after, f"the matrices are {', '.join(found)}")
 
 
 def counts(robot: Pollard) -> dict[str, int]:

@@ -81,6 +81,21 @@ def of_rotation(axis: str, argument: Node, indices: dict[str, str]) -> Frames:
     return swapped(frames) if back else frames
 
 
+def joint(axis: str, name: str, i: str = "") -> str | None:
+    """The angle of the joint that turns about "x", "y" or "z" of a frame; None if none does.
+
+    Both arms turn about the base's z: which one, a frame of its side chain says.
+    """
+    start = frame(name, i)
+    chain = "" if name in _PARALLEL else i if name.endswith("i") else name[-1:]
+    asked = f"theta_21{chain}" if start == WORLD and chain else ""
+    for angle, (about, between) in _TURNS.items():
+        ((to, _),) = between
+        if (about, to) == (axis, start) and angle.startswith(asked or "theta_"):
+            return angle
+    return None
+
+
 def of_symbol(symbol: Symbol, tail: tuple[int, ...], i: str) -> Frames:
     """What a symbol whose value has a shape is seen from or turns between."""
     base, seen = symbol.base, frame(symbol.sup or WORLD, i)

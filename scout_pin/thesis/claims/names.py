@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from functools import partial
 
@@ -16,7 +17,7 @@ from scout_pin.thesis.state import Parameters
 from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
-_OTHER = 1.0  # residual of a name that isn't the one meant
+_OTHER = math.inf  # a name that isn't the one meant is no value that is off by so much
 
 
 def claims(catalogue: Catalogue) -> dict[str, Check]:

@@ -41,6 +41,7 @@ def test_a_name_that_is_wrong_alone_is_notation_and_a_formula_is_a_result(pollar
     rows = {row.id.removeprefix("pollard:"): row for row in pollard_audit.failures}
     assert rows["3.3.2:J_3"].severity == "notation only"
     assert rows["3.7:dL/ddot_q_j"].severity == "notation only"
+    assert rows["2.1:names"].severity == "notation only"
     assert rows["2.7.4:2.111:1"].severity == "changes a result"
     assert rows["E:G_10"].severity == "changes a result"
 
@@ -69,6 +70,7 @@ def test_a_line_that_says_the_same_in_other_words_changes_nothing():
 def test_what_cannot_be_read_or_is_nobodys_has_no_effect():
     assert effect("E:G_22") == {}  # a bracket is missing
     assert effect("2.4.1:2.1") == {}  # no symbol on the left
+    assert effect("2.1:names") == {}  # a list of names
 
 
 def test_the_printed_rate_of_a_derivative_is_followed_where_it_is_used():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pollard_pin.thesis import catalogue
-from pollard_pin.thesis.audit import THESIS
+from pollard_pin.thesis.audit import THESIS, Environments
 from pollard_pin.thesis.symbols.vectors import FreeVectors, definitions
 from thesis_pin.audit.residuals import residual
 from thesis_pin.audit.verdicts import judge
@@ -17,6 +17,11 @@ KNOWN = definitions(catalogue())
 @pytest.fixture(scope="module")
 def ground():
     return THESIS.ground(catalogue())
+
+
+@pytest.fixture(scope="module")
+def environments():
+    return Environments()
 
 
 def vectors(but=""):
@@ -35,19 +40,19 @@ def vectors(but=""):
         ("pollard:A:dr_32i/dq_j", r"\mathbf{r}_{32i}^{2i}", r"2 \mathbf{r}_{32i}^{2i}"),
     ],
 )
-def test_a_slip_in_what_vanishes_on_the_mechanism_is_seen(ground, identity, old, new):
+def test_a_slip_in_what_vanishes_on_the_mechanism_is_seen(ground, environments, identity, old, new):
     equation = catalogue()[identity]
     assert old in equation.printed[0]
     printed = (equation.printed[0].replace(old, new, 1), *equation.printed[1:])
     changed = equation.model_copy(update={"printed": printed})
-    here = ground.references(equation)
+    built = environments.as_built(equation)
 
     def verdict(of, free):
-        return judge(catalogue(), of, here, ground.claims, "", free).verdict
+        return judge(catalogue(), of, built, ground.claims, "", free).verdict
 
     assert verdict(equation, ground.substituted(equation)) == "holds"
     assert verdict(changed, ground.substituted(changed)) == "unexplained"
-    assert verdict(changed, ()) == "holds"  # it multiplies what is zero
+    assert verdict(changed, ()) == "holds"  # it multiplies what is zero on the mechanism
 
 
 def test_the_members_that_are_said_to_hold_with_free_vectors_do():

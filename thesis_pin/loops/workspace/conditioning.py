@@ -160,7 +160,7 @@ def _maps(
     for k, one in enumerate(q):
         pin.computeJointJacobians(model, data, one)
         pin.updateFramePlacement(model, data, number)
-        jacobians[k] = pin.getFrameJacobian(model, data, number, axes)
+        jacobians[k] = pin.getFrameJacobian(model, data, number, axes).reshape(6, -1)
     jacobians[:, :3] /= how.length
     return driven, (jacobians[:, list(how.rows)] * scale.columns) @ motions
 

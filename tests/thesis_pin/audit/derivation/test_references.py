@@ -190,3 +190,18 @@ def test_a_motion_that_differs_from_pinocchios_is_refused(ur5, all_joints):
     with pytest.raises(ModelError, match="differs from Pinocchio's"):
         references.states.check(heavier)
     assert references.states.check(ur5.model) < 1e-12
+
+
+def test_a_single_joint_is_the_pendulum_of_the_schoolbook(tmp_path):
+    urdf = tmp_path / "pendulum.urdf"
+    urdf.write_text(
+        '<robot name="pendulum"><link name="base"/><joint name="pivot" type="continuous">'
+        '<parent link="base"/><child link="bob"/><axis xyz="0 1 0"/></joint><link name="bob">'
+        '<inertial><origin xyz="0 0 -0.4"/><mass value="2"/>'
+        '<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>'
+    )
+    references = refers(load(urdf), {r"\theta": "pivot"}, {"u": "torque entry 1"})
+    states = references.states
+    x, a = states.x[:, 0], states.a[:, 0]
+    expected = (2 * 0.4**2 + 0.1) * a + 2 * 9.81 * 0.4 * np.sin(x)
+    np.testing.assert_allclose(worth(references, "u"), expected, rtol=1e-12, atol=1e-12)

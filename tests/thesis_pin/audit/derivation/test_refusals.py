@@ -44,6 +44,8 @@ def refusal(tmp_path, old, new):
         ('"gravity"', '"9.81 furlongs"', ["constants.g", "furlongs", "m/s²"]),
         ("'g' = ", "'g + h' = ", ["'g + h'", "isn't a symbol"]),
         ("'g' = ", "'K' = ", ["said twice"]),
+        ("'l_2' = ", "'l_{1}' = ", ["constants.l_{1}", "what constants.l_1 says already"]),
+        ("'K' = ", r"'\dot{K}' = ", ["symbols.\\dot{K}: has dots", "the one without"]),
         ('"elbow"', '"shoulder"', ["2 coordinates, made of 1 joint"]),
         ('"elbow"', '"elbow + 3"', ["the number 3 has neither joint nor unit"]),
         ('"elbow"', '"  "', ["has no joint in it"]),

@@ -71,3 +71,11 @@ def test_a_table_with_a_mistake_is_refused(text, word, tmp_path):
     file.write_text(text, encoding="utf-8")
     with pytest.raises(SpecificationError, match=word):
         Phrases.spanish(file)
+
+
+def test_findings_of_two_members_are_said_each():
+    one = "is a 3×3 matrix where a vector of 3 belongs"
+    said = "es una matriz 3×3 donde corresponde un vector de 3"
+    assert Phrases.spanish()(f"member 1 {one}; member 2 {one}") == (
+        f"miembro 1: {said}; miembro 2: {said}"
+    )

@@ -391,3 +391,16 @@ def test_a_motor_beside_the_frame_leads_and_the_whole_place_is_measured(delta):
     )
     assert mixed.condition[0, 0] == pytest.approx(free.condition[0, 0], rel=1e-6)
     np.testing.assert_allclose(mixed.motors[0, 0], free.motors[0, 0], atol=1e-7)
+
+
+def test_a_robot_of_one_joint_has_a_workspace(tmp_path):
+    urdf = tmp_path / "one.urdf"
+    urdf.write_text(
+        '<robot name="one"><link name="base"/><joint name="j" type="revolute"><parent link="base"/>'
+        '<child link="a"/><axis xyz="0 1 0"/><limit lower="-1" upper="2" effort="3" velocity="4"/>'
+        '</joint><link name="a"><inertial><mass value="1"/>'
+        '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>'
+    )
+    space = evaluate_workspace(load(urdf), {"j": np.linspace(-3, 3, 7)}, frame="a")
+    np.testing.assert_array_equal(space.reachable, [False, False, True, True, True, True, False])
+    np.testing.assert_allclose(space.condition[space.reachable], 1.0)

@@ -56,8 +56,9 @@ class Tree:
         neutral = pin.neutral(model)
         pin.forwardKinematics(model, data, neutral)
         pin.computeJointJacobians(model, data, neutral)
-        own = [
-            pin.getJointJacobian(model, data, k, pin.ReferenceFrame.LOCAL)[:, model.idx_vs[k]]
+        local = pin.ReferenceFrame.LOCAL
+        own = [  # of a single joint the Jacobian comes as a vector
+            pin.getJointJacobian(model, data, k, local).reshape(6, -1)[:, model.idx_vs[k]]
             for k in numbers
         ]
         axes = np.array(own).reshape(-1, 6)

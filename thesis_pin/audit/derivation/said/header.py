@@ -20,10 +20,11 @@ def notation(file: DerivationFile, where: str) -> Notation:
     """How a derivation's formulas are read.
 
     Raises:
-        BadInput: A key of the header isn't a symbol.
+        BadInput: A key of the header isn't a symbol, has dots, or is said twice.
     """
     header = file.derivation
     plain = Notation(ranges=(), words=header.words, shorthand=())
+    _check_once(file, plain, where)
     given = [*file.coordinates, *file.constants]
     factors = frozenset(_symbol(text, plain, where).name for text in given)
     named = [_symbol(text, plain, where) for text in file.symbols]
@@ -80,6 +81,29 @@ def glossary(
     coordinates = {key(_symbol(text, notation, where)): k for k, text in said}
     header = file.derivation
     return Glossary(coordinates, constants, symbols, header.cos, header.sin), fixed
+
+
+def _check_once(file: DerivationFile, notation: Notation, where: str) -> None:
+    """Refuse symbols with dots, and those said twice, by another spelling or in another table."""
+    seen: dict[Key, str] = {}
+    for table in ("coordinates", "constants", "symbols"):
+        for text in getattr(file, table):
+            place = f"{table}.{text}"
+            symbol = _symbol(text, notation, where)
+            if symbol.dots:
+                raise BadInput(
+                    "has dots",
+                    where=f"{where}: {place}",
+                    allowed="symbols without: what a dotted one is follows",
+                    remedy="Say what the one without dots is",
+                )
+            if key(symbol) in seen:
+                raise BadInput(
+                    f"says what {seen[key(symbol)]} says already",
+                    where=f"{where}: {place}",
+                    allowed="each symbol once",
+                )
+            seen[key(symbol)] = place
 
 
 def _symbol(text: str, notation: Notation, where: str) -> Symbol:
