@@ -23,7 +23,10 @@ VERBS = {
 }
 WRITTEN = {"scout-pin new": "my_biped.toml"}
 """Words of examples that name a file which the verb writes."""
-OUTPUTS = ("--to", "--out", "--write", "--html", "--json", "--markdown", "--film", "--picture")
+OUTPUTS = (
+    *("--to", "--out", "--write", "--html", "--json", "--markdown", "--errata", "--film"),
+    "--picture",
+)
 
 
 @cache
