@@ -134,6 +134,9 @@ def judge(
         )
 
     def printed_alone(changed: Equation) -> float:
+        numbered = enumerate(changed.printed, start=1)
+        if not all(catalogue.reads(text) for k, text in numbered if k not in changed.imposes):
+            return math.inf
         found = residual_as_said(
             catalogue, changed, changed.printed, environment, changed.left, free
         )
