@@ -79,6 +79,14 @@ def test_another_statement_that_lacks_a_term_names_it():
     assert lacking.places == ("symbol 6: b is missing after r",)
 
 
+def test_a_line_whose_sides_are_one_formula_says_nothing_and_does_not_hold():
+    itself = row(printed=r"\left( c \right)")
+    assert (itself.verdict, itself.residual_printed) == ("unexplained", math.inf)
+    assert "its left side" in itself.reason
+    assert row(printed=("a b", "c")).verdict == "holds"  # a chain may come back to its start
+    assert row(printed="c", corrected="a b", **MENDED).verdict == "misprint"
+
+
 def test_every_member_of_a_chain_counts():
     chain = row(printed=("a b", "b + b"))
     assert chain.verdict == "holds"
