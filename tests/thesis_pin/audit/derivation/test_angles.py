@@ -1,11 +1,14 @@
-"""Inverse kinematics, and rows for columns, of a two-link arm."""
+"""Inverse kinematics, rows for columns, and what can't be computed, of a two-link arm."""
 
+import json
 import math
 from pathlib import Path
 
 import pytest
 
 from thesis_pin import audit_derivation
+from thesis_pin.audit.document import document
+from thesis_pin.report.writers import json_bytes
 
 FOLDER = Path(__file__).parents[4] / "examples" / "your_derivation"
 HEADER = (FOLDER / "two_link_arm.toml").read_text(encoding="utf-8").split("[[equation]]")[0]
@@ -89,3 +92,12 @@ def test_a_row_where_a_column_belongs_is_said_to_hold_transposed(audited):
     assert right.note.startswith("it would hold transposed: vectors, and derivatives")
     assert wrong.note.startswith("vectors, and derivatives")
     assert column.verdict == "holds"
+
+
+@pytest.mark.parametrize(
+    "printed", [r"\frac{\partial P}{\partial \mathbf{q}}^\top", r"\mathbf{q} + \arccos(2)"]
+)
+def test_an_effect_that_cannot_be_computed_says_so_in_json(audited, printed):
+    report = audited((r"\mathbf{q}", printed), (r"\theta_1", r"\theta_1 + \arccos(1 + x^2)"))
+    for row in json.loads(json_bytes(document(report)))["rows"]:
+        assert any("can't be computed" in str(value) for value in row["effect"].values())
