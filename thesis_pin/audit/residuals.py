@@ -13,7 +13,7 @@ from thesis_pin.equations import frames
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
 from thesis_pin.equations.formula import FormulaError, FrameError, Node
-from thesis_pin.equations.values import Value
+from thesis_pin.equations.values import Value, apart
 from thesis_pin.errors import BadInput
 
 _FLOOR = 1e-3  # what counts as zero is zero against this
@@ -57,7 +57,7 @@ def difference(left: Value, right: Value) -> float:
         raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
     if not frames.same(left.frames, right.frames):
         raise FrameError(f"is {right.seen()} where {left.seen()} belongs")
-    gap = float(np.abs(left.array - right.array).max())
+    gap = float(np.abs(apart(left, right)).max())
     if not math.isfinite(gap):
         raise FormulaError("isn't finite")
     return gap / max(float(np.abs(left.array).max()), float(np.abs(right.array).max()), _FLOOR)
