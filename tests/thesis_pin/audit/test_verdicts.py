@@ -105,6 +105,18 @@ def test_what_can_not_be_evaluated_fails_with_its_reason():
     assert row(printed="(a b", corrected="a b", **MENDED).verdict == "misprint"
 
 
+def test_a_line_with_nothing_to_evaluate_does_not_hold():
+    assert row(printed="0", imposes=(1,)).verdict == "unexplained"
+
+
+def test_what_is_infinite_or_not_a_number_fails_with_its_reason():
+    for text in (r"\frac{b}{a - a}", r"\frac{a - a}{a - a}"):
+        with np.errstate(all="ignore"):
+            infinite = row(printed=text, corrected="a b", **MENDED)
+        assert infinite.residual_printed == math.inf
+        assert "isn't finite" in infinite.reason
+
+
 def test_a_left_side_can_be_misprinted_too():
     wrong = row(left_printed="d", **MENDED)
     assert (wrong.verdict, wrong.left) == ("misprint", "d")
