@@ -15,7 +15,7 @@ FILES = tuple(
         *("appendix_c", "appendix_d", "appendix_e"),
         *("section_3_1", "section_3_2", "section_3_3_1", "section_3_3_2"),
         *(f"section_3_{k}" for k in range(4, 8)),
-        *("chapter_4", "appendix_a", "appendix_b"),
+        *("chapter_4", "appendix_a", "appendix_b", "sentences"),
     )
 )
 """The equations: the first definition of a symbol counts."""

@@ -76,10 +76,12 @@ def _where(row: Row, slip: Slip, say: Phrases) -> Iterator[str]:
 
 def _cell(row: Row, slip: Slip) -> tuple[int, int] | None:
     """Row, 0 if there is one alone, and column of a slip in a matrix."""
-    if slip.kind != "column" or slip.member > len(row.printed):
+    if slip.kind not in ("column", "statement") or slip.member > len(row.printed):
         return None
     text = row.printed[slip.member - 1] if slip.member else row.left
     keys = [piece.key for piece in pieces(text)]
+    if slip.kind == "statement" and ("&" not in keys or "&" in slip.printed + slip.corrected):
+        return None
     before = keys[: slip.start - 1]
     lines = before.count("\\\\")
     this = before[len(before) - before[::-1].index("\\\\") :] if lines else before

@@ -132,8 +132,6 @@ def _row(row: Row) -> Iterator[str]:
     yield f"- residual as printed: {residual_text(row.residual_printed)}"
     if row.reason:
         yield f"- finding: {row.reason}"
-    if row.line:
-        yield f"- line of the text: {row.line}"
     for slip in row.slips:
         yield f"- where: {slip_text(row, slip)}"
     if row.severity:

@@ -13,7 +13,7 @@ from thesis_pin.equations import frames
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, Unframed, evaluate
 from thesis_pin.equations.formula import FormulaError, FrameError, Node
-from thesis_pin.equations.values import Value
+from thesis_pin.equations.values import Value, apart
 from thesis_pin.errors import BadInput
 
 _FLOOR = 1e-3  # what counts as zero is zero against this
@@ -21,6 +21,8 @@ _OTHER_FRAME = 1.0
 """Residual of a member seen from another frame whose numbers happen to agree."""
 
 _VANISHES = "holds only because something in it vanishes: not as the substitution that it is"
+
+_ITSELF = "says only that its left side is what it is"
 
 TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
 """What a line that can't be read or evaluated raises: it is that line's error alone."""
@@ -57,7 +59,7 @@ def difference(left: Value, right: Value) -> float:
         raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
     if not frames.same(left.frames, right.frames):
         raise FrameError(f"is {right.seen()} where {left.seen()} belongs")
-    gap = float(np.abs(left.array - right.array).max())
+    gap = float(np.abs(apart(left, right)).max())
     if not math.isfinite(gap):
         raise FormulaError("isn't finite")
     return gap / max(float(np.abs(left.array).max()), float(np.abs(right.array).max()), _FLOOR)
@@ -97,6 +99,14 @@ def _refuse_repetition(catalogue: Catalogue, before: Sequence[str], member: str)
     node = catalogue.parse(member) if member else None
     if any(text and catalogue.parse(text) == node for text in before):
         raise FormulaError("says what the line has said before")
+
+
+def _says_itself(catalogue: Catalogue, left: str, member: str) -> bool:
+    """Whether both sides of a line are one formula: true of anything, so it says nothing."""
+    try:
+        return catalogue.parse(left) == catalogue.parse(member)
+    except FormulaError:
+        return False
 
 
 def _without_frames(
@@ -159,6 +169,8 @@ def residual_as_said(
     free: Sequence[Free] = (),
 ) -> Residual:
     """How far members are from the left side where they have to hold, or else where all is free."""
+    if len(members) == 1 and _says_itself(catalogue, left, members[0]):
+        return Residual(math.inf, (math.inf,), _ITSELF)
     found = residual(catalogue, equation, members, environment, left)
     for ground in free:
         if found.value >= HOLDS:

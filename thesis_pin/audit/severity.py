@@ -46,11 +46,14 @@ _NAMED = 3
 def severity(row: Row, effect: Effect, nothing: str) -> Severity:
     """Whether a failing line gives another number to who follows it, or none at all.
 
-    A right formula under a wrong name gives the right number.
+    A right formula under a wrong name gives the right number. A line that can't be computed
+    gives another one where, with what can't be read mended, a slip of it remains that does.
     """
     if not nothing and effect:
         return "changes a result"
     if set(row.corrected) == {0} and len(pieces(row.left)[0]) == 1:
         return "notation only"
-    finite = row.residual_printed is not None and HOLDS <= row.residual_printed < math.inf
+    alone = [slip.residual for slip in row.slips if slip.member]
+    found = [value for value in (row.residual_printed, *alone) if value is not None]
+    finite = any(HOLDS <= value < math.inf for value in found)
     return "changes a result" if finite else "notation only"

@@ -62,13 +62,38 @@ def _of_member(
         own = _only(right, slip[1]).model_copy(update={"left": meant})
         yield _slip(number, print_, meant, slip, _test(test, own))
     kind = equation.kind or "statement"
-    alone = _test(test, _put(right, number, meant))
-    parts = list(differences(meant, text))
-    if len(parts) == 1 and "\\text" not in text:
-        one = (parts[0], meant)
-        yield _slip(number, meant, text, one, alone, kind)
-    else:
+    parts = _parts(catalogue, meant, text)
+    for one, changed in parts:
+        alone = _test(test, _put(right, number, changed))
+        yield _slip(number, meant, text, (one, changed), alone, kind)
+    if not parts:
+        alone = _test(test, _put(right, number, meant))
         yield Slip(number, 1, meant, text, kind=kind, residual=alone)
+
+
+def _parts(catalogue: Catalogue, meant: str, text: str) -> list[tuple[Difference, str]]:
+    """The few places in which a statement differs; none where it is another one."""
+
+    def local(found: list[Difference]) -> bool:
+        changed = sum(
+            max(b - a, d - c) for (a, b), (c, d) in ((x.printed, x.mended) for x in found)
+        )
+        return len(found) == 1 or changed <= _LOCAL * max(len(meant), len(text))
+
+    found = list(differences(meant, text))
+    if "\\text" in text or len(found) > _PLACES or not local(found):
+        return []
+    parts = list(_of_texts(catalogue, meant, text))
+    if len(parts) == 1 and len(found) == 2 and not (parts[0][0].before or parts[0][0].after):
+        # Brackets around all of it: neither reads alone, and what lies between is right.
+        return [(one, put_back(meant, text, one)) for one in found]
+    return parts if local([one for one, _ in parts]) else []
+
+
+_LOCAL = 0.45
+"""Share of a statement that may differ for its places to say more than the whole."""
+_PLACES = 4
+"""Places that a reader can keep in mind at once."""
 
 
 def _only(equation: Equation, text: str) -> Equation:

@@ -41,7 +41,15 @@ def effect_entry(row: Row) -> Iterator[tuple[str, str]]:
     if effect:
         yield "effect", effect
     elif row.no_effect:
-        yield "no effect", row.no_effect
+        yield no_effect_label(row), row.no_effect
+
+
+def no_effect_label(row: Row) -> str:
+    """What stands before the reason why following a line has no measured effect.
+
+    A line may give another number of its own that nothing else is worked out from.
+    """
+    return "no further effect" if row.severity == "changes a result" else "no effect"
 
 
 SURVIVES = 600

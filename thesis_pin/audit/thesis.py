@@ -194,9 +194,17 @@ class _Judge:
 
     def _effect(self, equation: Equation) -> Effect:
         try:
-            return self.ground.effect(equation)
+            found = self.ground.effect(equation)
         except TROUBLES as error:
             return {"the law of motion": f"can't be computed, {what(error)}"}
+        return dict(_said(name, value) for name, value in found.items())
+
+
+def _said(name: str, value: float | str) -> tuple[str, float | str]:
+    """A quantity's change, in words where it is no number."""
+    if isinstance(value, str) or math.isfinite(value):
+        return name, value
+    return name.partition(" [")[0], "can't be computed"
 
 
 # -- several processes ------------------------------------------------------------------

@@ -15,7 +15,7 @@ from typing import Any
 
 from thesis_pin.audit import kinds, places, single
 from thesis_pin.audit.reading import Reading
-from thesis_pin.audit.residuals import TROUBLES, Free, residual_as_said, what
+from thesis_pin.audit.residuals import TROUBLES, Free, Residual, residual_as_said, what
 from thesis_pin.audit.residuals import difference as difference
 from thesis_pin.audit.residuals import largest_relative as largest_relative
 from thesis_pin.audit.residuals import residual as residual
@@ -81,8 +81,20 @@ def judge(
         free: What its symbols are where what it takes as given is free, if the line is a
             substitution: it then has to hold there too.
     """
+    row = _unjudged(equation, thesis)
+    if equation.illegible:
+        return _lost(catalogue, equation, environment, row)
+    if equation.not_checkable:
+        return _with(row, reason=equation.not_checkable)
+    if equation.claim:
+        return _claimed(catalogue, equation, claims, row)
+    return _compared(catalogue, equation, environment, free, row)
+
+
+def _unjudged(equation: Equation, thesis: str) -> Row:
+    """What a row says of its equation, whatever the answer is."""
     number = f" ({', '.join(equation.number)})" if equation.number else ""
-    row = Row(
+    return Row(
         id=equation.id,
         source=f"{thesis}, {equation.section}{number}",
         number=equation.number,
@@ -98,56 +110,64 @@ def judge(
         surviving=equation.surviving,
         rebuilt=equation.rebuilt,
     )
-    if equation.illegible:
-        return _lost(catalogue, equation, environment, row)
-    if equation.not_checkable:
-        return _with(row, reason=equation.not_checkable)
-    if equation.claim:
 
-        def claimed_alone(changed: Equation) -> float:
-            try:
-                return _claim(claims, equation)(Reading.of(changed)).printed
-            except TROUBLES:
-                return math.inf
 
-        reading = Reading.of(equation)
+def _claimed(catalogue: Catalogue, equation: Equation, claims: Claims, row: Row) -> Row:
+    """The answer on a line that a check in code decides."""
+    row = _with(row, check=equation.claim, verdict="unexplained")
+    reading = Reading.of(equation)
+    try:
+        result = _claim(claims, equation)(reading)
+    except TROUBLES as error:
+        return _with(row, reason=what(error))
+    answer = verdict(result.printed, result.corrected, physical=bool(equation.right))
+    if reading.unread and answer == "holds":
+        unread = ", ".join(map(str, reading.unread))
+        reason = f"the check doesn't read member {unread}, and what isn't read can't hold"
+        return _with(row, reason=reason)
+
+    def alone(changed: Equation) -> float:
         try:
-            result = _claim(claims, equation)(reading)
-        except TROUBLES as error:
-            return _with(row, check=equation.claim, verdict="unexplained", reason=what(error))
-        answer = verdict(result.printed, result.corrected, physical=bool(equation.right))
-        if reading.unread and answer == "holds":
-            unread = ", ".join(map(str, reading.unread))
-            reason = f"the check doesn't read member {unread}, and what isn't read can't hold"
-            return _with(row, check=equation.claim, verdict="unexplained", reason=reason)
-        return _with(
-            row,
-            check=equation.claim,
-            verdict=answer,
-            kinds=_kinds(equation, answer),
-            residual_printed=result.printed,
-            residual_corrected=result.corrected,
-            reason=result.note,
-            effect=result.effect,
-            places=tuple(_places(equation)),
-            slips=_slips(catalogue, equation, answer, claimed_alone),
-        )
+            return _claim(claims, equation)(Reading.of(changed)).printed
+        except TROUBLES:
+            return math.inf
 
-    def printed_alone(changed: Equation) -> float:
+    return _with(
+        row,
+        verdict=answer,
+        kinds=_kinds(equation, answer),
+        residual_printed=result.printed,
+        residual_corrected=result.corrected,
+        reason=result.note,
+        effect=result.effect,
+        places=tuple(_places(equation)),
+        slips=_slips(catalogue, equation, answer, alone),
+    )
+
+
+def _compared(
+    catalogue: Catalogue,
+    equation: Equation,
+    environment: Environment,
+    free: Sequence[Free],
+    row: Row,
+) -> Row:
+    """The answer on a line whose sides are evaluated and compared."""
+
+    def found(one: Equation, members: Sequence[str], left: str) -> Residual:
+        return residual_as_said(catalogue, one, members, environment, left, free)
+
+    printed, mended = found(equation, equation.printed, row.left), None
+    if equation.mending or equation.left_printed:
+        mended = found(equation, equation.members("corrected"), equation.left)
+    answer = verdict(printed.value, mended.value if mended else None, physical=bool(equation.right))
+
+    def alone(changed: Equation) -> float:
         numbered = enumerate(changed.printed, start=1)
         if not all(catalogue.reads(text) for k, text in numbered if k not in changed.imposes):
             return math.inf
-        found = residual_as_said(
-            catalogue, changed, changed.printed, environment, changed.left, free
-        )
-        return found.value
+        return found(changed, changed.printed, changed.left).value
 
-    printed = residual_as_said(catalogue, equation, equation.printed, environment, row.left, free)
-    mended = None
-    if equation.mending or equation.left_printed:
-        members = equation.members("corrected")
-        mended = residual_as_said(catalogue, equation, members, environment, equation.left, free)
-    answer = verdict(printed.value, mended.value if mended else None, physical=bool(equation.right))
     return _with(
         row,
         check="identity",
@@ -157,7 +177,7 @@ def judge(
         residual_corrected=mended.value if mended else None,
         reason=printed.reason or (mended.reason if mended else ""),
         places=tuple(_places(equation)),
-        slips=_slips(catalogue, equation, answer, printed_alone),
+        slips=_slips(catalogue, equation, answer, alone),
     )
 
 

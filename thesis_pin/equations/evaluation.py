@@ -21,6 +21,7 @@ from thesis_pin.equations.values import (
     ZERO,
     Value,
     add,
+    arctan2,
     blocks,
     cross,
     matrix,
@@ -163,6 +164,13 @@ _TRANSLATIONS = {"T_z1": 0, "T_z2": 1, "T_z3": 2}
 _SPINS = {"Omega_x": "x", "Omega_y": "y", "Omega_z": "z"}
 _TURNINGS = {"B_x": "x", "B_y": "y", "B_z": "z"}
 """Derivatives of the rotations by their angles: B_y(θ) = dR_y(θ)/dθ."""
+
+
+def _cosine(x: np.ndarray) -> np.ndarray:
+    """What is a sine or cosine of an angle; NaN else, of which complex numbers would make one."""
+    return np.where(np.abs(np.real(x)) <= 1, x, np.nan)
+
+
 _ELEMENTARY: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "cos": np.cos,
     "sin": np.sin,
@@ -171,6 +179,8 @@ _ELEMENTARY: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "csc": lambda x: 1 / np.sin(x),
     "cot": lambda x: 1 / np.tan(x),
     "arctan": np.arctan,
+    "arcsin": lambda x: np.arcsin(_cosine(x)),
+    "arccos": lambda x: np.arccos(_cosine(x)),
     "sqrt": np.sqrt,
 }
 _OF_MATRICES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
@@ -190,6 +200,9 @@ def _call(node: nt.Call, environment: Environment, indices: dict[str, str]) -> V
         if argument.rank != 2 or argument.tail[0] != argument.tail[1]:
             raise FormulaError(f"takes {node.function} of {argument.describe()}")
         return scalar(_OF_MATRICES[node.function](argument.array))
+    if node.function == "atan2" and argument.rank == 1 and isinstance(node.argument, nt.Matrix):
+        y, x = (argument.array[..., k] for k in range(2))
+        return Value(arctan2(y, x), 0, turns=True)
     if argument.rank > 0:
         raise FormulaError(f"takes {node.function} of {argument.describe()}")
     x, name = argument.array, node.function

@@ -143,7 +143,10 @@ class Transpose(Node):
 
 @dataclass(frozen=True)
 class Call(Node):
-    """A function of the notation: "cos", "R_x", "T_z4" …, with dots if it has any."""
+    """A function of the notation: "cos", "R_x", "T_z4" …, with dots if it has any.
+
+    That of two numbers, "atan2", is of the column of them.
+    """
 
     function: str
     argument: Node
@@ -190,6 +193,16 @@ def symbols(node: object) -> set[Symbol]:
         return set().union(*(symbols(part) for part in node)) if node else set()
     if isinstance(node, Node):
         return symbols(tuple(vars(node).values()))
+    return set()
+
+
+def functions(node: object) -> set[str]:
+    """Names of all functions in a formula."""
+    if isinstance(node, tuple | list):
+        return set().union(*(functions(part) for part in node)) if node else set()
+    if isinstance(node, Node):
+        own = {node.function} if isinstance(node, Call) else set()
+        return own | functions(tuple(vars(node).values()))
     return set()
 
 

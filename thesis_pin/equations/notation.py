@@ -169,8 +169,11 @@ def _parser(notation: Notation) -> _Parser:
     return _Parser(lark, brackets)
 
 
+_INVERTED = ("sin", "cos", "tan")
 _TRANSPOSED = ("top", "intercal", "mathsfT", "rmT")
 _PREFIX = {"\\mathbb": "bb", "\\mathcal": "cal"}
+_NAMES = {"sen": "sin", "arctan2": "atan2"} | {f"a{one}": f"arc{one}" for one in _INVERTED}
+"""Functions by other names."""
 _FONTS = re.compile(r"\\(mathbf|boldsymbol|mathrm|text|bm)(?![a-zA-Z])")
 
 
@@ -224,8 +227,8 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return self.accent([parts[0], self.name([parts[1]])])
 
     def function(self, parts: list[Token]) -> Node:
-        name = re.sub(r"\\(text|operatorname|mathrm)|[\\{}\s]", "", str(parts[0])).lower()
-        return _Mark("function", "sin" if name == "sen" else name)
+        name = re.sub(r"\\(text|operatorname|mathrm)|[\\{}\s_]", "", str(parts[0])).lower()
+        return _Mark("function", _NAMES.get(name, name))
 
     def group(self, parts: list[Node]) -> Node:
         return _Group(_open(parts[0]))
@@ -317,6 +320,10 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
             node = _open(node)
         if label == "-":  # J^{-T}
             label = "-1"
+        if isinstance(node, _Mark) and label.startswith("-"):
+            if node.name not in _INVERTED or label != "-1":
+                raise ValueError(f"{node.name} with a negative exponent: write a fraction")
+            return replace(node, name=f"arc{node.name}")
         if re.fullmatch(r"-\d", label):
             node = Power(node, int(label))
         elif label:
@@ -374,7 +381,7 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         if isinstance(following, _Slash) and (
             isinstance(node, _Mark) or self._depends(node, following.above)
         ):
-            if not isinstance(following.above, _Group):
+            if not isinstance(following.above, _Group | _Arguments):
                 raise ValueError("a slash after a function: put brackets where they belong")
             waiting[0] = following.above
             whole = Quotient(self._next_factor([node, waiting.pop(0)]), _open(following.below))
@@ -408,6 +415,11 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         """What a function or derivative is of: the factor after it, with a number before it."""
         if mark.name == "diag" and isinstance(waiting[0], _Arguments):
             return _Group(_diagonal(cast(_Arguments, waiting.pop(0)).of))
+        if mark.name == "atan2":
+            given = waiting.pop(0)
+            if not isinstance(given, _Arguments) or len(given.of) != len(("y", "x")):
+                raise ValueError("atan2 takes two numbers in brackets: atan2(y, x)")
+            return _Group(Matrix(tuple((one,) for one in given.of)))
         first = self._next_factor(waiting)
         more = bool(waiting)
         multiple = mark.kind == "function" and isinstance(first, Number) and more

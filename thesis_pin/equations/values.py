@@ -9,6 +9,7 @@ import numpy as np
 from thesis_pin.equations import frames as fr
 from thesis_pin.equations.formula import FormulaError, FrameError
 from thesis_pin.equations.frames import ANY, Frames
+from thesis_pin.numeric.turns import TURN
 
 STEP = 1e-30
 """Complex step: small enough that its square vanishes, so derivatives are exact."""
@@ -23,11 +24,13 @@ class Value:
         rank: Number of tail axes: 0, 1 or 2; −1 for a zero of any shape.
         frames: What a vector is seen from, a rotation turns between; see
             :mod:`thesis_pin.equations.frames`.
+        turns: Whether it is an angle known up to whole turns: an atan2, or a sum with one.
     """
 
     array: np.ndarray
     rank: int
     frames: Frames = ANY
+    turns: bool = False
 
     @property
     def tail(self) -> tuple[int, ...]:
@@ -71,7 +74,27 @@ def matrix(array: np.ndarray) -> Value:
 
 def imaginary(value: Value) -> Value:
     """The derivative that a complex step left in a value."""
-    return ZERO if value.rank == -1 else replace(value, array=np.imag(value.array) / STEP)
+    if value.rank == -1:
+        return ZERO
+    return replace(value, array=np.imag(value.array) / STEP, turns=False)
+
+
+def arctan2(y: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """atan2 that carries a complex step; NaN where both are zero."""
+    up, right = np.real(y), np.real(x)
+    square = right**2 + up**2
+    angle = np.where(square > 0, np.arctan2(up, right), np.nan)
+    if not (np.iscomplexobj(y) or np.iscomplexobj(x)):
+        return angle
+    return np.asarray(angle + 1j * ((right * np.imag(y) - up * np.imag(x)) / square))
+
+
+def apart(first: Value, second: Value) -> np.ndarray:
+    """``first - second`` in numbers; of angles known up to whole turns, without these."""
+    gap = first.array - second.array
+    if first.turns or second.turns:
+        gap = gap - TURN * np.round(np.real(gap) / TURN)
+    return np.asarray(gap)
 
 
 def add(first: Value, second: Value) -> Value:
@@ -83,7 +106,8 @@ def add(first: Value, second: Value) -> Value:
     frames = fr.same(first.frames, second.frames)
     if not frames:
         raise FrameError(f"adds {second.seen()} to {first.seen()}")
-    return Value(first.array + second.array, first.rank, frames)
+    turns = first.turns or second.turns
+    return Value(first.array + second.array, first.rank, frames, turns)
 
 
 def multiply(first: Value, second: Value) -> Value:
@@ -91,9 +115,12 @@ def multiply(first: Value, second: Value) -> Value:
     if first.rank == -1 or second.rank == -1:
         return ZERO
     if first.rank == 0:
-        return replace(second, array=_spread(first.array, second.rank) * second.array)
+        turns = second.turns and _whole(first)
+        array = _spread(first.array, second.rank) * second.array
+        return replace(second, array=array, turns=turns)
     if second.rank == 0:
-        return replace(first, array=first.array * _spread(second.array, first.rank))
+        turns = first.turns and _whole(second)
+        return replace(first, array=first.array * _spread(second.array, first.rank), turns=turns)
     a, b = first.array, second.array
     if first.rank == 1:
         if second.rank == 2 and second.tail[0] == 1:
@@ -106,6 +133,11 @@ def multiply(first: Value, second: Value) -> Value:
         result = np.matmul(a, b[..., None])[..., 0]
         return scalar(result[..., 0]) if first.tail[0] == 1 else Value(result, 1, frames)
     return Value(np.matmul(a, b), 2, frames)
+
+
+def _whole(value: Value) -> bool:
+    """Whether a value is one whole number at all states."""
+    return value.array.ndim == 0 and float(value.array.real).is_integer()
 
 
 def _joined(first: Value, second: Value) -> Frames:
@@ -175,7 +207,9 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
         batch = np.broadcast_shapes(*(cell.array.shape for cell in cells))
         spread = [[np.broadcast_to(cell.array, batch) for cell in row] for row in rows]
         array = np.stack([np.stack(row, axis=-1) for row in spread], axis=-2)
-        return vector(array[..., 0]) if len(rows[0]) == 1 < len(rows) else matrix(array)
+        if len(rows[0]) == 1 < len(rows):
+            return Value(array[..., 0], 1, turns=any(cell.turns for cell in cells))
+        return matrix(array)
     if len(rows[0]) == 1 < len(rows) and {cell.rank for cell in cells} == {0, 1}:
         return _stacked(cells)
     height = next(cell.tail[0] for cell in cells if cell.rank > 0)

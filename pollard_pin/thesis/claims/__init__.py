@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from functools import partial
 
-from pollard_pin.thesis.claims import angles, dynamics, general, inertia, path, robot
+from pollard_pin.thesis.claims import angles, dynamics, general, inertia, names, path, robot
 from pollard_pin.thesis.references import References
 from thesis_pin.audit.verdicts import Claims
 from thesis_pin.equations.catalogue import Catalogue
 
-CHECKS = (angles, robot, inertia, path, dynamics, general)
+CHECKS = (angles, robot, inertia, path, dynamics, general, names)
 
 
 def claims(catalogue: Catalogue, closed: References) -> Claims:

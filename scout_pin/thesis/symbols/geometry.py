@@ -11,7 +11,7 @@ from scout_pin.thesis.symbols.coordinates import Coordinates
 from thesis_pin.equations.dual import Dual, vee
 from thesis_pin.equations.formula import Node, Symbol
 from thesis_pin.equations.frames import Frames
-from thesis_pin.equations.values import ZERO, Value, matrix, scalar, vector
+from thesis_pin.equations.values import ZERO, Value, arctan2, matrix, scalar, vector
 
 # The axes ω is made of (3.10): letter and number of each joint's axis vector.
 JOINT_AXES = {"k0": 1, "j2": 2, "k4": 3, "k6": 4, "k8": 5, "i10": 6}
@@ -90,9 +90,9 @@ class Geometry(Coordinates):
         upright = np.sqrt(R[..., 0, 0] ** 2 + R[..., 0, 1] ** 2)
         return np.stack(
             [
-                _arctan2(-R[..., 1, 2], R[..., 2, 2]),
-                _arctan2(R[..., 0, 2], upright),
-                _arctan2(-R[..., 0, 1], R[..., 0, 0]),
+                arctan2(-R[..., 1, 2], R[..., 2, 2]),
+                arctan2(R[..., 0, 2], upright),
+                arctan2(-R[..., 0, 1], R[..., 0, 0]),
             ],
             axis=-1,
         )
@@ -121,13 +121,3 @@ class Geometry(Coordinates):
         return None if symbol.sup else self._coordinate(symbol.name, symbol.dots)
 
     _of_phi = _of_psi = _of_theta
-
-
-def _arctan2(y: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """atan2 that carries a complex step."""
-    if not (np.iscomplexobj(y) or np.iscomplexobj(x)):
-        return np.asarray(np.arctan2(y, x))
-    slope = (np.real(x) * np.imag(y) - np.real(y) * np.imag(x)) / (
-        np.real(x) ** 2 + np.real(y) ** 2
-    )
-    return np.asarray(np.arctan2(np.real(y), np.real(x)) + 1j * slope)

@@ -67,6 +67,8 @@ def judged(ground):
         ("4.4:J_2i", "wrong"),
         ("4.4:m", "not checkable"),
         ("B:path", "wrong"),
+        ("2.5.4:rates_named", "misprint"),
+        ("2.8.4:names_put_in", "misprint"),
     ],
 )
 def test_known_findings_come_out(rows, identity, verdict):
@@ -116,6 +118,22 @@ def test_a_slip_in_a_checked_statement_is_seen(rows, identity, old, new, judged)
     slipped = tuple(text.replace(old, new, 1) for text in equation.printed)
     row = judged(equation.id, slipped)
     assert row.verdict == "unexplained", row.reason
+
+
+@pytest.mark.parametrize(
+    ("identity", "names"),
+    [
+        ("2.5.4:rates_named", r"\dot{x}, \dot{y}, \dot{\theta}_{21}"),
+        ("2.5.4:rates_named", r"\dot{x}, \dot{y}, \dot{x}"),
+        ("2.5.4:rates_named", r"\dot{x}, \dot{y}, z"),
+        ("2.8.4:names_put_in", r"d_{31}, d_{32}, \dot{d}_{31}, \dot{d}_{31}"),
+    ],
+)
+def test_a_sentence_names_what_its_line_has_and_once(judged, identity, names):
+    identity = f"pollard:{identity}"
+    (right,) = catalogue()[identity].members("corrected")
+    assert judged(identity, (right,), corrected={}).verdict == "holds"
+    assert judged(identity, (names,), corrected={}).verdict == "unexplained"
 
 
 @pytest.mark.parametrize(

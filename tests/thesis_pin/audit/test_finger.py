@@ -48,6 +48,17 @@ def test_a_cell_of_a_matrix_is_named(text, start, printed, where):
     assert said == f"{where}: between `(` and `)`, `{printed}` should be `0`"
 
 
+def test_a_statement_names_the_cell_that_differs_but_not_of_what_is_no_matrix():
+    cell = Slip(1, 9, "5", "0", ("4 &", "& 6"), kind="statement")
+    assert slip_text(Row("a:1:x", "T, 1", (), "x", (MATRIX,), {}, "wrong"), cell).startswith(
+        "row 2, column 2: "
+    )
+    plain = Slip(1, 2, "+", "-", ("a", "b"), kind="statement")
+    assert slip_text(ONE, plain) == "between `a` and `b`, `+` should be `-`"
+    whole = Slip(1, 1, MATRIX, "x & y", kind="statement")
+    assert "column" not in slip_text(Row("a:1:x", "", (), "x", (MATRIX,), {}, "wrong"), whole)
+
+
 def test_a_long_piece_keeps_its_ends():
     text = "a" + "m" * 300 + "z"
     said = slip_text(ONE, Slip(1, 1, text, "b", ("k", "l")))

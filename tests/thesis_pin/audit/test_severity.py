@@ -1,11 +1,14 @@
 """Each failing line changes a result or says why nothing comes of it."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from thesis_pin.audit.rows import Row
 from thesis_pin.audit.severity import severity, without_effect
+from thesis_pin.audit.slips import Slip
+from thesis_pin.audit.text import effect_entry
 from thesis_pin.equations.catalogue import Equation
 
 FAILING = Equation(id="robot:1:a_2", left=r"\mathbf{a}_{ni}", printed="b", attribution="thesis")
@@ -39,6 +42,36 @@ def test_a_line_without_effect_says_why_and_weighs_by_its_own_value(
     assert reason in nothing
     assert bool(reason) == bool(nothing)
     assert severity(row(residual), effect, nothing) == expected
+
+
+@pytest.mark.parametrize(
+    ("member", "alone", "expected"),
+    [
+        (1, 0.02, "changes a result"),  # (2.85): csc² for csc³ beside a bracket too many
+        (1, math.inf, "notation only"),
+        (1, 1e-12, "notation only"),
+        (0, 0.02, "notation only"),  # a name
+    ],
+)
+def test_a_line_that_cant_be_read_changes_a_result_where_one_of_its_slips_alone_does(
+    member, alone, expected
+):
+    slips = (Slip(1, 5, ")", "", residual=math.inf), Slip(member, 9, "2", "3", residual=alone))
+    unread = replace(row(math.inf), slips=slips)
+    nothing = "it can't be computed as printed"
+    assert severity(unread, {}, nothing) == expected
+    # A name is only a name, though it stands for something else.
+    assert severity(replace(unread, corrected={0: "a"}), {}, nothing) == "notation only"
+
+
+def test_a_number_of_its_own_that_nothing_follows_isnt_said_to_have_no_effect():
+    own = replace(row(0.2), no_effect="nothing uses it")
+    assert dict(effect_entry(replace(own, severity="changes a result"))) == {
+        "no further effect": "nothing uses it"
+    }
+    assert dict(effect_entry(replace(own, severity="notation only"))) == {
+        "no effect": "nothing uses it"
+    }
 
 
 def test_a_line_that_nothing_uses_says_so_and_the_datas_reason_comes_first():

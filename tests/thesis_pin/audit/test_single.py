@@ -110,3 +110,23 @@ def test_a_term_is_counted_in_the_outermost_sum():
     ]
     assert term_of(formula, formula.index("g")) == "term 3 of 3"
     assert term_of("a b", 0) == ""
+
+
+@pytest.mark.parametrize(
+    ("printed", "right", "found"),
+    [
+        # Another statement that differs in two places: each is named, and fails alone.
+        ("2 a + 3 b + a b", "4 a + 5 b + a b", [("2", "4"), ("3", "5")]),
+        # A pair of brackets around all of it: where each stands, though neither reads alone.
+        ("a b + b b", "(a b + b b)^2", [("", "("), ("", ")^2")]),
+        # Too much differs for its places to say more than the whole.
+        ("b a b + a", "a a a a a - b b", [("b a b + a", "a a a a a - b b")]),
+    ],
+)
+def test_a_wrong_statement_is_named_where_it_differs_unless_it_is_another_one(
+    printed, right, found
+):
+    slips = row(left=right, printed=printed, right=right).slips
+    assert [(slip.printed, slip.corrected) for slip in slips] == found
+    assert {slip.kind for slip in slips} == {"statement"}
+    assert all(slip.residual >= HOLDS for slip in slips)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from thesis_pin.audit.derivation.branches import branch
 from thesis_pin.audit.derivation.effects import EFFECTS, Effects
 from thesis_pin.audit.derivation.ground import Derivation
 from thesis_pin.audit.derivation.mends import mends
@@ -28,6 +29,7 @@ MOST_GUESSED = 10
 """Failing lines for which a change is looked for that would make them hold; asked for by
 themselves, all of them. It takes up to some seconds for each."""
 _POINTS = "it would hold for point masses: the robot's bodies have inertia about their centres"
+_COLUMNS = "vectors, and derivatives of a number by all coordinates, are columns here"
 _GUESS = ("with one change it would hold: {what}", "with any of these it would hold: {what}")
 
 
@@ -102,6 +104,10 @@ class DerivationThesis(Thesis):
     def _guess(self, row: Row, equations: Catalogue) -> str:
         """What would make a line hold that fails and that nothing is given in the place of."""
         one = equations[row.id]
+        if "1×" in row.reason:  # a row somewhere
+            turned = [rf"({text})^\top" for text in one.printed]
+            found = residual(equations, one, turned, self.references[0], row.left).value < HOLDS
+            return f"it would hold transposed: {_COLUMNS}" if found else _COLUMNS
         if (
             self.points
             and residual(equations, one, one.printed, self.points, row.left).value < HOLDS
@@ -109,8 +115,10 @@ class DerivationThesis(Thesis):
             return _POINTS
         if passive := self._passive(row, equations):
             return passive
-        found = mends(one, equations, self.references)
-        return _GUESS[len(found) > 1].format(what=" | ".join(found)) if found else ""
+        if partly := branch(one, equations, self.references[0]):
+            return partly
+        changes = mends(one, equations, self.references)
+        return _GUESS[len(changes) > 1].format(what=" | ".join(changes)) if changes else ""
 
 
 def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesis:

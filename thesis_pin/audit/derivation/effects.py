@@ -15,7 +15,7 @@ from thesis_pin.audit.rows import HOLDS, Effect
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Derivative, FormulaError, Node, Sum, Symbol
-from thesis_pin.equations.values import Value
+from thesis_pin.equations.values import Value, apart
 
 EFFECTS = (
     "Effects say what a reader meets who follows that one line and is right elsewhere:",
@@ -81,13 +81,13 @@ class Effects:
             first, second = (evaluate(side, self.right, indices) for side in (left, member))
             if first.tail != second.tail:
                 return [(self._named(phrase), math.inf)]
-            gap = np.asarray(second.array - first.array)
+            gap = apart(second, first)
             push = self._push(gap, phrase)
             if push is not None:
                 found.append((FORCE, self._relative(push)))
             else:
                 size = max(float(np.abs(first.array).max()), float(np.abs(second.array).max()))
-                found.append((self._named(phrase), float(np.abs(gap).max()) / (size or 1.0)))
+                found.append((self._named(phrase), _ratio(gap, size)))
         return found
 
     @staticmethod
@@ -125,7 +125,7 @@ class Effects:
         return [notation.symbol(text) for text in self.states.coordinates.symbols]
 
     def _relative(self, push: np.ndarray) -> float:
-        return float(np.abs(push).max() / max(np.abs(self.force).max(), HOLDS))
+        return _ratio(push, max(float(np.abs(self.force).max()), HOLDS))
 
     def _through_users(self, equation: Equation) -> Effect:
         """What a misprinted definition does to the lines that use it."""
@@ -145,15 +145,17 @@ class Effects:
                         continue
                     if equation.id not in wrong.used or old.tail != new.tail:
                         continue
-                    gap = np.asarray(new.array - old.array)
+                    gap = apart(new, old)
                     push = self._push(gap, phrase)
                     name = FORCE if push is not None else self._named(phrase)
                     size = float(np.abs(old.array).max()) or 1.0
-                    change = (
-                        self._relative(push)
-                        if push is not None
-                        else float(np.abs(gap).max()) / size
-                    )
+                    change = self._relative(push) if push is not None else _ratio(gap, size)
                     if change > HOLDS:
                         found[name] = max(found.get(name, 0.0), change)
         return {name: value for name, value in found.items()}
+
+
+def _ratio(change: np.ndarray, size: float) -> float:
+    """The largest change of a size; infinity if one isn't finite, which NaN would hide."""
+    largest = float(np.abs(change).max() / (size or 1.0))
+    return largest if math.isfinite(largest) else math.inf

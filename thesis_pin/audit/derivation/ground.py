@@ -23,7 +23,7 @@ from thesis_pin.audit.residuals import TROUBLES
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate
-from thesis_pin.equations.formula import FormulaError, Symbol
+from thesis_pin.equations.formula import FormulaError, Symbol, functions
 from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.loops.closures import ClosedRobot
 
@@ -197,6 +197,17 @@ class Derivation:
             return None
         return References(states, self.glossary, self.plain)
 
+    def _formulas(self) -> list[object]:
+        """All that can be read of the file's formulas."""
+        found: list[object] = list(self.glossary.symbols.values())
+        for one in self.plain.equations:
+            for text in filter(None, (one.left, *one.printed, *one.mending.values())):
+                try:
+                    found.append(self.plain.parse(text))
+                except FormulaError:
+                    continue
+        return found
+
     @property
     def described(self) -> str:
         """The states, in words."""
@@ -216,6 +227,8 @@ class Derivation:
                 f"Its bodies are so light that entries of the mass matrix are below {SMALL:.0e}: "
                 "a slip in one of them can go unseen."
             )
+        if "atan2" in functions(self._formulas()):
+            told.append("Angles that an atan2 gives are compared up to whole turns.")
         if self.changes:
             changed = ", ".join(self.changes)
             told.append(f"What holds is tried with other {changed} of the robot, too.")

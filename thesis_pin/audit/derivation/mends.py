@@ -20,7 +20,7 @@ _SYMBOL = re.compile(
     rf"(?:\\dd?ot\s*(?:\{{[^{{}}]*\}}|\\[a-zA-Z]+|[a-zA-Z])|\\[a-zA-Z]+|[a-zA-Z]){_SCRIPT}"
 )
 _NO_SYMBOLS = re.compile(
-    r"\\(?:begin|end)\s*\{\w+\}|\\(?:text|label|tag)\s*\{[^{}]*\}|\\(?:left|right|[tdc]?frac|cos|sin|tan"
+    r"\\(?:begin|end)\s*\{\w+\}|\\(?:text|label|tag|operatorname)\s*\{[^{}]*\}|\\mathrm\s*\{\s*a\w+\}|\\(?:left|right|[tdc]?frac|cos|sin|tan"
     r"|cdot|times|partial|quad|qquad|sqrt|sum|mathbf|boldsymbol|bm|mathcal|mathrm|mathbb|top)"
     r"(?![a-zA-Z])"
 )

@@ -17,7 +17,7 @@ from thesis_pin.audit.derivation.said.phrases import Phrase
 from thesis_pin.equations.catalogue import Catalogue, Edition
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
-from thesis_pin.equations.values import ZERO, Value, imaginary, matrix, scalar, vector
+from thesis_pin.equations.values import ZERO, Value, apart, imaginary, matrix, scalar, vector
 
 _STENCIL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
 _REACH = 0.02
@@ -233,7 +233,7 @@ class References:
         for step, weight in _STENCIL.items():
             ends = [of(self._at(along, order, complex(sign * step * _REACH))) for sign in (1, -1)]
             rank = max(rank, *(one.rank for one in ends))
-            total = total + weight * (ends[0].array - ends[1].array) / _REACH
+            total = total + weight * apart(*ends) / _REACH
         return ZERO if rank < 0 else Value(np.asarray(total), rank)
 
     def _at(self, along: int | None, order: int, size: complex) -> References:

@@ -11,7 +11,7 @@ from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import HOLDS, NO_VERDICT, AuditReport, Row
 from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.text import effect_text
+from thesis_pin.audit.text import effect_text, no_effect_label
 
 _ENGLISH = Phrases()
 
@@ -173,4 +173,4 @@ def _said(row: Row, say: Phrases) -> Iterator[tuple[str, str]]:
     if effect:
         yield say("effect"), effect
     elif row.no_effect:
-        yield say("no effect"), say(row.no_effect)
+        yield say(no_effect_label(row)), say(row.no_effect)
