@@ -10,7 +10,7 @@ motion doesn't rest on, the change of a line that uses it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,6 +21,8 @@ from pollard_pin.thesis.claims.dynamics import AWAY
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
 from pollard_pin.thesis.following import effect_where_used
 from pollard_pin.thesis.references import References
+from pollard_pin.thesis.state import State
+from pollard_pin.thesis.symbols.motion import Drive
 from thesis_pin.audit.rows import Effect
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.editions import EditionEnvironment
@@ -51,34 +53,34 @@ class Effects:
         self.equations, self._states, self._references = equations, random, references
 
     @cached_property
-    def random(self) -> _Model:
-        """The random robots, accelerated at random.
+    def path(self) -> References:
+        """The thesis's robot on the default path."""
+        return along_path()
+
+    @cached_property
+    def model(self) -> _Model:
+        """The random robots, accelerated at random, and behind them the thesis's on its path.
 
         Three motors' torques would leave a small force of large terms.
         """
         drive = self._states.drive
         acceleration = np.random.default_rng(_SEED).uniform(-2, 2, drive.acceleration.shape)
-        references = References(self._states.state, replace(drive, acceleration=acceleration))
-        return _Model(self.equations, references)
-
-    @cached_property
-    def path(self) -> _Model:
-        """The thesis's robot on the default path."""
-        return _Model(self.equations, along_path())
+        random = References(self._states.state, replace(drive, acceleration=acceleration))
+        return _Model(self.equations, _one_behind_the_other(random, self.path))
 
     def of(self, equation: Equation) -> Effect:
         """Changes by quantity; empty if neither the dynamics nor another line rest on it."""
-        if not self.random.rests_on(equation):
+        if not self.model.rests_on(equation):
             if self._references is None:
                 return {}
             return effect_where_used(self.equations, self._references, equation)
         try:
-            changed, force = self.random.change(equation), self.random.force
-            on_path = self.path.change(equation)
+            change, count = self.model.change(equation), self._states.state.size
         except FormulaError as error:
             return {"generalized force": f"can't be computed, {error.what}"}
+        changed, force = change[:count], self.model.force[:count]
         relative = np.abs(changed).max(axis=-1) / np.abs(force).max(axis=-1)
-        torque = (self._torque_map @ on_path[..., None])[..., 0]
+        torque = (self._torque_map @ change[count:, :, None])[..., 0]
         found = {
             "generalized force, median [-]": float(np.median(relative)),
             "generalized force, worst [-]": float(relative.max()),
@@ -89,7 +91,7 @@ class Effects:
     @cached_property
     def _torque_map(self) -> np.ndarray:
         """Generalized force → six motor torques along the path, ``(samples, 6, 6)``."""
-        rates = self.path.references.rows
+        rates = self.path.rows
         rows = np.stack([rates[ANGLES[joint]] for joint in ACTUATORS], axis=-2)
         return np.linalg.inv(np.swapaxes(rows, -1, -2))
 
@@ -103,6 +105,19 @@ def along_path() -> References:
     model, path = ExplicitModel(), appendix_b().sample(_PATH)
     regular = model.margin(path.pose) > AWAY
     return model.references(*(x[regular] for x in (path.pose, path.rate, path.acceleration)))
+
+
+def _one_behind_the_other(first: References, second: References) -> References:
+    """The states of both: a formula costs as much at few states as at some more."""
+
+    def joined(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        return {name: np.concatenate([one[name], other[name]]) for name in one if name in other}
+
+    a, b = first.state, second.state
+    parts = ("constants", "variables", "rates", "accelerations")
+    state = State(**{part: joined(getattr(a, part), getattr(b, part)) for part in parts})
+    driven = ((getattr(one.drive, f.name) for one in (first, second)) for f in fields(Drive))
+    return References(state, Drive(*(np.concatenate([*pair]) for pair in driven)))
 
 
 class _Model:

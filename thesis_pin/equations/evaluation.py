@@ -9,7 +9,6 @@ exact to rounding and cost no subtraction.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -156,7 +155,9 @@ def _signed(sign: str, value: Value, indices: dict[str, str]) -> Value:
     if sign in ("\\pm", "\\mp"):
         upper = indices.get("±", "+") == "+"
         sign = "+" if upper == (sign == "\\pm") else "-"
-    return value if sign == "+" else replace(value, array=-value.array)
+    if sign == "+":
+        return value
+    return Value(-value.array, value.rank, value.frames, value.turns)
 
 
 _ROTATIONS = {"R_x": "x", "R_y": "y", "R_z": "z", "T_z4": "x", "T_z5": "y", "T_z6": "z"}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -51,7 +51,7 @@ class Value:
 
     def within(self, frames: Frames) -> Value:
         """The same numbers, seen from a frame or turning between two."""
-        return replace(self, frames=frames)
+        return Value(self.array, self.rank, frames, self.turns)
 
 
 ZERO = Value(np.zeros(()), -1)
@@ -76,7 +76,7 @@ def imaginary(value: Value) -> Value:
     """The derivative that a complex step left in a value."""
     if value.rank == -1:
         return ZERO
-    return replace(value, array=np.imag(value.array) / STEP, turns=False)
+    return Value(np.imag(value.array) / STEP, value.rank, value.frames)
 
 
 def arctan2(y: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -117,10 +117,11 @@ def multiply(first: Value, second: Value) -> Value:
     if first.rank == 0:
         turns = second.turns and _whole(first)
         array = _spread(first.array, second.rank) * second.array
-        return replace(second, array=array, turns=turns)
+        return Value(array, second.rank, second.frames, turns)
     if second.rank == 0:
         turns = first.turns and _whole(second)
-        return replace(first, array=first.array * _spread(second.array, first.rank), turns=turns)
+        array = first.array * _spread(second.array, first.rank)
+        return Value(array, first.rank, first.frames, turns)
     a, b = first.array, second.array
     if first.rank == 1:
         if second.rank == 2 and second.tail[0] == 1:
