@@ -33,7 +33,7 @@ def errata(report: AuditReport, command: str, say: Phrases = _ENGLISH) -> str:
         *_summary(report, say),
         *_counts(report, say),
     ]
-    order = {row.id: k for k, row in enumerate(report.rows)}
+    order = {row.id: (row.line, k) for k, row in enumerate(report.rows)}
     failures = sorted(report.failures, key=lambda row: order[row.id])
     shared = [
         (cause, rows)

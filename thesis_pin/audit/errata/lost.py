@@ -15,6 +15,7 @@ _SHORT = 100
 def lost(report: AuditReport, say: Phrases) -> Iterator[str]:
     """A table of the lost lines, in the thesis's order; nothing if there are none."""
     rows = [row for row in report.rows if row.verdict in ("rebuilt", "illegible")]
+    rows.sort(key=lambda row: row.line)
     if not rows:
         return
     yield f"## {say('Lost lines')}"

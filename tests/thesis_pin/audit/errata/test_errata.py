@@ -79,6 +79,14 @@ def test_lines_of_a_cause_stand_together_and_the_others_in_the_thesiss_order():
     assert "`1.2:h`" not in text
 
 
+def test_the_order_is_that_of_the_text_wherever_a_lines_data_stand():
+    lost = [replace(LOST, id=f"robot:1.2:G_{n}", line=n) for n in (50, 20)]
+    rows = (failing("late", line=40), failing("early", line=9), *lost)
+    text = errata(AuditReport("Scout thesis", rows, (), "", {}), "make it")
+    order = ["`1.2:early`", "`1.2:late`", "`1.2:G_20`", "`1.2:G_50`"]
+    assert sorted(order, key=text.index) == order
+
+
 def test_a_reason_that_all_lines_of_a_cause_share_is_given_once():
     text = errata(REPORT, "make it")
     assert "Of all 2 lines: the sign is lost." in text
