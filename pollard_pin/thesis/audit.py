@@ -26,6 +26,7 @@ from pollard_pin.thesis.symbols.accelerations import accelerating
 from pollard_pin.thesis.symbols.axes import AnyAxes, slopes
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.symbols.elements import elements
+from pollard_pin.thesis.symbols.lengths import Lengths
 from pollard_pin.thesis.symbols.rates import moving
 from pollard_pin.thesis.symbols.vectors import FreeVectors, definitions
 from thesis_pin.audit.residuals import Free
@@ -90,6 +91,11 @@ class Environments:
         return Coefficients(states(closed=False))
 
     @functools.cached_property
+    def lengths(self) -> Lengths:
+        """With loop vectors of which only the lengths are equal."""
+        return Lengths()
+
+    @functools.cached_property
     def axes(self) -> AnyAxes:
         """With joints that turn about axes that point anywhere."""
         return AnyAxes.drawn()
@@ -151,6 +157,8 @@ def ground(equations: Catalogue) -> Ground:
         if "vectors" in equation.free:
             vectors = FreeVectors(equations, known, equation.id)
             found.append(Free(vectors, equation.free["vectors"]))
+        if "lengths" in equation.free:
+            found.append(Free(environments.lengths, equation.free["lengths"]))
         free = elements(equations, equation)
         return (*found, Free(free)) if free else tuple(found)
 

@@ -100,7 +100,8 @@ def effect_where_used(
             )
         except FormulaError:
             continue
-    worst = max(found, key=lambda name: found[name], default="")
+    # To six digits, so that of equal changes the first is named on every machine.
+    worst = max(found, key=lambda name: float(f"{found[name]:.6g}"), default="")
     if not worst or found[worst] < HOLDS:
         return {}
     number = equations[worst].number

@@ -22,6 +22,8 @@ _OTHER_FRAME = 1.0
 
 _VANISHES = "holds only because something in it vanishes: not as the substitution that it is"
 
+_ITSELF = "says only that its left side is what it is"
+
 TROUBLES = (BadInput, ValueError, ArithmeticError, LookupError, RecursionError)
 """What a line that can't be read or evaluated raises: it is that line's error alone."""
 
@@ -99,6 +101,14 @@ def _refuse_repetition(catalogue: Catalogue, before: Sequence[str], member: str)
         raise FormulaError("says what the line has said before")
 
 
+def _says_itself(catalogue: Catalogue, left: str, member: str) -> bool:
+    """Whether both sides of a line are one formula: true of anything, so it says nothing."""
+    try:
+        return catalogue.parse(left) == catalogue.parse(member)
+    except FormulaError:
+        return False
+
+
 def _without_frames(
     catalogue: Catalogue, left: str, member: str, environment: Environment, error: Exception
 ) -> float:
@@ -159,6 +169,8 @@ def residual_as_said(
     free: Sequence[Free] = (),
 ) -> Residual:
     """How far members are from the left side where they have to hold, or else where all is free."""
+    if len(members) == 1 and _says_itself(catalogue, left, members[0]):
+        return Residual(math.inf, (math.inf,), _ITSELF)
     found = residual(catalogue, equation, members, environment, left)
     for ground in free:
         if found.value >= HOLDS:

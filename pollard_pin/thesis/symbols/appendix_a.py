@@ -67,7 +67,7 @@ class AppendixA(MotionSymbols):
 
     def _of_J(self, symbol: Symbol, i: str) -> Value | None:
         known = _MATRICES.get(symbol.sub.removesuffix("i"))
-        if known is None or not i:
+        if known is None or not i or symbol.primes:
             return None
         point, angles = known
         columns = [self._slope(point, angle, i) for angle in angles]

@@ -176,7 +176,8 @@ def substitutes(catalogue: Catalogue, equation: Equation) -> bool:
     """Whether a line says nothing but what coefficients are called, or makes some of others.
 
     Its left side is an E, a joint's rate or acceleration or a row k, maybe differentiated by
-    time or q_j; its members have nothing but coefficients, rates and what (2.58) has besides.
+    time or q_j; its members have nothing but coefficients, angles, coordinates, their rates and
+    what (2.58) has besides. An angle where its rate belongs doesn't make it another kind of line.
     """
     if equation.claim or not equation.printed:
         return False
@@ -205,5 +206,5 @@ def _is_known(symbol: Symbol) -> bool:
     if _COEFFICIENT.match(symbol.name):
         return True
     if symbol.base == "theta" and symbol.sub:
-        return bool(symbol.dots) or symbol.sub in ("21", "43", "54")
-    return symbol.name == "Y" or (symbol.base in (*POSE, "q") and symbol.dots > 0)
+        return True
+    return symbol.name == "Y" or symbol.base in (*POSE, "q")

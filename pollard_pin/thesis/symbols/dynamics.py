@@ -79,7 +79,7 @@ class Dynamics(KSymbols):
         return matrix(inertia(self.state, "2")) if plain else None
 
     def _of_J(self, symbol: Symbol, i: str) -> Value | None:
-        if symbol.sub == "tau" and not (symbol.dots or symbol.sup):
+        if symbol.sub == "tau" and not (symbol.primes or symbol.sup):
             rows = [self.rows[name] for name in MOTORS]
             return matrix(np.stack(np.broadcast_arrays(*rows), axis=-2))
         body = self._body(symbol.sub, i)

@@ -40,8 +40,6 @@ class KSymbols(MotionSymbols):
     def _of_k(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.sup or symbol.sub == "0":
             return self._axis(symbol, i)
-        if symbol.dots or symbol.primes:
-            return None
         if symbol.sub in ROW_ANGLES:
             return vector(self.rows[own_name(ROW_ANGLES[symbol.sub], i)])
         if symbol.sub not in VECTORS:

@@ -32,6 +32,8 @@ _SPINS = {
 """Relative angular velocities: frame that turns, angle."""
 
 _COORDINATES = {f"q_{k}": name for k, name in enumerate(POSE, start=1)}
+_PRIMES = {"J": 3, "V": 1, "C": 1, "D": 1, "bb:V": 1}
+"""Letters that the thesis writes with primes, and how many at most."""
 _GENERIC = "2"
 """The body that stands for "a body" in (3.2), (3.3)."""
 
@@ -67,6 +69,12 @@ class MotionSymbols(Positions):
         value = self._answer(symbol, i)
         value = super()._find(symbol, i) if value is None else value
         return self._differentiated(symbol, i) if value is None else value
+
+    def _answer(self, symbol: Symbol, i: str) -> Value | None:
+        """What the method for a symbol's letter says; most know nothing of dots and primes."""
+        dotted = symbol.dots and symbol.base != "q"
+        primed = symbol.primes > _PRIMES.get(symbol.base, 0)
+        return None if dotted or primed else super()._answer(symbol, i)
 
     def partial(self, of: Node, by: Symbol | None, indices: dict[str, str]) -> Value:
         """Derivative of a formula by a coordinate, an angle, a rate or time."""

@@ -138,12 +138,14 @@ class Dynamics(Vectors):
         return self._row(self.lookup(Symbol("N", symbol.sub[:-1]), {}).array)
 
     def _of_V(self, symbol: Symbol, i: str) -> Value | None:
+        if symbol.dots or symbol.sup or symbol.primes > (symbol.sub[-1:] == "j"):
+            return None
         if not symbol.bold and symbol.sub in BODIES:
             return scalar(self._potential(symbol.sub))
         body, j = symbol.sub[:-1], symbol.sub[-1:]
         if symbol.bold and symbol.sub in ("1", "2"):
             return vector(self._foot_side(int(symbol.sub), rates=True))
-        if body not in BODIES or j != "j" or symbol.dots:
+        if body not in BODIES or j != "j":
             return None
         kind = Symbol("N", body)
         if symbol.primes == 0:
@@ -153,7 +155,8 @@ class Dynamics(Vectors):
 
     def _of_C(self, symbol: Symbol, i: str) -> Value | None:
         body, j = symbol.sub[:-1], symbol.sub[-1:]
-        if body not in BODIES or j != "j" or symbol.primes != 1:
+        unknown = symbol.dots or symbol.sup or symbol.primes != 1
+        if body not in BODIES or j != "j" or unknown:
             return None
         weight = -GRAVITY * self.state.parameters.values[f"m_{body}"]
         raised = (self.state.centre(body)[1] * self.state.own("k0")[..., None]).sum(axis=-2)

@@ -8,6 +8,7 @@ import pytest
 from scout_pin.thesis import catalogue
 from scout_pin.thesis.audit import THESIS
 from scout_pin.thesis.claims.gait import Numbers
+from scout_pin.thesis.claims.law import _law_of_motion as law_of_motion
 from scout_pin.thesis.claims.splines import table_rows
 from scout_pin.thesis.claims.texts import components, pieces, points, quantity
 from scout_pin.thesis.symbols.splines import Splines, spline_coefficients
@@ -54,11 +55,14 @@ SLIPS = [
     ("scout:4.3.1:lines_announced", "printed", r"\dot{\mathbf{J}}", r"\mathbf{J}"),
     ("scout:4.5:lines_announced", "printed", r"\tau", r"\omega"),
     ("scout:5:x_B", "printed", "0", "1"),
+    ("scout:5:x_B", "left", "x_B", "y_B"),
     ("scout:5:z_B", "printed", "234.37", "234.38"),
     ("scout:5:theta_B", "printed", "0", "1"),
     ("scout:5:x_i", "printed", "-44.54", "44.54"),
     ("scout:5:5.2", "printed", "2.2333", "2.2433"),
     ("scout:5:5.2", "printed", "< 15", "< 16"),
+    ("scout:5:5.2", "printed", r"& 0 \leq t", "& 0 < t"),
+    ("scout:5:5.2", "printed", r"& 25 \leq", r"& 25 \leq t < 30 \\ 90.76; & 30 \leq"),
     ("scout:5:5.2", "printed", r"\leq 40", "< 40"),
     ("scout:5:5.2", "printed", r"25 \leq t", "25 < t"),
     ("scout:5:5.3", "printed", "- 38.6667", "+ 38.6667"),
@@ -70,10 +74,12 @@ SLIPS = [
     ("scout:6.2:ZMP_x_at_rest", "printed", "Tx", "Ty"),
     ("scout:B.2:x_3i", "printed", "74.60", "74.61"),
     ("scout:B.2:l_2", "printed", "127", "126"),
+    ("scout:B.3:beta_11", "left", "11", "61"),
     ("scout:B.3:beta_31", "printed", "330", "300"),
     ("scout:B.3:beta_8", "printed", "270", "207"),
     ("scout:B.3:beta", "printed", "= 0", "= 1"),
     ("scout:B.4:soles", "printed", "18.15", "18.51"),
+    ("scout:B.4:r_e1^1", "left", "^1", "^2"),
     ("scout:B.4:r_e1^1", "printed", "64.81", "64.18"),
     ("scout:B.4:r_m2^2", "printed", "-26.18", "26.18"),
     ("scout:B.5:m_3i", "printed", "26.67", "26.76"),
@@ -152,6 +158,12 @@ def test_the_law_of_the_forces_is_two_things_its_text_and_what_it_asks_for(groun
     assert verdict(ground, equation.model_copy(update={"right": {1: twisted}})) == "unexplained"
 
 
+def test_the_law_of_motion_fails_where_its_left_side_is_not_pinocchio_s():
+    equation = catalogue()["scout:4:4.1"]
+    found = law_of_motion(catalogue(), lambda: (0.5, "off"), equation)
+    assert found.printed == 0.5
+
+
 # -- how texts are read ---------------------------------------------------------------
 
 
@@ -170,7 +182,8 @@ def test_what_is_no_number_is_refused(text):
 def test_a_vector_is_read_in_the_axes_it_names():
     text = r"-7.69 \times 10^{-3} \mathbf{j}_B - 0.62 \times 10^{-3} \mathbf{k}_B"
     np.testing.assert_allclose(components(text, "B"), [0, -7.69e-3, -0.62e-3])
-    for wrong in (text.replace("_B", "_1", 1), text.replace(r"\mathbf{k}", r"\mathbf{j}"), "2"):
+    again, unsigned = text.replace(r"\mathbf{k}", r"\mathbf{j}"), text.replace("- 0.62", "0.62")
+    for wrong in (text.replace("_B", "_1", 1), again, unsigned, "2"):
         with pytest.raises(FormulaError):
             components(wrong, "B")
 

@@ -89,3 +89,21 @@ def test_every_elementary_rotation_turns_between_the_frames_it_is_said_to():
             step = evaluate(formula, REFERENCES, indices)
             np.testing.assert_allclose(outer @ step.array, inner, atol=1e-12)
             assert step.frames == between
+
+
+@pytest.mark.parametrize(
+    ("axis", "argument", "between"),
+    [
+        ("z", r"\theta_{11}", ("B", "11")),
+        ("z", r"\theta_{11} + \beta_{11}", ("B", "11")),
+        ("z", r"\beta_{11} - \theta_{11}", ("11", "B")),
+        ("x", r"\theta_{11}", None),
+        ("y", r"\theta_{21} + \theta_{11}", None),
+    ],
+)
+def test_a_rotation_turns_between_frames_only_about_its_joints_axis_and_back_if_minus(
+    axis, argument, between
+):
+    node = catalogue().parse(argument)
+    expected = frames.ANY if between is None else frames.turning(between)
+    assert frames.of_rotation(axis, node, {}) == expected

@@ -79,6 +79,14 @@ def test_another_statement_that_lacks_a_term_names_it():
     assert lacking.places == ("symbol 6: b is missing after r",)
 
 
+def test_a_line_whose_sides_are_one_formula_says_nothing_and_does_not_hold():
+    itself = row(printed=r"\left( c \right)")
+    assert (itself.verdict, itself.residual_printed) == ("unexplained", math.inf)
+    assert "its left side" in itself.reason
+    assert row(printed=("a b", "c")).verdict == "holds"  # a chain may come back to its start
+    assert row(printed="c", corrected="a b", **MENDED).verdict == "misprint"
+
+
 def test_every_member_of_a_chain_counts():
     chain = row(printed=("a b", "b + b"))
     assert chain.verdict == "holds"
@@ -95,6 +103,18 @@ def test_what_can_not_be_evaluated_fails_with_its_reason():
     shape = row(printed=r"\mathbf{r}", corrected="a b", **MENDED)
     assert "is a vector of 3 where a scalar belongs" in shape.reason
     assert row(printed="(a b", corrected="a b", **MENDED).verdict == "misprint"
+
+
+def test_a_line_with_nothing_to_evaluate_does_not_hold():
+    assert row(printed="0", imposes=(1,)).verdict == "unexplained"
+
+
+def test_what_is_infinite_or_not_a_number_fails_with_its_reason():
+    for text in (r"\frac{b}{a - a}", r"\frac{a - a}{a - a}"):
+        with np.errstate(all="ignore"):
+            infinite = row(printed=text, corrected="a b", **MENDED)
+        assert infinite.residual_printed == math.inf
+        assert "isn't finite" in infinite.reason
 
 
 def test_a_left_side_can_be_misprinted_too():

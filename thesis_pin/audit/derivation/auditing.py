@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from thesis_pin.audit.derivation.branches import branch
 from thesis_pin.audit.derivation.effects import EFFECTS, Effects
 from thesis_pin.audit.derivation.ground import Derivation
 from thesis_pin.audit.derivation.mends import mends
@@ -114,6 +115,8 @@ class DerivationThesis(Thesis):
             return _POINTS
         if passive := self._passive(row, equations):
             return passive
+        if partly := branch(one, equations, self.references[0]):
+            return partly
         changes = mends(one, equations, self.references)
         return _GUESS[len(changes) > 1].format(what=" | ".join(changes)) if changes else ""
 

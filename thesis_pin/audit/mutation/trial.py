@@ -185,7 +185,8 @@ class Trials:
         try:
             for indices in self.equations.indices(old, new):
                 first, second = (evaluate(one, environment, indices) for one in (old, new))
-                if not first.array.any() or difference(first, second) >= HOLDS:
+                nothing = float(np.abs(first.array).max(initial=0.0)) < HOLDS  # but for rounding
+                if nothing or difference(first, second) >= HOLDS:
                     return False
         except TROUBLES:
             return False

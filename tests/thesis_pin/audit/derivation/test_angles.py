@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from thesis_pin import audit_derivation
+from thesis_pin.audit.derivation.auditing import thesis
 from thesis_pin.audit.document import document
 from thesis_pin.report.writers import json_bytes
 
@@ -101,3 +102,28 @@ def test_an_effect_that_cannot_be_computed_says_so_in_json(audited, printed):
     report = audited((r"\mathbf{q}", printed), (r"\theta_1", r"\theta_1 + \arccos(1 + x^2)"))
     for row in json.loads(json_bytes(document(report)))["rows"]:
         assert any("can't be computed" in str(value) for value in row["effect"].values())
+
+
+D = r"\frac{x^2 + y^2 - l_1^2 - l_2^2}{2 l_1 l_2}"
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        rf"\arccos({D})",
+        rf"\operatorname{{atan2}}(\sqrt{{1 - ({D})^2}}, {D})",
+        rf"\operatorname{{atan2}}(\pm\sqrt{{1 - ({D})^2}}, {D})",
+    ],
+)
+def test_one_branch_of_the_elbow_is_said_to_hold_where_the_elbow_bends_that_way(audited, printed):
+    (row,) = audited((r"\theta_2", printed), with_effects=False).rows
+    assert row.verdict == "unexplained"
+    angles = thesis(FOLDER / "two_link_arm.toml", FOLDER / "two_link_arm.urdf")
+    bent = angles.references[0].states.x[:24, 1] > 0
+    assert row.note.startswith(f"it holds at {bent.sum()} of 24 states")
+
+
+def test_a_slip_beside_a_root_is_no_branch(audited):
+    printed = rf"\operatorname{{atan2}}(\sqrt{{1 - ({D})^2}}, 2 {D})"
+    (row,) = audited((r"\theta_2", printed), with_effects=False).rows
+    assert "states" not in row.note
