@@ -9,7 +9,6 @@ from thesis_pin.audit import kinds
 from thesis_pin.audit.differences import Difference, differences, joined, put_back, term_of
 from thesis_pin.audit.slips import Slip
 from thesis_pin.equations.catalogue import Catalogue, Equation
-from thesis_pin.equations.formula import FormulaError
 
 Test = Callable[[Equation], float]
 """Residual of a line's print; infinite if it can't be evaluated."""
@@ -115,20 +114,12 @@ def _of_texts(catalogue: Catalogue, print_: str, text: str) -> Iterator[tuple[Di
     Two that only read together are one, where the print itself can be read.
     """
     found = list(differences(print_, text))
-    readable = _reads(catalogue, print_)
+    readable = catalogue.reads(print_)
     while found:
         one = found.pop(0)
-        while found and readable and not _reads(catalogue, put_back(print_, text, one)):
+        while found and readable and not catalogue.reads(put_back(print_, text, one)):
             one = joined(one, found.pop(0))
         yield one, put_back(print_, text, one)
-
-
-def _reads(catalogue: Catalogue, text: str) -> bool:
-    try:
-        catalogue.parse(text)
-    except FormulaError:
-        return False
-    return True
 
 
 def _test(residual: Test, equation: Equation) -> float:
