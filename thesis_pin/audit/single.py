@@ -9,7 +9,6 @@ from thesis_pin.audit import kinds
 from thesis_pin.audit.differences import Difference, differences, joined, put_back, term_of
 from thesis_pin.audit.slips import Slip
 from thesis_pin.equations.catalogue import Catalogue, Equation
-from thesis_pin.equations.formula import FormulaError
 
 Test = Callable[[Equation], float]
 """Residual of a line's print; infinite if it can't be evaluated."""
@@ -74,21 +73,18 @@ def _of_member(
 
 def _parts(catalogue: Catalogue, meant: str, text: str) -> list[tuple[Difference, str]]:
     """The few places in which a statement differs; none where it is another one."""
-
-    def local(found: list[Difference]) -> bool:
-        changed = sum(
-            max(b - a, d - c) for (a, b), (c, d) in ((x.printed, x.mended) for x in found)
-        )
-        return len(found) == 1 or changed <= _LOCAL * max(len(meant), len(text))
-
     found = list(differences(meant, text))
-    if "\\text" in text or len(found) > _PLACES or not local(found):
+    if "\\text" in text or len(found) > _PLACES:
+        return []
+    changed = sum(max(b - a, d - c) for (a, b), (c, d) in ((x.printed, x.mended) for x in found))
+    if len(found) > 1 and changed > _LOCAL * max(len(meant), len(text)):
         return []
     parts = list(_of_texts(catalogue, meant, text))
     if len(parts) == 1 and len(found) == 2 and not (parts[0][0].before or parts[0][0].after):
         # Brackets around all of it: neither reads alone, and what lies between is right.
         return [(one, put_back(meant, text, one)) for one in found]
-    return parts if local([one for one, _ in parts]) else []
+    touched = sum(one.printed[1] - one.printed[0] for one, _ in parts)
+    return parts if len(parts) == 1 or touched <= _LOCAL * len(meant) else []
 
 
 _LOCAL = 0.45
@@ -115,20 +111,12 @@ def _of_texts(catalogue: Catalogue, print_: str, text: str) -> Iterator[tuple[Di
     Two that only read together are one, where the print itself can be read.
     """
     found = list(differences(print_, text))
-    readable = _reads(catalogue, print_)
+    readable = catalogue.reads(print_)
     while found:
         one = found.pop(0)
-        while found and readable and not _reads(catalogue, put_back(print_, text, one)):
+        while found and readable and not catalogue.reads(put_back(print_, text, one)):
             one = joined(one, found.pop(0))
         yield one, put_back(print_, text, one)
-
-
-def _reads(catalogue: Catalogue, text: str) -> bool:
-    try:
-        catalogue.parse(text)
-    except FormulaError:
-        return False
-    return True
 
 
 def _test(residual: Test, equation: Equation) -> float:

@@ -126,13 +126,15 @@ class Thesis:
                 return
             begin = functools.partial(_begin, self, given, with_effects)
             with closing(shared(_rows, _tasks(chosen), workers, begin)) as results:
-                for row in itertools.chain.from_iterable(results):
-                    rows[row.id] = row
+                for row, used in itertools.chain.from_iterable(results):
+                    rows[row.id], here.uses[row.id] = row, used
                     yield equations[row.id]
 
         with closing(judged()) as each:
             for _ in progress(each, len(chosen)) if progress else each:
                 pass
+        if with_effects:
+            rows = {name: here.weighed(row) for name, row in rows.items()}
         return AuditReport(
             self.name,
             tuple(rows[equation.id] for equation in chosen),
@@ -145,20 +147,31 @@ class Thesis:
 
 
 class _Judge:
-    """Judges lines of a thesis; what their checks and effects share is worked out once."""
+    """Judges lines of a thesis; what their checks and effects share is worked out once.
+
+    Attributes:
+        uses: Lines that a line uses, of those that are known to it already.
+    """
 
     def __init__(self, thesis: Thesis, equations: Catalogue, with_effects: bool) -> None:
         self.name, self.equations, self.with_effects = thesis.name, equations, with_effects
         self.ground = thesis.ground(equations)
+        self.uses: dict[str, tuple[str, ...]] = {}
 
     def row(self, equation: Equation) -> Row:
-        """The audit's answer on one equation."""
+        """The audit's answer on one equation, all but how much a failing one matters."""
         environment = self.ground.references(equation)
         ground, free = self.ground, self._free(equation)
         row = judge(self.equations, equation, environment, ground.claims, self.name, free)
-        if not row.failed or not self.with_effects:
+        if not row.failed or not self.with_effects or row.effect:
             return row
-        effect = row.effect or self._effect(equation)
+        return replace(row, effect=self._effect(equation))
+
+    def weighed(self, row: Row) -> Row:
+        """A failing row with how much it matters, and why where nothing changes."""
+        if not row.failed:
+            return row
+        equation, effect = self.equations[row.id], row.effect
         nothing = without_effect(equation, row, effect, lambda: self._users[row.id])
         if not effect and row.residual_printed == math.inf and not equation.no_effect:
             effect = {"this line": "can't be computed"}
@@ -169,7 +182,9 @@ class _Judge:
 
     @functools.cached_property
     def _users(self) -> Mapping[str, tuple[str, ...]]:
-        return used_by(uses(self.equations))
+        unknown = [e.id for e in self.equations.equations if e.id not in self.uses]
+        found = {**self.uses, **uses(self.equations, unknown)}
+        return used_by({e.id: found[e.id] for e in self.equations.equations})
 
     def _free(self, equation: Equation) -> Sequence[Free]:
         try:
@@ -218,6 +233,9 @@ def _begin(thesis: Thesis, equations: Catalogue | None, with_effects: bool) -> N
     _here[:] = [_Judge(thesis, equations or thesis.catalogue(), with_effects)]
 
 
-def _rows(names: list[str]) -> list[Row]:
+def _rows(names: list[str]) -> list[tuple[Row, tuple[str, ...]]]:
+    """Rows, each with the lines that it uses: a process has just read those that it judges."""
     (judge,) = _here
-    return [judge.row(judge.equations[name]) for name in names]
+    rows = [judge.row(judge.equations[name]) for name in names]
+    used = uses(judge.equations, names) if judge.with_effects else {}
+    return [(row, used.get(row.id, ())) for row in rows]

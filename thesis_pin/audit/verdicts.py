@@ -163,6 +163,9 @@ def _compared(
     answer = verdict(printed.value, mended.value if mended else None, physical=bool(equation.right))
 
     def alone(changed: Equation) -> float:
+        numbered = enumerate(changed.printed, start=1)
+        if not all(catalogue.reads(text) for k, text in numbered if k not in changed.imposes):
+            return math.inf
         return found(changed, changed.printed, changed.left).value
 
     return _with(

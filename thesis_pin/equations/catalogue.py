@@ -19,7 +19,9 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from thesis_pin.equations import formula as nt
+from thesis_pin.equations.brackets import balanced
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
+from thesis_pin.equations.layout import plain
 from thesis_pin.equations.notation import Notation
 from thesis_pin.model.specification import Key, Strict, read_toml
 
@@ -227,6 +229,16 @@ class Catalogue:
         if isinstance(found, FormulaError):
             raise copy.copy(found)  # the one that is kept would keep all frames it passed
         return found
+
+    def reads(self, formula: str) -> bool:
+        """Whether a formula is a single expression, where nobody asks why it isn't."""
+        if formula not in self._parsed and not balanced(plain(formula)):
+            return False
+        try:
+            self.parse(formula)
+        except FormulaError:
+            return False
+        return True
 
     def _read(self, formula: str) -> Node | FormulaError:
         try:

@@ -234,7 +234,7 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return _Group(_open(parts[0]))
 
     def read(self, parts: list[Token]) -> Node:
-        return self.brackets.node(parts[0])
+        return _Group(self.brackets.node(parts[0]))
 
     def row(self, parts: list[Any]) -> Node:
         cells = tuple(_open(part) for part in parts if not isinstance(part, Token))

@@ -126,7 +126,7 @@ def test_a_term_is_counted_in_the_outermost_sum():
 def test_a_wrong_statement_is_named_where_it_differs_unless_it_is_another_one(
     printed, right, found
 ):
-    slips = row(left=right, printed=printed, right=right).slips
+    slips = row(left=f"1 ({right})", printed=printed, right=right).slips
     assert [(slip.printed, slip.corrected) for slip in slips] == found
     assert {slip.kind for slip in slips} == {"statement"}
     assert all(slip.residual >= HOLDS for slip in slips)

@@ -1,8 +1,9 @@
-"""A formula whose long brackets are read once says what it says when read whole."""
+"""A formula whose long brackets and terms are read once says what it says when read whole."""
 
 import pytest
 
 from thesis_pin.equations.brackets import Brackets
+from thesis_pin.equations.catalogue import Catalogue
 from thesis_pin.equations.formula import FormulaError, Number, Product, Sum, Symbol
 from thesis_pin.equations.notation import Notation
 
@@ -62,3 +63,50 @@ def test_what_is_kept_is_bounded(monkeypatch):
     assert brackets.node(shortened[-1][1:-1]) == Symbol("d" * 30)
     with pytest.raises(ValueError, match="wasn't read"):
         brackets.node(shortened[0][1:-1])
+
+
+TERM = r"2 a_1 b_2 c_3 \mathbf{k}_{12}^{0} "
+ODD = [
+    rf"({TERM} + b) + {TERM}",  # a sum in brackets stays a term of its own
+    rf"-{TERM} - ({TERM} - {TERM})",
+    rf"\| \mathbf{{v}}_1 + {TERM} + \mathbf{{w}} \|",  # signs between bars
+    rf"\frac{{{TERM} + {TERM}}}{{2 b_2 \left({TERM} - d_4\right)}} \pm {TERM}",
+    rf"\begin{{bmatrix}} {TERM} & 0 \\ -{TERM} + {TERM} & b \end{{bmatrix}} + {TERM}",
+    rf"\left[ {TERM}, \; {TERM} - b \right]",
+    rf"x = {TERM} + \sum_{{k=1}}^{{3}} {TERM} - {TERM}",
+    rf"\frac{{\partial}}{{\partial q_1}} \left({TERM} + {TERM}\right) \times \mathbf{{b}} + {TERM}",
+]
+
+
+@pytest.mark.parametrize("formula", ODD)
+def test_a_formula_of_long_terms_is_what_it_is_when_read_whole(formula, monkeypatch):
+    found = Notation(words=("parts",)).parse(formula)
+    monkeypatch.setattr("thesis_pin.equations.brackets._LONG", 10**6)
+    assert found == Notation(words=("whole",)).parse(formula)
+
+
+def test_a_term_that_two_formulas_share_is_read_once():
+    (first,), (second,) = NOTATION.parse(f"{TERM} + a"), NOTATION.parse(f"b - {TERM}")
+    assert first.terms[0][1] is second.terms[1][1]
+
+
+@pytest.mark.parametrize("formula", [*ODD, f"({LONG}", f"{LONG})", "a + ) b (", "a +", "a = b", ""])
+def test_whether_a_formula_reads_is_whether_it_can_be_read(formula):
+    catalogue = Catalogue((), NOTATION)
+    answer = catalogue.reads(formula)
+    try:
+        catalogue.parse(formula)
+    except FormulaError:
+        assert not answer
+    else:
+        assert answer
+
+
+@pytest.mark.parametrize("formula", [f"2 ({LONG}))", f"2 (({LONG})"])
+def test_where_brackets_do_not_close_nothing_is_read(formula, monkeypatch):
+    def refuse(*_):
+        raise AssertionError("read")
+
+    catalogue = Catalogue((), NOTATION)
+    monkeypatch.setattr(Catalogue, "parse", refuse)
+    assert not catalogue.reads(formula)
