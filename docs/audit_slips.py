@@ -29,7 +29,8 @@ aren't counted, and symbols that the thesis uses are taken first. Each slip is
 - an **identity**: the line says the same with it, at the audit's states and where every symbol
   is an independent random number of its shape (`2 · 0`, `−(b − b)`);
 - the **same**: one symbol gave way to another name of the same thing, equal at every state of
-  every robot (axes of joints that are parallel by construction): the line is as true as it was;
+  every robot (frames and axes that are parallel by construction), or, where a line says that
+  something is zero, to another thing that is: the line is as true as it was;
 - **missed**: none of these; each is listed.
 """
 

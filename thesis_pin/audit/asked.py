@@ -28,6 +28,7 @@ def asked(name: str, catalogue: Catalogue, robot: str) -> tuple[list[str], str]:
     counted = re.fullmatch(r"\(?([\w.]+)\.(\d+)\)?", name)
     if counted:
         lines = _found(counted[1], catalogue, robot, _plain, _section)
+        lines.sort(key=lambda line: catalogue[line].line)
         number = int(counted[2])
         printed = any(catalogue[line].number for line in lines)
         if not printed and 0 < number <= len(lines):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import weakref
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -133,18 +134,20 @@ def _member(
         yield difference(first, evaluate(sides[1], environment, indices))
 
 
-_lefts: dict[tuple[object, ...], tuple[Environment, Value]] = {}
+_lefts: dict[tuple[object, ...], tuple[weakref.ref[Environment], Value]] = {}
 """Left sides evaluated last: a line's members and slips are all held against one."""
 _KEPT = 24
 
 
 def _left(text: str, node: Node, environment: Environment, indices: dict[str, str]) -> Value:
     key = (id(environment), text, node, *indices.items())
-    if key not in _lefts:
+    kept = _lefts.pop(key, None)
+    if kept is None or kept[0]() is not environment:  # another one, where a dead one was
         while len(_lefts) >= _KEPT:
             _lefts.pop(next(iter(_lefts)), None)
-        _lefts[key] = environment, evaluate(node, environment, indices)
-    return _lefts[key][1]
+        kept = weakref.ref(environment), evaluate(node, environment, indices)
+    _lefts[key] = kept
+    return kept[1]
 
 
 @dataclass(frozen=True)

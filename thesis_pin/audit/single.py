@@ -73,21 +73,18 @@ def _of_member(
 
 def _parts(catalogue: Catalogue, meant: str, text: str) -> list[tuple[Difference, str]]:
     """The few places in which a statement differs; none where it is another one."""
-
-    def local(found: list[Difference]) -> bool:
-        changed = sum(
-            max(b - a, d - c) for (a, b), (c, d) in ((x.printed, x.mended) for x in found)
-        )
-        return len(found) == 1 or changed <= _LOCAL * max(len(meant), len(text))
-
     found = list(differences(meant, text))
-    if "\\text" in text or len(found) > _PLACES or not local(found):
+    if "\\text" in text or len(found) > _PLACES:
+        return []
+    changed = sum(max(b - a, d - c) for (a, b), (c, d) in ((x.printed, x.mended) for x in found))
+    if len(found) > 1 and changed > _LOCAL * max(len(meant), len(text)):
         return []
     parts = list(_of_texts(catalogue, meant, text))
     if len(parts) == 1 and len(found) == 2 and not (parts[0][0].before or parts[0][0].after):
         # Brackets around all of it: neither reads alone, and what lies between is right.
         return [(one, put_back(meant, text, one)) for one in found]
-    return parts if local([one for one, _ in parts]) else []
+    touched = sum(one.printed[1] - one.printed[0] for one, _ in parts)
+    return parts if len(parts) == 1 or touched <= _LOCAL * len(meant) else []
 
 
 _LOCAL = 0.45

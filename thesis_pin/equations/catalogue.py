@@ -8,6 +8,7 @@ is computed (:mod:`thesis_pin.audit.verdicts`).
 
 from __future__ import annotations
 
+import copy
 import itertools
 import re
 from collections.abc import Iterator, Sequence
@@ -226,7 +227,7 @@ class Catalogue:
             self._parsed[formula] = self._read(formula)
         found = self._parsed[formula]
         if isinstance(found, FormulaError):
-            raise found
+            raise copy.copy(found)  # the one that is kept would keep all frames it passed
         return found
 
     def reads(self, formula: str) -> bool:
@@ -243,7 +244,7 @@ class Catalogue:
         try:
             sides = self.notation.parse(formula)
         except FormulaError as error:
-            return error
+            return copy.copy(error)  # without its traceback, which holds the parser's stack
         if len(sides) > 1:
             return FormulaError("is an equation where an expression belongs")
         return sides[0]

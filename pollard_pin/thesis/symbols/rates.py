@@ -75,6 +75,8 @@ def _quotient(
     """From tan θ = sign · above / below, two elements of one transform."""
 
     def relation(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
+        """Its denominator, and its numerator along what moves."""
+
         def up(s: State) -> Any:
             return element(s, letter, i, *above)
 

@@ -71,6 +71,7 @@ def _initial_angles(equation: Equation) -> ClaimResult:
         raise unreadable(equation.left)
 
     def residual(text: str, left: str) -> float:
+        """Largest difference from the tables' first row, relative."""
         found = re.fullmatch(r"\(((?:(?:\\pm |\\mp )?[\d.]+(?:, |(?=\)))){6})\)°", text)
         if not found:
             raise unreadable(text)

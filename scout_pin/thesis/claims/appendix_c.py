@@ -65,6 +65,7 @@ def _pieces_of_c(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     splines = Splines()
 
     def residual(text: str, left: str) -> float:
+        """How far the formulas are from the pieces, which have to follow one another."""
         inside = re.fullmatch(r"\\begin\{cases\}(.*)\\end\{cases\}", text)
         if not inside or equation.left != "S(t)":
             raise unreadable(text)

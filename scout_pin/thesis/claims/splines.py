@@ -147,6 +147,7 @@ def _program_spline(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     apart: list[float] = []
 
     def residual(text: str, left: str) -> float:
+        """Largest difference of coefficients, and of the values at the end, beyond rounding."""
         own, worst = pieces(text), 0.0
         beside = [piece for piece in own if piece.start < printed[-1].end]
         if len(beside) != len(printed):

@@ -6,21 +6,16 @@ import numpy as np
 import pytest
 
 from pollard_pin.thesis import catalogue
-from pollard_pin.thesis.audit import THESIS
 from pollard_pin.thesis.symbols.axes import AnyAxes, slopes
 from thesis_pin.audit.residuals import residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import judge
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.numeric.rotations import rotation
 
+from .conftest import verdict, with_slip
+
 TURN_54 = r"\mathbf{R}_z(\theta_{54})"
 STEP = 1e-6
-
-
-@pytest.fixture(scope="module")
-def ground():
-    return THESIS.ground(catalogue())
 
 
 @pytest.fixture(scope="module")
@@ -60,18 +55,10 @@ def value(symbols, text, i=""):
     ],
 )
 def test_a_slip_that_right_angles_hide_is_seen(ground, identity, old, new):
-    equation = catalogue()[f"pollard:{identity}"]
-    assert any(old in text for text in equation.printed)
-    printed = tuple(text.replace(old, new, 1) for text in equation.printed)
-    changed = equation.model_copy(update={"printed": printed})
-    here = ground.references(equation)
-
-    def verdict(of, free):
-        return judge(catalogue(), of, here, ground.claims, "", free).verdict
-
-    assert verdict(equation, ground.substituted(equation)) == "holds"
-    assert verdict(changed, ground.substituted(changed)) == "unexplained"
-    assert verdict(changed, ()) == "holds"  # the mechanism's right angles hide it
+    changed = with_slip(identity, old, new)
+    assert verdict(ground, catalogue()[changed.id]) == "holds"
+    assert verdict(ground, changed) == "unexplained"
+    assert verdict(ground, changed, free=()) == "holds"  # the mechanism's right angles hide it
 
 
 def test_every_line_of_slopes_holds_there_as_it_should_be_printed(symbols):

@@ -7,7 +7,7 @@ from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.model import load
 from pollard_pin.motion.curves import appendix_b
 from pollard_pin.thesis import catalogue
-from pollard_pin.thesis.audit import THESIS, audit
+from pollard_pin.thesis.audit import audit
 from pollard_pin.thesis.claims.general import moving_coefficients
 from pollard_pin.thesis.claims.given import Given, thesis_robot, value_of
 from pollard_pin.thesis.claims.inertia import impossibility, link_of, spread
@@ -24,11 +24,6 @@ SECTIONS = ("2.1", "2.2", "4.1", "4.4", "B")
 def rows():
     wanted = [e.id for e in catalogue().equations if e.claim or e.section in SECTIONS]
     return {row.id: row for row in audit(only=wanted).rows}
-
-
-@pytest.fixture(scope="module")
-def ground():
-    return THESIS.ground(catalogue())
 
 
 @pytest.fixture

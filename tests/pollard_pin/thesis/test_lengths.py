@@ -4,17 +4,10 @@ import numpy as np
 import pytest
 
 from pollard_pin.thesis import catalogue
-from pollard_pin.thesis.audit import THESIS
 from pollard_pin.thesis.symbols.lengths import Lengths
-from thesis_pin.audit.verdicts import judge
 from thesis_pin.equations.formula import FormulaError, Symbol
 
-GROUND = THESIS.ground(catalogue())
-
-
-def verdict(equation):
-    here, free = GROUND.references(equation), GROUND.substituted(equation)
-    return judge(catalogue(), equation, here, GROUND.claims, "", free).verdict
+from .conftest import verdict
 
 
 @pytest.mark.parametrize(
@@ -31,14 +24,14 @@ def verdict(equation):
         ("2.7.1:2.94", "left", "_3", "_4"),
     ],
 )
-def test_one_vector_in_the_others_place_is_seen(name, field, old, new):
+def test_one_vector_in_the_others_place_is_seen(ground, name, field, old, new):
     equation = catalogue()[f"pollard:{name}"]
     text = equation.left if field == "left" else equation.printed[0]
     slip = text.replace(old, new, 1)
     assert slip != text
     changed = equation.model_copy(update={field: slip if field == "left" else (slip,)})
-    assert verdict(equation) == "holds"
-    assert verdict(changed) == "unexplained"
+    assert verdict(ground, equation) == "holds"
+    assert verdict(ground, changed) == "unexplained"
 
 
 def test_two_and_two_are_equally_long_and_nothing_else_of_them_is_equal():

@@ -4,17 +4,14 @@ import numpy as np
 import pytest
 
 from pollard_pin.thesis import catalogue
-from pollard_pin.thesis.audit import THESIS, Environments, states
+from pollard_pin.thesis.audit import states
 from pollard_pin.thesis.symbols.loops import opening
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import judge, residual
+from thesis_pin.audit.verdicts import residual
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.values import STEP
 
-
-@pytest.fixture(scope="module")
-def environments():
-    return Environments()
+from .conftest import verdict, with_slip
 
 
 def test_slanted_states_close_every_loop_and_keep_them_closed():
@@ -50,16 +47,12 @@ def test_what_vanishes_on_the_thesis_s_robots_does_not_on_slanted_ones(environme
         ("3.5.2:bbC_1ij", r"\mathbf{g}", r"2 \mathbf{g}"),
     ],
 )
-def test_a_slip_in_it_is_seen(environments, identity, old, new):
-    equation = catalogue()[f"pollard:{identity}"]
-    assert any(old in text for text in equation.printed)
-    printed = tuple(text.replace(old, new, 1) for text in equation.printed)
-    slipped = equation.model_copy(update={"printed": printed})
-    before = residual(catalogue(), slipped, printed, environments.closed, equation.left)
+def test_a_slip_in_it_is_seen(ground, environments, identity, old, new):
+    slipped = with_slip(identity, old, new)
+    members = slipped.printed
+    before = residual(catalogue(), slipped, members, environments.closed, slipped.left)
     assert before.value < HOLDS
-    environment = environments.of(slipped)
-    ground = THESIS.ground(catalogue())
-    assert judge(catalogue(), slipped, environment, ground.claims, "").verdict == "unexplained"
+    assert verdict(ground, slipped, environments.of(slipped), free=()) == "unexplained"
 
 
 def test_the_line_that_lays_the_offset_along_the_axis_is_judged_as_built(environments):

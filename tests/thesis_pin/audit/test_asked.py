@@ -49,6 +49,8 @@ def test_a_number_of_an_appendix_without_numbers_counts_its_lines_and_says_so():
         found, said = asked(name, pollard(), "pollard")
         assert found == ["pollard:D:V_1"]
         assert said == "appendix D prints no numbers: pollard:D:V_1 is its line 1"
+    (first,), _ = asked("D.1", scout(), "scout")
+    assert scout()[first].line == min(e.line for e in scout().equations if e.section == "D")
     assert asked("D.999", pollard(), "pollard") == ([], "")
     assert asked("D.0", pollard(), "pollard") == ([], "")
 

@@ -1,5 +1,8 @@
 """Equations as data: what a file may say, and what is computed from it."""
 
+import gc
+import weakref
+
 import pytest
 
 from thesis_pin.equations.catalogue import Catalogue, Equation, EquationFile
@@ -101,3 +104,21 @@ def test_the_first_definition_of_a_symbol_counts_and_indices_are_expanded():
 def test_an_equation_is_no_expression():
     with pytest.raises(FormulaError, match="where an expression belongs"):
         catalogue().parse("a = b")
+
+
+def test_a_formula_that_cannot_be_read_keeps_nothing_alive():
+    """Its error was raised again and again, and held the frames of everyone who asked."""
+
+    class Large:
+        pass
+
+    def asking(large):
+        with pytest.raises(FormulaError):
+            catalogue.parse("a +")
+        return weakref.ref(large)
+
+    catalogue = Catalogue([], Notation())
+    gone = [asking(Large()) for _ in range(2)]
+    gc.collect()
+    assert [one() for one in gone] == [None, None]
+    assert all(kept.__traceback__ is None for kept in catalogue._parsed.values())

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from thesis_pin.audit.errata.formulas import math
+from thesis_pin.audit.errata.lost import lost
 from thesis_pin.audit.finger import slip_text
 from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.languages.phrases import Phrases
@@ -32,7 +33,7 @@ def errata(report: AuditReport, command: str, say: Phrases = _ENGLISH) -> str:
         *_summary(report, say),
         *_counts(report, say),
     ]
-    order = {row.id: k for k, row in enumerate(report.rows)}
+    order = {row.id: (row.line, k) for k, row in enumerate(report.rows)}
     failures = sorted(report.failures, key=lambda row: order[row.id])
     shared = [
         (cause, rows)
@@ -47,6 +48,7 @@ def errata(report: AuditReport, command: str, say: Phrases = _ENGLISH) -> str:
     for row in failures:
         if row.id not in grouped:
             lines += _entry(row, say)
+    lines += lost(report, say)
     return "\n".join(lines).rstrip() + "\n"
 
 

@@ -35,7 +35,10 @@ def try_slips(thesis: Thesis, *, share: float = 1.0, seed: int = 1, jobs: int = 
     parts = [names[k : k + _TOGETHER] for k in range(0, len(names), _TOGETHER)]
     if jobs < 2 or len(parts) < 2:
         _begin(thesis, seed)
-        return [trial for part in parts for trial in _trials(part)]
+        try:
+            return [trial for part in parts for trial in _trials(part)]
+        finally:
+            _here.clear()  # its states take hundreds of megabytes
     order = {name: k for k, name in enumerate(names)}
     begin = functools.partial(_begin, thesis, seed)
     with closing(shared(_trials, parts, min(jobs, len(parts)), begin)) as results:

@@ -106,12 +106,16 @@ class Trials:
         for number, slip in itertools.islice(pool, self.each * _LOOKED_AT):
             node = None if equation.claim else self._parsed(slip.text)
             if not equation.claim and node is None:
+                self.equations.forget(slip.text)
                 continue
             strange = node is not None and not set(_symbol_names(node)) <= self._known
             (others if strange else best).append((number, slip))
             if len(best) == self.each:
                 break
-        yield from (best + others)[: self.each]
+        chosen = (best + others)[: self.each]
+        for _, slip in (best + others)[self.each :]:
+            self.equations.forget(slip.text)
+        yield from chosen
 
     def _parsed(self, text: str) -> Node | None:
         try:

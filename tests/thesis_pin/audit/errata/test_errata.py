@@ -79,6 +79,14 @@ def test_lines_of_a_cause_stand_together_and_the_others_in_the_thesiss_order():
     assert "`1.2:h`" not in text
 
 
+def test_the_order_is_that_of_the_text_wherever_a_lines_data_stand():
+    lost = [replace(LOST, id=f"robot:1.2:G_{n}", line=n) for n in (50, 20)]
+    rows = (failing("late", line=40), failing("early", line=9), *lost)
+    text = errata(AuditReport("Scout thesis", rows, (), "", {}), "make it")
+    order = ["`1.2:early`", "`1.2:late`", "`1.2:G_20`", "`1.2:G_50`"]
+    assert sorted(order, key=text.index) == order
+
+
 def test_a_reason_that_all_lines_of_a_cause_share_is_given_once():
     text = errata(REPORT, "make it")
     assert "Of all 2 lines: the sign is lost." in text
@@ -95,6 +103,38 @@ def test_the_first_page_counts_by_verdict_kind_and_severity():
     assert "| sign | 1 | 1 | 3 |" in first
 
 
+LOST = Row(
+    "robot:1.2:G_3",
+    "Thesis, 1.2",
+    (),
+    "G_3",
+    (),
+    {},
+    "rebuilt",
+    reason="its end is not in the text",
+    note="rebuilt: sibling G_2, as its twin; what (2.3) has besides",
+    line=21,
+    rebuilt=("|x|",),
+)
+
+
+def test_lost_lines_are_listed_with_what_follows_for_them_and_from_what():
+    long = replace(LOST, id="robot:1.2:G_4", left="G_4", rebuilt=("a + " * 60 + "b",), note="")
+    gone = replace(LOST, id="robot:1.2:G_5", left="G_5", rebuilt=(), verdict="illegible")
+    text = errata(AuditReport("Scout thesis", (*ROWS, LOST, long, gone), (), "", {}), "make it")
+    table = text.partition("## Lost lines")[2]
+    assert "Of 3 lines the text" in table
+    assert "for 2 of them" in table
+    assert (
+        r"| `1.2:G_3` | 21 | its end is not in the text | $G_3 = \|x\|$ "
+        "| sibling G_2, as its twin; what (2.3) has besides |"
+    ) in table
+    assert "| `1.2:G_4` | 21 | its end is not in the text | $G_4$ = … |  |" in table
+    assert "| `1.2:G_5` | 21 | its end is not in the text | $G_5$ = … |" in table
+    assert "rebuilt:" not in table
+    assert "Lost lines" not in errata(REPORT, "make it")
+
+
 def test_the_same_errata_are_said_in_spanish(tmp_path):
     file = tmp_path / "spanish.toml"
     pairs = {
@@ -105,12 +145,20 @@ def test_the_same_errata_are_said_in_spanish(tmp_path):
         "the sign is lost": "se perdió el signo",
         "nothing uses it": "nada lo usa",
         "torque": "torque",
+        "its end is not in the text": "su final no está en el texto",
+        "sibling {name}, as its twin; what {n} has besides": "su hermano {name}; lo que {n} tiene",
     }
     entries = [f'[[phrase]]\nen = "{en}"\nes = "{es}"\n' for en, es in pairs.items()]
     file.write_text("".join(entries), encoding="utf-8")
     say = Phrases.spanish(file)
-    text = errata(REPORT, "make it", say)
+    lost = AuditReport("Scout thesis", (*ROWS, LOST), (), "States: 3.", {"slip": CAUSE})
+    text = errata(lost, "make it", say)
     assert say.missing == set()
+    assert "## Renglones perdidos" in text
+    assert (
+        "su final no está en el texto | $G_3 = \\|x\\|$ | su hermano G_2; lo que (2.3) tiene |"
+        in text
+    )
     assert text.startswith("# Erratas de la tesis Scout\n")
     said = entry(text, "late")
     assert "errata, de la digitalización, cambia un resultado." in said
