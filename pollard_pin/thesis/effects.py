@@ -114,8 +114,12 @@ def _one_behind_the_other(first: References, second: References) -> References:
         return {name: np.concatenate([one[name], other[name]]) for name in one if name in other}
 
     a, b = first.state, second.state
-    parts = ("constants", "variables", "rates", "accelerations")
-    state = State(**{part: joined(getattr(a, part), getattr(b, part)) for part in parts})
+    state = State(
+        joined(a.constants, b.constants),
+        joined(a.variables, b.variables),
+        joined(a.rates, b.rates),
+        joined(a.accelerations, b.accelerations),
+    )
     driven = ((getattr(one.drive, f.name) for one in (first, second)) for f in fields(Drive))
     return References(state, Drive(*(np.concatenate([*pair]) for pair in driven)))
 
