@@ -1,5 +1,6 @@
 """``view --film`` and ``--picture``: what is written, what is refused, Ctrl-C."""
 
+import contextlib
 import io
 import json
 import os
@@ -143,17 +144,23 @@ def below(process):
     """Process numbers of everything that a process has started, its children's included."""
     found = []
     for task in Path(f"/proc/{process}/task").glob("*/children"):
-        for child in map(int, task.read_text().split()):
+        for child in map(int, told(task).split()):
             found += [child, *below(child)]
     return found
 
 
+def told(entry):
+    """What an entry of /proc says: nothing where its process has ended since it was listed."""
+    try:
+        return entry.read_bytes()
+    except OSError:
+        return b""
+
+
 def running(process):
     """Whether a process is there and isn't a mere entry for its parent."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
+    state = told(Path(f"/proc/{process}/stat")).rpartition(b")")[2].split()
+    return bool(state) and state[0] != b"Z"
 
 
 @pytest.fixture
@@ -163,20 +170,34 @@ def short():
         yield Path(folder)
 
 
+@pytest.fixture
+def begin(short):
+    """Start a command in a session of its own; a test that fails leaves none of it behind."""
+    processes = []
+
+    def start(words, **settings):
+        processes.append(subprocess.Popen(words, start_new_session=True, **settings))
+        return processes[-1]
+
+    yield start
+    for process in processes:
+        with process, contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+
+
 @pytest.mark.browser
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="reads /proc")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_ctrl_c_leaves_no_file_and_no_process(number, needs_browser, short):
+def test_ctrl_c_leaves_no_file_and_no_process(number, needs_browser, short, begin):
     kept = short / "walk.mp4"
     kept.write_bytes(b"an older film")
-    process = subprocess.Popen(
+    process = begin(
         [
             *(sys.executable, "-c", CALL.format(MODULES["scout-pin"]), "view"),
             *("--film", kept, "--fps", "120", "--size", "320x200"),
         ],
         env=os.environ | {"PYTHONPATH": str(ROOT), "TMPDIR": str(short)},
         stderr=subprocess.PIPE,
-        start_new_session=True,
     )
     deadline = time.monotonic() + 120
     ffmpeg = []
@@ -185,7 +206,7 @@ def test_ctrl_c_leaves_no_file_and_no_process(number, needs_browser, short):
         assert time.monotonic() < deadline
         time.sleep(0.05)
         started = below(process.pid)
-        ffmpeg = [one for one in started if b"ffmpeg" in Path(f"/proc/{one}/cmdline").read_bytes()]
+        ffmpeg = [one for one in started if b"ffmpeg" in told(Path(f"/proc/{one}/cmdline"))]
     if number == signal.SIGINT:
         os.killpg(process.pid, number)  # as a terminal does
     else:
