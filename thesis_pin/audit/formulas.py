@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
-from thesis_pin.equations.layout import plain
+from thesis_pin.equations.parsing.layout import plain
 
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _DOTS = {"˙": "\u0307", "¨": "\u0308"}

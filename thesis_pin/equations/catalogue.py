@@ -19,10 +19,10 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from thesis_pin.equations import formula as nt
-from thesis_pin.equations.brackets import balanced
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
-from thesis_pin.equations.layout import plain
 from thesis_pin.equations.notation import Notation
+from thesis_pin.equations.parsing.brackets import balanced
+from thesis_pin.equations.parsing.layout import plain
 from thesis_pin.model.specification import Key, Strict, read_toml
 
 Edition = Literal["corrected", "printed"]

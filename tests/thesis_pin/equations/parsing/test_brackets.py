@@ -2,10 +2,10 @@
 
 import pytest
 
-from thesis_pin.equations.brackets import Brackets
 from thesis_pin.equations.catalogue import Catalogue
 from thesis_pin.equations.formula import FormulaError, Number, Product, Sum, Symbol
 from thesis_pin.equations.notation import Notation
+from thesis_pin.equations.parsing.brackets import Brackets
 
 LONG = "a_1 + b_2 c_3 + d_4 e_5 + f_6 g_7"
 TERMS = Sum(
@@ -56,7 +56,7 @@ def test_numbers_of_brackets_can_not_be_written_by_hand():
 
 
 def test_what_is_kept_is_bounded(monkeypatch):
-    monkeypatch.setattr("thesis_pin.equations.brackets._KEPT", 2)
+    monkeypatch.setattr("thesis_pin.equations.parsing.brackets._KEPT", 2)
     brackets = Brackets(lambda text: Symbol(text))
     inside = [letter * 30 for letter in "abcd"]
     shortened = [brackets.shortened(f"({text})") for text in inside]
@@ -81,7 +81,7 @@ ODD = [
 @pytest.mark.parametrize("formula", ODD)
 def test_a_formula_of_long_terms_is_what_it_is_when_read_whole(formula, monkeypatch):
     found = Notation(words=("parts",)).parse(formula)
-    monkeypatch.setattr("thesis_pin.equations.brackets._LONG", 10**6)
+    monkeypatch.setattr("thesis_pin.equations.parsing.brackets._LONG", 10**6)
     assert found == Notation(words=("whole",)).parse(formula)
 
 
