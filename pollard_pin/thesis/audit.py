@@ -29,8 +29,8 @@ from pollard_pin.thesis.symbols.elements import elements
 from pollard_pin.thesis.symbols.lengths import Lengths
 from pollard_pin.thesis.symbols.rates import moving
 from pollard_pin.thesis.symbols.vectors import FreeVectors, definitions
-from thesis_pin.audit.residuals import Free
-from thesis_pin.audit.text import ranges
+from thesis_pin.audit.documents.text import ranges
+from thesis_pin.audit.judging.residuals import Free
 from thesis_pin.audit.thesis import Ground, Thesis
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment

@@ -28,7 +28,7 @@ from scout_pin.thesis.state import UNIT, Parameters, State
 from scout_pin.thesis.symbols import frames
 from scout_pin.thesis.symbols.forces import matrix_entry
 from scout_pin.thesis.symbols.geometry import JOINT_AXES
-from thesis_pin.audit.residuals import Free
+from thesis_pin.audit.judging.residuals import Free
 from thesis_pin.equations.catalogue import Equation
 from thesis_pin.equations.dual import Dual
 from thesis_pin.equations.formula import Node, Symbol

@@ -7,7 +7,7 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.symbols.axes import AnyAxes, slopes
-from thesis_pin.audit.residuals import residual
+from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.numeric.rotations import rotation

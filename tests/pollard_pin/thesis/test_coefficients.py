@@ -12,8 +12,8 @@ from pollard_pin.thesis.audit import THESIS, states
 from pollard_pin.thesis.state import JOINTS
 from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.symbols.rates import coefficient, joint_rates
+from thesis_pin.audit.judging.verdicts import difference, judge, residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import difference, judge, residual
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.catalogue import index_values
 from thesis_pin.equations.evaluation import evaluate

@@ -4,7 +4,7 @@ import pytest
 
 from pollard_pin.thesis.audit import THESIS
 from pollard_pin.thesis.symbols.elements import Elements
-from thesis_pin.audit.verdicts import judge
+from thesis_pin.audit.judging.verdicts import judge
 
 EQUATIONS = THESIS.catalogue()
 GROUND = THESIS.ground(EQUATIONS)

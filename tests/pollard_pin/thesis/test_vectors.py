@@ -5,7 +5,7 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.symbols.vectors import FreeVectors, definitions
-from thesis_pin.audit.residuals import residual
+from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Symbol
 

@@ -6,9 +6,9 @@ import pytest
 from scout_pin.thesis import catalogue, open_states
 from scout_pin.thesis.audit import states
 from scout_pin.thesis.references import References
-from thesis_pin.audit.residuals import residual
+from thesis_pin.audit.judging.residuals import residual
+from thesis_pin.audit.judging.verdicts import judge
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import judge
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol
 

@@ -6,7 +6,7 @@ import pytest
 
 from pollard_pin.thesis.audit import THESIS as POLLARD
 from scout_pin.thesis.audit import THESIS as SCOUT
-from thesis_pin.audit.verdicts import ClaimResult, judge
+from thesis_pin.audit.judging.verdicts import ClaimResult, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.notation import Notation

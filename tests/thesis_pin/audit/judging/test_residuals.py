@@ -5,7 +5,7 @@ import weakref
 
 import numpy as np
 
-from thesis_pin.audit.residuals import residual
+from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.notation import Notation
 from thesis_pin.equations.values import scalar

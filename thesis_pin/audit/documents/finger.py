@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from thesis_pin.audit.differences import pieces
+from thesis_pin.audit.comparison.differences import pieces
 from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import Row
 from thesis_pin.audit.slips import Slip

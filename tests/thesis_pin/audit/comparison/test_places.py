@@ -1,6 +1,6 @@
 """Where two formulas differ, in words."""
 
-from thesis_pin.audit.places import places
+from thesis_pin.audit.comparison.places import places
 
 
 def test_places_point_at_symbols_and_columns_not_at_layout():

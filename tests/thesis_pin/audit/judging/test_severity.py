@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
+from thesis_pin.audit.documents.text import effect_entry
+from thesis_pin.audit.judging.severity import severity, without_effect
 from thesis_pin.audit.rows import Row
-from thesis_pin.audit.severity import severity, without_effect
 from thesis_pin.audit.slips import Slip
-from thesis_pin.audit.text import effect_entry
 from thesis_pin.equations.catalogue import Equation
 
 FAILING = Equation(id="robot:1:a_2", left=r"\mathbf{a}_{ni}", printed="b", attribution="thesis")

@@ -5,10 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from thesis_pin.audit.finger import slip_text
-from thesis_pin.audit.rows import AuditReport, Row
-from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.text import (
+from thesis_pin.audit.documents.finger import slip_text
+from thesis_pin.audit.documents.text import (
     KIND_NOTE,
     VERDICT_NOTE,
     chapter_table,
@@ -20,6 +18,8 @@ from thesis_pin.audit.text import (
     summary_lines,
     used_causes,
 )
+from thesis_pin.audit.rows import AuditReport, Row
+from thesis_pin.audit.slips import Cause
 from thesis_pin.report.tables import Table
 
 

@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from thesis_pin.audit.differences import differences, put_back, term_of
-from thesis_pin.audit.document import row_document
+from thesis_pin.audit.comparison.differences import differences, put_back, term_of
+from thesis_pin.audit.documents.json_document import row_document
+from thesis_pin.audit.judging.verdicts import ClaimResult, judge
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import ClaimResult, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.notation import Notation
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from thesis_pin.audit.markdown import markdown
-from thesis_pin.audit.page import page
+from thesis_pin.audit.documents.markdown import markdown
+from thesis_pin.audit.documents.page import page
+from thesis_pin.audit.documents.text import SURVIVES, explain, surviving_text
 from thesis_pin.audit.rows import AuditReport, Row
-from thesis_pin.audit.text import SURVIVES, explain, surviving_text
 
 LOST = Row(
     "robot:1:a",

@@ -4,12 +4,12 @@ import pytest
 
 from pollard_pin.thesis import catalogue as pollard
 from scout_pin.thesis import catalogue as scout
-from thesis_pin.audit import document as audit_json
-from thesis_pin.audit import page as audit_page
-from thesis_pin.audit import text as audit_report
-from thesis_pin.audit.kinds import KINDS, kinds, of_equation
-from thesis_pin.audit.markdown import markdown
-from thesis_pin.audit.places import places
+from thesis_pin.audit.comparison.kinds import KINDS, kinds, of_equation
+from thesis_pin.audit.comparison.places import places
+from thesis_pin.audit.documents import json_document as audit_json
+from thesis_pin.audit.documents import page as audit_page
+from thesis_pin.audit.documents import text as audit_report
+from thesis_pin.audit.documents.markdown import markdown
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.command.output import print_table
 from thesis_pin.command.verbs.audit import _NARROW

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from thesis_pin.audit import document as audit_json
-from thesis_pin.audit import page as audit_page
-from thesis_pin.audit import text as audit_report
-from thesis_pin.audit.markdown import markdown
+from thesis_pin.audit.documents import json_document as audit_json
+from thesis_pin.audit.documents import page as audit_page
+from thesis_pin.audit.documents import text as audit_report
+from thesis_pin.audit.documents.markdown import markdown
+from thesis_pin.audit.judging.verdicts import ClaimResult, judge, verdict
 from thesis_pin.audit.rows import AuditReport, Row
-from thesis_pin.audit.verdicts import ClaimResult, judge, verdict
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.notation import Notation

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from thesis_pin.audit.formulas import mathml
+from thesis_pin.audit.documents.formulas import mathml
 
 
 def text(markup):

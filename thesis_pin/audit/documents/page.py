@@ -6,12 +6,10 @@ import html
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from thesis_pin.audit.finger import slip_text
-from thesis_pin.audit.formulas import mathml
-from thesis_pin.audit.kinds import KINDS
-from thesis_pin.audit.rows import AuditReport, Row, Severity
-from thesis_pin.audit.slips import Slip
-from thesis_pin.audit.text import (
+from thesis_pin.audit.comparison.kinds import KINDS
+from thesis_pin.audit.documents.finger import slip_text
+from thesis_pin.audit.documents.formulas import mathml
+from thesis_pin.audit.documents.text import (
     VERDICT_NOTE,
     chapter_table,
     effect_entry,
@@ -21,6 +19,8 @@ from thesis_pin.audit.text import (
     surviving_text,
     used_causes,
 )
+from thesis_pin.audit.rows import AuditReport, Row, Severity
+from thesis_pin.audit.slips import Slip
 from thesis_pin.equations.uses import Uses
 from thesis_pin.pages.player import render, web_file
 from thesis_pin.report.tables import Table

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from thesis_pin.audit.places import pieces
+from thesis_pin.audit.comparison.places import pieces
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Severity
 from thesis_pin.equations.catalogue import Equation
 

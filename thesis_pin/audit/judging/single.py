@@ -5,8 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
-from thesis_pin.audit import kinds
-from thesis_pin.audit.differences import Difference, differences, joined, put_back, term_of
+from thesis_pin.audit.comparison import kinds
+from thesis_pin.audit.comparison.differences import (
+    Difference,
+    differences,
+    joined,
+    put_back,
+    term_of,
+)
 from thesis_pin.audit.slips import Slip
 from thesis_pin.equations.catalogue import Catalogue, Equation
 

@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
-from thesis_pin.audit.places import pieces
+from thesis_pin.audit.comparison.places import pieces
 from thesis_pin.equations.catalogue import Equation
 
 KINDS = {

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from thesis_pin.audit.tokens import outermost, tokens
+from thesis_pin.audit.comparison.tokens import outermost, tokens
 
 _NESTED = r"\{(?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\})*\}"
 _INSIDE = r"(?:[^{}]|\{[^{}]*\})*"

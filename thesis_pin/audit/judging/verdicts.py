@@ -13,12 +13,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from thesis_pin.audit import kinds, places, single
-from thesis_pin.audit.reading import Reading
-from thesis_pin.audit.residuals import TROUBLES, Free, Residual, residual_as_said, what
-from thesis_pin.audit.residuals import difference as difference
-from thesis_pin.audit.residuals import largest_relative as largest_relative
-from thesis_pin.audit.residuals import residual as residual
+from thesis_pin.audit.comparison import kinds, places
+from thesis_pin.audit.judging import single
+from thesis_pin.audit.judging.reading import Reading
+from thesis_pin.audit.judging.residuals import TROUBLES, Free, Residual, residual_as_said, what
+from thesis_pin.audit.judging.residuals import difference as difference
+from thesis_pin.audit.judging.residuals import largest_relative as largest_relative
+from thesis_pin.audit.judging.residuals import residual as residual
 from thesis_pin.audit.rows import HOLDS, Effect, Row, Verdict
 from thesis_pin.audit.slips import Slip
 from thesis_pin.equations.catalogue import Catalogue, Equation

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from thesis_pin.audit.kinds import KINDS
+from thesis_pin.audit.comparison.kinds import KINDS
 from thesis_pin.audit.rows import HOLDS, AuditReport, Row
 from thesis_pin.audit.slips import Slip
 

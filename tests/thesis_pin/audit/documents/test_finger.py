@@ -2,7 +2,7 @@
 
 import pytest
 
-from thesis_pin.audit.finger import slip_text
+from thesis_pin.audit.documents.finger import slip_text
 from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import Row
 from thesis_pin.audit.slips import Slip

@@ -6,8 +6,8 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from thesis_pin.audit.finger import slip_text
-from thesis_pin.audit.kinds import KINDS
+from thesis_pin.audit.comparison.kinds import KINDS
+from thesis_pin.audit.documents.finger import slip_text
 from thesis_pin.audit.rows import HOLDS, VERDICTS, AuditReport, Row
 from thesis_pin.audit.slips import Cause
 from thesis_pin.report.tables import Table
