@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from pollard_pin.thesis import catalogue
-from pollard_pin.thesis.symbols.lengths import Lengths
+from pollard_pin.thesis.generic.lengths import Lengths
 from thesis_pin.equations.formula import FormulaError, Symbol
 
-from .conftest import verdict
+from ..conftest import verdict
 
 
 @pytest.mark.parametrize(

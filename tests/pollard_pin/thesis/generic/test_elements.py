@@ -3,7 +3,7 @@
 import pytest
 
 from pollard_pin.thesis.audit import THESIS
-from pollard_pin.thesis.symbols.elements import Elements
+from pollard_pin.thesis.generic.elements import Elements
 from thesis_pin.audit.judging.verdicts import judge
 
 EQUATIONS = THESIS.catalogue()

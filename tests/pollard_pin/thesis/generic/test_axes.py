@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from pollard_pin.thesis import catalogue
-from pollard_pin.thesis.symbols.axes import AnyAxes, slopes
+from pollard_pin.thesis.generic.axes import AnyAxes, slopes
 from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.numeric.rotations import rotation
 
-from .conftest import verdict, with_slip
+from ..conftest import verdict, with_slip
 
 TURN_54 = r"\mathbf{R}_z(\theta_{54})"
 STEP = 1e-6

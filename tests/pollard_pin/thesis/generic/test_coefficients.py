@@ -9,8 +9,8 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import THESIS, states
+from pollard_pin.thesis.generic.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.state import JOINTS
-from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
 from pollard_pin.thesis.symbols.rates import coefficient, joint_rates
 from thesis_pin.audit.judging.verdicts import difference, judge, residual
 from thesis_pin.audit.rows import HOLDS

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from pollard_pin.thesis import catalogue
-from pollard_pin.thesis.symbols.vectors import FreeVectors, definitions
+from pollard_pin.thesis.generic.vectors import FreeVectors, definitions
 from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Symbol
 
-from .conftest import verdict, with_slip
+from ..conftest import verdict, with_slip
 
 KNOWN = definitions(catalogue())
 

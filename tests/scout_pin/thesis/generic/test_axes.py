@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from scout_pin.thesis import catalogue, open_states
+from scout_pin.thesis import catalogue
 from scout_pin.thesis.audit import states
+from scout_pin.thesis.generic import axes
 from scout_pin.thesis.references import References
 from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.audit.judging.verdicts import judge
@@ -13,7 +14,7 @@ from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol
 
 REFERENCES = References(states())
-AXES = open_states.references("axes")
+AXES = axes.references("axes")
 Z_11 = r"\mathbf{R}_z(\theta_{11} + \beta_{11})"
 
 
@@ -24,7 +25,7 @@ def verdict(identity, old="", new="", member=1, free=True):
     assert old in printed[member - 1]
     printed[member - 1] = printed[member - 1].replace(old, new, 1)
     changed = equation.model_copy(update={"printed": tuple(printed)})
-    where = open_states.free(changed) if free else ()
+    where = axes.free(changed) if free else ()
     return judge(catalogue(), changed, REFERENCES, {}, "", where)
 
 
