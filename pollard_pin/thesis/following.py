@@ -10,8 +10,8 @@ import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
+from thesis_pin.audit.judging.verdicts import difference
 from thesis_pin.audit.rows import HOLDS, Effect
-from thesis_pin.audit.verdicts import difference
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, Unframed, evaluate

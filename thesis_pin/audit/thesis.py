@@ -9,11 +9,11 @@ from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from thesis_pin.audit.residuals import TROUBLES, Free, what
+from thesis_pin.audit.judging.residuals import TROUBLES, Free, what
+from thesis_pin.audit.judging.severity import severity, without_effect
+from thesis_pin.audit.judging.verdicts import Claims, judge
 from thesis_pin.audit.rows import AuditReport, Effect, Row, Severity
-from thesis_pin.audit.severity import severity, without_effect
 from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.verdicts import Claims, judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
 from thesis_pin.equations.uses import used_by, uses

@@ -21,11 +21,11 @@ from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
 from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.symbols.loops import opening
 from pollard_pin.thesis.symbols.rates import joint_rates
-from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import thesis
-from thesis_pin.audit.markdown import markdown
+from thesis_pin.audit.documents import page as audit_page
+from thesis_pin.audit.documents.markdown import markdown
+from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import residual
 from thesis_pin.equations.catalogue import Catalogue
 from thesis_pin.equations.values import STEP
 
