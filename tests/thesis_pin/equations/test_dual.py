@@ -1,10 +1,12 @@
 """Arrays that carry a derivative, and what the audit differentiates with them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pollard_pin.thesis.audit import states
-from pollard_pin.thesis.state import VARIABLES
+from pollard_pin.thesis.state import VARIABLES, State
 from pollard_pin.thesis.symbols.loops import frame, opening, side
 from pollard_pin.thesis.symbols.rates import derivative, joint_rates
 from thesis_pin.equations.dual import Dual, inverse
@@ -135,3 +137,17 @@ def test_a_sum_takes_slopes_of_one_state_for_all():
     assert found.sum(axis=0).along("a").tolist() == [5.0, 5.0, 5.0]
     assert found[1:3, 0].along("a").tolist() == [1.0, 1.0]
     assert found[2].along("a").tolist() == [1.0, 1.0, 1.0]
+
+
+def test_what_states_keep_is_of_their_own_geometry():
+    """A step, other lengths or other rates: what was worked out before doesn't stay behind."""
+    state = states(closed=False)
+    before = {name: frame(state, name) for name in ("T_LDn2", "T_LD1")}
+    stepped = state.with_(theta_43=state.variables["theta_43"] + 0.1)
+    fresh = State(state.constants, stepped.variables, state.rates)
+    for name, old in before.items():
+        assert np.abs(frame(stepped, name) - old).max() > 0.01
+        assert (frame(stepped, name) == frame(fresh, name)).all()
+        assert (frame(state.with_rates({}), name) == old).all()
+    longer = replace(state, constants={**state.constants, "x_65": 2 * state.constants["x_65"]})
+    assert np.abs(frame(longer, "T_LDn2") - before["T_LDn2"]).max() > 0.01
