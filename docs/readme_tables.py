@@ -130,7 +130,7 @@ def formats() -> Iterator[str]:
         yield f"| {' | '.join(cells)} |"
 
 
-LARGE = ("pages", "command")
+LARGE = ("pages", "command", "audit")
 """Rooms whose own rooms are listed too."""
 
 

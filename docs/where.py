@@ -77,7 +77,7 @@ def docstrings() -> Iterator[tuple[str, str, str]]:
             tree = ast.parse(path.read_text(encoding="utf-8"))
             for name, node in _named(tree, module.removesuffix(".__init__")):
                 _, found, source = (ast.get_docstring(node) or "").partition("Source:")
-                if found and not re.search(r"thesis\.(symbols|claims|state)\b", name):
+                if found and not re.search(r"thesis\.(symbols|generic|claims|state)\b", name):
                     yield package, name, " ".join(source.split("\n\n")[0].split())
 
 

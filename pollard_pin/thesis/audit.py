@@ -15,6 +15,11 @@ from pollard_pin.thesis.catalogue import catalogue
 from pollard_pin.thesis.causes import CAUSES
 from pollard_pin.thesis.claims import claims
 from pollard_pin.thesis.effects import Effects
+from pollard_pin.thesis.generic.axes import AnyAxes, slopes
+from pollard_pin.thesis.generic.coefficients import Coefficients, substitutes
+from pollard_pin.thesis.generic.elements import elements
+from pollard_pin.thesis.generic.lengths import Lengths
+from pollard_pin.thesis.generic.vectors import FreeVectors, definitions
 from pollard_pin.thesis.references import (
     LoopReferences,
     OpenReferences,
@@ -23,14 +28,9 @@ from pollard_pin.thesis.references import (
 )
 from pollard_pin.thesis.state import State, random_state
 from pollard_pin.thesis.symbols.accelerations import accelerating
-from pollard_pin.thesis.symbols.axes import AnyAxes, slopes
-from pollard_pin.thesis.symbols.coefficients import Coefficients, substitutes
-from pollard_pin.thesis.symbols.elements import elements
-from pollard_pin.thesis.symbols.lengths import Lengths
 from pollard_pin.thesis.symbols.rates import moving
-from pollard_pin.thesis.symbols.vectors import FreeVectors, definitions
-from thesis_pin.audit.residuals import Free
-from thesis_pin.audit.text import ranges
+from thesis_pin.audit.documents.text import ranges
+from thesis_pin.audit.judging.residuals import Free
 from thesis_pin.audit.thesis import Ground, Thesis
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment

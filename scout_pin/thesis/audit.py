@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from scout_pin.specification import Specification
-from scout_pin.thesis import open_states
 from scout_pin.thesis.catalogue import catalogue
 from scout_pin.thesis.causes import CAUSES
 from scout_pin.thesis.claims import claims
 from scout_pin.thesis.effects import Effects
+from scout_pin.thesis.generic import axes
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from thesis_pin.audit.thesis import Ground, Thesis
@@ -85,7 +85,7 @@ def ground(equations: Catalogue) -> Ground:
     )
     checks = claims(equations, LAW_STATES)
     effect = Effects(equations).of
-    return Ground(described, lambda equation: references, checks, effect, open_states.free)
+    return Ground(described, lambda equation: references, checks, effect, axes.free)
 
 
 def beyond(equations: Catalogue) -> tuple[tuple[str, str], ...]:

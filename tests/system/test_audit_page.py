@@ -5,7 +5,7 @@ import pytest
 
 from pollard_pin.thesis import catalogue as pollard_catalogue
 from scout_pin.thesis.catalogue import catalogue as scout_catalogue
-from thesis_pin.audit.page import page
+from thesis_pin.audit.documents.page import page
 from thesis_pin.equations.uses import uses
 
 pytestmark = pytest.mark.browser

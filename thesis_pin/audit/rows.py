@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from thesis_pin.audit.kinds import KINDS
+from thesis_pin.audit.comparison.kinds import KINDS
 from thesis_pin.audit.slips import Cause, Slip
 from thesis_pin.display.brief import Brief
 from thesis_pin.display.cell import Cell
@@ -51,9 +51,10 @@ class Row(Brief):
         attribution: "thesis" or "scan", where somebody slipped.
         why: Reason for the attribution.
         residual_printed, residual_corrected: See
-            :class:`thesis_pin.audit.residuals.Residual`; None where there is nothing to evaluate.
+            :class:`thesis_pin.audit.judging.residuals.Residual`; None where there is nothing
+            to evaluate.
         places: Where the correction differs from the print.
-        kinds: What kind of slip that is, of :data:`thesis_pin.audit.kinds.KINDS`.
+        kinds: What kind of slip that is, of :data:`thesis_pin.audit.comparison.kinds.KINDS`.
         reason: Why the print can't be evaluated, or isn't checked.
         effect: What following the print does; by quantity.
         note: What a reader should know.

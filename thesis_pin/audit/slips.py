@@ -19,7 +19,7 @@ class Slip:
         printed, corrected: What stands there and what should; "" for nothing.
         neighbours: What stands before and after it in the print.
         term: Which term of the member, as "term 3 of 8"; "" if it has one alone.
-        kind: One of :data:`thesis_pin.audit.kinds.KINDS`.
+        kind: One of :data:`thesis_pin.audit.comparison.kinds.KINDS`.
         residual: Of the corrected line with this slip alone put back: below
             :data:`thesis_pin.audit.rows.HOLDS` where it can't be seen alone, infinite where
             the line can't be evaluated with it; None if nothing was evaluated.

@@ -3,7 +3,7 @@
 A file is read beside the thesis: each entry has the left side, every member of
 the chain of equalities as printed, and, only where the print fails, what should
 stand there instead. Nothing in a file says whether an equation is right; that
-is computed (:mod:`thesis_pin.audit.verdicts`).
+is computed (:mod:`thesis_pin.audit.judging.verdicts`).
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from thesis_pin.equations import formula as nt
-from thesis_pin.equations.brackets import balanced
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
-from thesis_pin.equations.layout import plain
 from thesis_pin.equations.notation import Notation
+from thesis_pin.equations.parsing.brackets import balanced
+from thesis_pin.equations.parsing.layout import plain
 from thesis_pin.model.specification import Key, Strict, read_toml
 
 Edition = Literal["corrected", "printed"]
@@ -61,7 +61,7 @@ class Equation(Strict):
         claim: Name of the check in code that decides, where no identity can.
         cause: Name of the slip that several equations share.
         kind: Kind of the slip, where the difference of the formulas doesn't show it;
-            see :data:`thesis_pin.audit.kinds.KINDS`.
+            see :data:`thesis_pin.audit.comparison.kinds.KINDS`.
         illegible: What is missing in the text, if it can't be read.
         surviving: What of an illegible line can still be read, LaTeX.
         rebuilt: What follows for an illegible line from the rest of the thesis, LaTeX.

@@ -10,7 +10,7 @@ from functools import partial
 
 from pollard_pin.thesis.claims import angles, dynamics, general, inertia, names, path, robot
 from pollard_pin.thesis.references import References
-from thesis_pin.audit.verdicts import Claims
+from thesis_pin.audit.judging.verdicts import Claims
 from thesis_pin.equations.catalogue import Catalogue
 
 CHECKS = (angles, robot, inertia, path, dynamics, general, names)

@@ -12,7 +12,7 @@ import numpy as np
 
 from pollard_pin.thesis.claims.given import Check
 from pollard_pin.thesis.references import References
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError

@@ -22,9 +22,9 @@ from pollard_pin.specification import ACTUATORS
 from pollard_pin.thesis.claims.given import Check, Given
 from pollard_pin.thesis.explicit import ExplicitModel
 from pollard_pin.thesis.references import References
+from thesis_pin.audit.documents.text import residual_text
+from thesis_pin.audit.judging.verdicts import ClaimResult, largest_relative, residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.text import residual_text
-from thesis_pin.audit.verdicts import ClaimResult, largest_relative, residual
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.values import Value, matrix, scalar, vector
 

@@ -17,7 +17,7 @@ from pollard_pin.thesis.claims.given import Check, names_in
 from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import VARIABLES
 from pollard_pin.thesis.symbols.rates import coefficient
-from thesis_pin.audit.verdicts import ClaimResult, difference
+from thesis_pin.audit.judging.verdicts import ClaimResult, difference
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol

@@ -18,7 +18,7 @@ from pollard_pin.specification import LINK_NAMES, Specification
 from pollard_pin.thesis.claims.given import Check, Given, thesis_robot, value_of
 from pollard_pin.thesis.references import References
 from pollard_pin.thesis.symbols.bodies import BODIES, own_frame
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.model.mechanism.inertia import parallel_axis

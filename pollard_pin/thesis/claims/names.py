@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from pollard_pin.thesis.claims.given import Check, names_in
 from pollard_pin.thesis.references import References
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.formula import FormulaError

@@ -14,7 +14,7 @@ from pollard_pin.kinematics.geometry import USEFUL_BRANCHES
 from pollard_pin.model import Pollard
 from pollard_pin.thesis.claims.given import Check, Given, thesis_robot, value_of
 from pollard_pin.thesis.references import References
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
 _DIRECTIONS, _SAMPLES = 150, 961

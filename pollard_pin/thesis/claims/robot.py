@@ -15,7 +15,7 @@ from pollard_pin.model import Pollard, load
 from pollard_pin.specification import SKEWED_PATH
 from pollard_pin.thesis.claims.given import Check, Given, names_in, thesis_robot, value_of
 from pollard_pin.thesis.references import References
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError

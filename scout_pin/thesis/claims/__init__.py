@@ -13,7 +13,7 @@ from scout_pin.thesis.claims import (
     soles,
     splines,
 )
-from thesis_pin.audit.verdicts import Claims
+from thesis_pin.audit.judging.verdicts import Claims
 from thesis_pin.equations.catalogue import Catalogue
 
 

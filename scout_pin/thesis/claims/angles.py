@@ -13,7 +13,7 @@ from scout_pin.motion.files import load_gait
 from scout_pin.motion.gait import Gait
 from scout_pin.motion.trajectory import joint_trajectory
 from scout_pin.thesis.claims.texts import Check, beyond, both, quantity, unreadable
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Equation
 
 SOLVER = 2e-6

@@ -17,7 +17,7 @@ from scout_pin.thesis.claims.texts import (
     unreadable,
 )
 from scout_pin.thesis.symbols.splines import PIECES, Splines, spline_coefficients
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
 

@@ -21,7 +21,7 @@ from scout_pin.thesis.claims.texts import Check, both, identity, statements
 from scout_pin.thesis.explicit import ExplicitModel, Interval, resting, solve_one
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters
-from thesis_pin.audit.verdicts import ClaimResult, largest_relative
+from thesis_pin.audit.judging.verdicts import ClaimResult, largest_relative
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.tolerances import TOLERANCES
 

@@ -18,7 +18,7 @@ import numpy as np
 from scout_pin.thesis.claims.angles import SOLVER, printed_angles
 from scout_pin.thesis.claims.texts import Check, at, beyond, both, pieces, quantity, unreadable
 from scout_pin.thesis.state import LENGTHS, Parameters, State
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.numeric.rotations import rotation
 

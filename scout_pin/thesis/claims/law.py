@@ -25,8 +25,8 @@ from scout_pin.thesis.explicit import ExplicitModel, Interval, resting
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters, State
 from scout_pin.thesis.symbols.law import Law
-from thesis_pin.audit.text import residual_text
-from thesis_pin.audit.verdicts import ClaimResult, largest_relative
+from thesis_pin.audit.documents.text import residual_text
+from thesis_pin.audit.judging.verdicts import ClaimResult, largest_relative
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.errors import NoSolution
 from thesis_pin.model.mechanism.inertia import Reading

@@ -14,7 +14,7 @@ from scout_pin.thesis.claims.texts import Check, both, identity, unreadable
 from scout_pin.thesis.explicit import resting
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import Parameters
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
 _OTHER = math.inf  # a name that isn't the one meant is no value that is off by so much

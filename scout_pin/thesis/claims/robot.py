@@ -24,7 +24,7 @@ from scout_pin.thesis.claims.texts import (
     statements,
     unreadable,
 )
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.errors import NonPhysicalInertia
 from thesis_pin.model.mechanism.inertia import check_physical

@@ -16,7 +16,7 @@ from scout_pin.thesis.claims.texts import (
     quantity,
     unreadable,
 )
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
 _LETTERS = "abcdefghijklmnopqrst"

@@ -23,7 +23,7 @@ from scout_pin.thesis.claims.texts import (
     statements,
     unreadable,
 )
-from thesis_pin.audit.verdicts import ClaimResult
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 
 STEP = 52.26

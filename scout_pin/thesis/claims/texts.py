@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thesis_pin.audit.verdicts import ClaimResult, difference
+from thesis_pin.audit.judging.verdicts import ClaimResult, difference
 from thesis_pin.equations.catalogue import Catalogue, Equation, index_values
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import FormulaError

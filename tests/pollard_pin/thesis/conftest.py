@@ -4,7 +4,7 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import THESIS, Environments
-from thesis_pin.audit.verdicts import judge
+from thesis_pin.audit.judging.verdicts import judge
 from thesis_pin.equations.catalogue import Equation
 
 

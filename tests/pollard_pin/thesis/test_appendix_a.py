@@ -9,7 +9,7 @@ from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import states
 from pollard_pin.thesis.references import LoopReferences
 from pollard_pin.thesis.symbols.rates import joint_rates
-from thesis_pin.audit.verdicts import judge
+from thesis_pin.audit.judging.verdicts import judge
 from thesis_pin.equations.evaluation import evaluate
 
 SYMBOLS = LoopReferences.at(states(closed=True))

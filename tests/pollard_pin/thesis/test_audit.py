@@ -21,11 +21,11 @@ from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
 from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.symbols.loops import opening
 from pollard_pin.thesis.symbols.rates import joint_rates
-from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import thesis
-from thesis_pin.audit.markdown import markdown
+from thesis_pin.audit.documents import page as audit_page
+from thesis_pin.audit.documents.markdown import markdown
+from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import residual
 from thesis_pin.equations.catalogue import Catalogue
 from thesis_pin.equations.values import STEP
 
@@ -57,6 +57,16 @@ def test_rows_are_the_same_where_two_processes_share_the_work(report, monkeypatc
     shared = audit(only=[row.id for row in some], jobs=2)
     assert shared.rows == some
     assert any(row.failed and row.effect for row in shared.rows)
+
+
+def test_a_slip_that_nothing_mends_is_followed_where_two_processes_share_the_work(monkeypatch):
+    monkeypatch.setattr(thesis, "_TOGETHER", 1)
+    line = catalogue()["pollard:E:G_2"]
+    slip = line.model_copy(update={"printed": ("-" + line.printed[0],)})
+    shared = audit(catalogue().with_equation(slip), only=[line.id, "pollard:2.1:T_z1"], jobs=2)
+    assert shared.rows[0].verdict == "unexplained"
+    assert max(shared.rows[0].effect.values()) > 0
+    assert shared.rows[1].verdict == "holds"
 
 
 def test_the_numbers_are_those_of_the_thesis():

@@ -5,11 +5,11 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import states
+from pollard_pin.thesis.generic.coefficients import Coefficients
 from pollard_pin.thesis.references import OpenReferences
-from pollard_pin.thesis.symbols.coefficients import Coefficients
 from pollard_pin.thesis.symbols.loops import in_base_axes, side
-from thesis_pin.audit.places import places
-from thesis_pin.audit.verdicts import residual
+from thesis_pin.audit.comparison.places import places
+from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.equations.values import STEP
 
 OPEN = states(closed=False)

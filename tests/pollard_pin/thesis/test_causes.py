@@ -10,9 +10,9 @@ from pollard_pin.thesis.audit import states
 from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.symbols.loops import frame
 from pollard_pin.thesis.symbols.rates import RATES
-from thesis_pin.audit.kinds import of_equation
-from thesis_pin.audit.places import places
-from thesis_pin.audit.verdicts import residual
+from thesis_pin.audit.comparison.kinds import of_equation
+from thesis_pin.audit.comparison.places import places
+from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.equations.catalogue import index_values
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.values import STEP

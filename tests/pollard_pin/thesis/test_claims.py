@@ -14,7 +14,7 @@ from pollard_pin.thesis.claims.inertia import impossibility, link_of, spread
 from pollard_pin.thesis.claims.path import best_margins, path_points
 from pollard_pin.thesis.claims.robot import counts, freedoms
 from pollard_pin.thesis.state import CHAIN_0
-from thesis_pin.audit.verdicts import judge
+from thesis_pin.audit.judging.verdicts import judge
 
 pollard = thesis_robot()
 SECTIONS = ("2.1", "2.2", "4.1", "4.4", "B")

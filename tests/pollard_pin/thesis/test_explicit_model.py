@@ -9,7 +9,7 @@ from pollard_pin.dynamics.inverse import inverse_dynamics_at
 from pollard_pin.specification import LINK_NAMES, SKEWED_PATH, Specification
 from pollard_pin.thesis import ExplicitModel
 from pollard_pin.thesis.claims.dynamics import projected_terms, random_motion
-from thesis_pin.audit.verdicts import largest_relative
+from thesis_pin.audit.judging.verdicts import largest_relative
 from thesis_pin.errors import (
     BadInput,
     NotFinite,

@@ -10,7 +10,7 @@ from pollard_pin.thesis.audit import Environments
 from pollard_pin.thesis.symbols import frames
 from pollard_pin.thesis.symbols.bodies import turned
 from pollard_pin.thesis.symbols.loops import PATHS
-from thesis_pin.audit.verdicts import residual
+from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.equations.evaluation import evaluate
 
 ENVIRONMENTS = Environments()

@@ -6,7 +6,7 @@ import pytest
 from pollard_pin.thesis.audit import states
 from pollard_pin.thesis.notation import NOTATION
 from pollard_pin.thesis.references import OpenReferences
-from thesis_pin.audit.text import ranges
+from thesis_pin.audit.documents.text import ranges
 from thesis_pin.equations.evaluation import evaluate
 
 

@@ -6,8 +6,8 @@ import pytest
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import states
 from pollard_pin.thesis.symbols.loops import opening
+from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import residual
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.values import STEP
 

@@ -10,11 +10,11 @@ import pytest
 from scout_pin.thesis import catalogue
 from scout_pin.thesis.audit import CAUSES, NUMBERS, THESIS, audit, states
 from scout_pin.thesis.references import References
-from thesis_pin.audit import page as audit_page
 from thesis_pin.audit import thesis
-from thesis_pin.audit.markdown import markdown
+from thesis_pin.audit.documents import page as audit_page
+from thesis_pin.audit.documents.markdown import markdown
+from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.verdicts import residual
 
 DOCUMENT = Path(__file__).parents[3] / "docs" / "audit" / "scout.md"
 

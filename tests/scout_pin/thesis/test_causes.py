@@ -8,8 +8,8 @@ from scout_pin.thesis import catalogue
 from scout_pin.thesis.audit import states
 from scout_pin.thesis.references import References
 from scout_pin.thesis.symbols.forces import matrix_entry
-from thesis_pin.audit.kinds import of_equation
-from thesis_pin.audit.verdicts import difference
+from thesis_pin.audit.comparison.kinds import of_equation
+from thesis_pin.audit.judging.verdicts import difference
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError
 

@@ -12,7 +12,7 @@ from scout_pin.thesis.claims.law import _law_of_motion as law_of_motion
 from scout_pin.thesis.claims.splines import table_rows
 from scout_pin.thesis.claims.texts import components, pieces, points, quantity
 from scout_pin.thesis.symbols.splines import Splines, spline_coefficients
-from thesis_pin.audit.verdicts import judge
+from thesis_pin.audit.judging.verdicts import judge
 from thesis_pin.equations.formula import FormulaError
 
 

@@ -10,7 +10,7 @@ from scout_pin.thesis.audit import states
 from scout_pin.thesis.references import References
 from scout_pin.thesis.state import State
 from scout_pin.thesis.symbols import frames
-from thesis_pin.audit.verdicts import residual
+from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.equations.catalogue import index_values
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import Symbol

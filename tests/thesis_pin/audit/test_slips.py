@@ -6,10 +6,10 @@ import pollard_pin.thesis
 import pollard_pin.thesis.audit
 import scout_pin.thesis
 import scout_pin.thesis.audit
-from thesis_pin.audit import document as audit_json
-from thesis_pin.audit import page as audit_page
-from thesis_pin.audit import text as audit_report
-from thesis_pin.audit.markdown import markdown
+from thesis_pin.audit.documents import json_document as audit_json
+from thesis_pin.audit.documents import page as audit_page
+from thesis_pin.audit.documents import text as audit_report
+from thesis_pin.audit.documents.markdown import markdown
 from thesis_pin.audit.rows import AuditReport, Row
 from thesis_pin.audit.slips import Cause, read_causes
 from thesis_pin.command.verbs.audit import _TITLE

@@ -13,8 +13,8 @@ from thesis_pin.equations.formula import (
     Transpose,
     Unreadable,
 )
-from thesis_pin.equations.layout import plain
 from thesis_pin.equations.notation import Notation
+from thesis_pin.equations.parsing.layout import plain
 from thesis_pin.equations.values import power, scalar, vector
 
 NOTATION = Notation(

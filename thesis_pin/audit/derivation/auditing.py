@@ -14,7 +14,7 @@ from thesis_pin.audit.derivation.effects import EFFECTS, Effects
 from thesis_pin.audit.derivation.ground import Derivation
 from thesis_pin.audit.derivation.mends import mends
 from thesis_pin.audit.derivation.references import References
-from thesis_pin.audit.residuals import residual
+from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.audit.rows import HOLDS, AuditReport, Row
 from thesis_pin.audit.thesis import Ground, Progress, Thesis
 from thesis_pin.equations.catalogue import Catalogue

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thesis_pin.audit.derivation.references import References
-from thesis_pin.audit.residuals import TROUBLES
+from thesis_pin.audit.judging.residuals import TROUBLES
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate

@@ -12,7 +12,7 @@ from thesis_pin.audit.derivation.moving.states import States
 from thesis_pin.audit.derivation.references import References
 from thesis_pin.audit.derivation.said.file import DerivationFile
 from thesis_pin.audit.derivation.said.glossary import Glossary
-from thesis_pin.audit.residuals import TROUBLES, what
+from thesis_pin.audit.judging.residuals import TROUBLES, what
 from thesis_pin.equations.catalogue import Catalogue
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol

@@ -19,7 +19,7 @@ from thesis_pin.audit.derivation.references import References
 from thesis_pin.audit.derivation.said.file import check_formulas, read, two_sided
 from thesis_pin.audit.derivation.said.header import glossary, notation
 from thesis_pin.audit.derivation.said.phrases import Phrase
-from thesis_pin.audit.residuals import TROUBLES
+from thesis_pin.audit.judging.residuals import TROUBLES
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import evaluate
@@ -29,7 +29,7 @@ from thesis_pin.loops.closures import ClosedRobot
 
 SMALL = 1e-8
 """Entries of the mass matrix [kg·m²], [kg] from which a slip of half a percent is seen: what counts
-as zero is zero against 1e-3 (:mod:`thesis_pin.audit.residuals`)."""
+as zero is zero against 1e-3 (:mod:`thesis_pin.audit.judging.residuals`)."""
 
 
 class Derivation:

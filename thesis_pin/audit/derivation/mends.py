@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from thesis_pin.audit.comparison.places import places
+from thesis_pin.audit.comparison.tokens import Token, sums, tokens
+from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.audit.mutation.slips import planted
-from thesis_pin.audit.places import places
-from thesis_pin.audit.residuals import residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.audit.tokens import Token, sums, tokens
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
 

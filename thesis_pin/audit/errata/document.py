@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from thesis_pin.audit.comparison.kinds import KINDS
+from thesis_pin.audit.documents.finger import slip_text
+from thesis_pin.audit.documents.text import effect_text, no_effect_label
 from thesis_pin.audit.errata.formulas import math
 from thesis_pin.audit.errata.lost import lost
-from thesis_pin.audit.finger import slip_text
-from thesis_pin.audit.kinds import KINDS
 from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import HOLDS, NO_VERDICT, AuditReport, Row
 from thesis_pin.audit.slips import Cause
-from thesis_pin.audit.text import effect_text, no_effect_label
 
 _ENGLISH = Phrases()
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thesis_pin.audit.residuals import TROUBLES
+from thesis_pin.audit.judging.residuals import TROUBLES
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.evaluation import Environment, evaluate

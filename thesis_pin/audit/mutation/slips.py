@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from thesis_pin.audit.tokens import Token, sums, tokens
+from thesis_pin.audit.comparison.tokens import Token, sums, tokens
 
 
 @dataclass(frozen=True)

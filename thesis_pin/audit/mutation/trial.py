@@ -11,13 +11,13 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from thesis_pin.audit.judging.residuals import TROUBLES, difference, residual
+from thesis_pin.audit.judging.verdicts import judge
 from thesis_pin.audit.mutation.exchange import exchanged, replaced
 from thesis_pin.audit.mutation.random_symbols import RandomSymbols
 from thesis_pin.audit.mutation.slips import SLIPS, Planted, planted
-from thesis_pin.audit.residuals import TROUBLES, difference, residual
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.audit.thesis import Ground
-from thesis_pin.audit.verdicts import judge
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment, evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Number, Symbol, symbols

@@ -41,10 +41,10 @@ def derivation(arguments: argparse.Namespace) -> ExitCode:
 
 def run_verb(arguments: argparse.Namespace, thesis: Thesis) -> ExitCode:
     """Run the verb; returns the exit code."""
-    from thesis_pin.audit import text as faces
-    from thesis_pin.audit.document import document
-    from thesis_pin.audit.markdown import markdown
-    from thesis_pin.audit.page import page
+    from thesis_pin.audit.documents import text as faces
+    from thesis_pin.audit.documents.json_document import document
+    from thesis_pin.audit.documents.markdown import markdown
+    from thesis_pin.audit.documents.page import page
     from thesis_pin.command.output import print_entries, print_parts, print_table, print_text
     from thesis_pin.command.progress import track
     from thesis_pin.command.results import put
@@ -133,7 +133,7 @@ def _errata(report: AuditReport, thesis: Thesis, language: str) -> str:
 
 def _without_verdict(report: AuditReport) -> Iterator[tuple[str, str]]:
     """Section and names of lines that share a reason, and the reason."""
-    from thesis_pin.audit.text import ranges
+    from thesis_pin.audit.documents.text import ranges
 
     for section in report.sections:
         for reason in dict.fromkeys(reason for _, reason in section.gaps):

@@ -8,7 +8,7 @@ import pytest
 
 from thesis_pin import audit_derivation
 from thesis_pin.audit.derivation.auditing import thesis
-from thesis_pin.audit.document import document
+from thesis_pin.audit.documents.json_document import document
 from thesis_pin.report.writers import json_bytes
 
 FOLDER = Path(__file__).parents[4] / "examples" / "your_derivation"

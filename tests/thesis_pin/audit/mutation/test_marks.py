@@ -7,7 +7,7 @@ import pytest
 
 from pollard_pin.thesis.audit import THESIS as POLLARD
 from scout_pin.thesis.audit import THESIS as SCOUT
-from thesis_pin.audit.residuals import TROUBLES
+from thesis_pin.audit.judging.residuals import TROUBLES
 from thesis_pin.equations.formula import FormulaError, symbols
 
 ZERO = 1e-9

@@ -2,8 +2,8 @@
 
 import pytest
 
+from thesis_pin.audit.comparison.tokens import sums, tokens
 from thesis_pin.audit.mutation.slips import SLIPS, planted
-from thesis_pin.audit.tokens import sums, tokens
 
 ROW = r"\frac{\partial \mathbf{r}_{G1i}^{0}}{\partial q_j} + 2 m_{1i} c\theta_{21} (a - b)"
 

@@ -4,7 +4,7 @@ import pytest
 
 from pollard_pin.thesis.audit import THESIS as POLLARD
 from scout_pin.thesis.audit import THESIS as SCOUT
-from thesis_pin.audit.verdicts import judge
+from thesis_pin.audit.judging.verdicts import judge
 
 THESES = pytest.mark.parametrize("thesis", [SCOUT, POLLARD], ids=["scout", "pollard"])
 

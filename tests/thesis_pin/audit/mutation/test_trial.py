@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from thesis_pin.audit.judging.verdicts import ClaimResult
 from thesis_pin.audit.mutation.trial import Trials, with_slip
 from thesis_pin.audit.thesis import Ground
-from thesis_pin.audit.verdicts import ClaimResult
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.formula import FormulaError, symbols
 from thesis_pin.equations.notation import Notation

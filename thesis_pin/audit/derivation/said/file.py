@@ -11,8 +11,8 @@ from pydantic import Field
 
 from thesis_pin.equations.catalogue import Equation, EquationFile
 from thesis_pin.equations.formula import FormulaError, Unreadable
-from thesis_pin.equations.layout import plain
 from thesis_pin.equations.notation import Notation
+from thesis_pin.equations.parsing.layout import plain
 from thesis_pin.errors import BadInput, SpecificationError
 from thesis_pin.model.source import read_text
 from thesis_pin.model.specification import Key, Strict, Vector3, key_lines, parse_toml

@@ -1,0 +1,1 @@
+"""Robots, vectors and coefficients in general position: nothing vanishes by the robot's shape."""

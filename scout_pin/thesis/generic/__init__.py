@@ -1,0 +1,1 @@
+"""Robots in general position: nothing vanishes by their shape, no angle between axes is right."""

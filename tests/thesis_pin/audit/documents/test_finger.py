@@ -1,0 +1,75 @@
+"""A slip in words: between what it stands, in which term or cell, and what belongs there."""
+
+import pytest
+
+from thesis_pin.audit.documents.finger import slip_text
+from thesis_pin.audit.languages.phrases import Phrases
+from thesis_pin.audit.rows import Row
+from thesis_pin.audit.slips import Slip
+
+ONE = Row("a:1:x", "T, 1", (), "x", ("a + b",), {1: "a - b"}, "misprint")
+TWO = Row("a:1:x", "T, 1", (), "x", ("a", "a + b"), {2: "a - b"}, "misprint")
+MATRIX = r"\begin{bmatrix} 1 & 2 & 3 \\ 4 & 5 & 6 \\ 7 & 8 & 9 \end{bmatrix}"
+ROW = r"\left[ 1 \quad 2 \quad 3 \quad 4 \quad 5 \right]"
+
+
+@pytest.mark.parametrize(
+    ("row", "slip", "said"),
+    [
+        (ONE, Slip(1, 2, "+", "-", ("a", "b")), "between `a` and `b`, `+` should be `-`"),
+        (ONE, Slip(1, 3, "b", "c", ("a +", "")), "after `a +`, `b` should be `c`"),
+        (ONE, Slip(1, 1, "", "-", ("", "a +")), "before `a +`, `-` is missing"),
+        (ONE, Slip(1, 2, "+", "", ("a", "b")), "between `a` and `b`, `+` should not be there"),
+        (ONE, Slip(1, 1, "a", "b"), "`a` should be `b`"),
+        (ONE, Slip(0, 1, "x", "y"), "left side: `x` should be `y`"),
+        (TWO, Slip(2, 1, "a", "b", term="term 1 of 2"), "member 2, term 1 of 2: `a` should be `b`"),
+        (ONE, Slip(2, 1, "", "a"), "member 2: `a` is missing"),
+        (ONE, Slip(1, 1, "a" * 90, "b" * 90), "the whole statement"),
+    ],
+)
+def test_a_place_reads_as_words(row, slip, said):
+    assert slip_text(row, slip) == said
+
+
+@pytest.mark.parametrize(
+    ("text", "start", "printed", "where"),
+    [
+        (ROW, 2, "1", "column 1"),
+        (ROW, 6, "3", "column 3"),
+        (ROW, 5, "& 3", "column 3"),
+        (MATRIX, 1, "1", "row 1, column 1"),
+        (MATRIX, 9, "5", "row 2, column 2"),
+        (MATRIX, 17, "9", "row 3, column 3"),
+    ],
+)
+def test_a_cell_of_a_matrix_is_named(text, start, printed, where):
+    row = Row("a:1:x", "T, 1", (), "x", (text,), {}, "misprint")
+    said = slip_text(row, Slip(1, start, printed, "0", ("(", ")"), kind="column"))
+    assert said == f"{where}: between `(` and `)`, `{printed}` should be `0`"
+
+
+def test_a_statement_names_the_cell_that_differs_but_not_of_what_is_no_matrix():
+    cell = Slip(1, 9, "5", "0", ("4 &", "& 6"), kind="statement")
+    assert slip_text(Row("a:1:x", "T, 1", (), "x", (MATRIX,), {}, "wrong"), cell).startswith(
+        "row 2, column 2: "
+    )
+    plain = Slip(1, 2, "+", "-", ("a", "b"), kind="statement")
+    assert slip_text(ONE, plain) == "between `a` and `b`, `+` should be `-`"
+    whole = Slip(1, 1, MATRIX, "x & y", kind="statement")
+    assert "column" not in slip_text(Row("a:1:x", "", (), "x", (MATRIX,), {}, "wrong"), whole)
+
+
+def test_a_long_piece_keeps_its_ends():
+    text = "a" + "m" * 300 + "z"
+    said = slip_text(ONE, Slip(1, 1, text, "b", ("k", "l")))
+    assert "m … m" in said
+    assert "`am" in said
+    assert "mz`" in said
+    assert len(said) < 160
+
+
+def test_it_is_said_in_spanish():
+    say = Phrases.spanish()
+    slip = Slip(2, 2, "", "-", ("a", "b"), term="term 1 of 2")
+    assert slip_text(TWO, slip, say) == "miembro 2, término 1 de 2: entre `a` y `b`, falta `-`"
+    assert say.missing == set()

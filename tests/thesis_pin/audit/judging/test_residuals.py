@@ -1,0 +1,46 @@
+"""Residuals of members against a left side."""
+
+import gc
+import weakref
+
+import numpy as np
+
+from thesis_pin.audit.judging.residuals import residual
+from thesis_pin.equations.catalogue import Catalogue, Equation
+from thesis_pin.equations.notation import Notation
+from thesis_pin.equations.values import scalar
+
+
+class Numbers:
+    columns = 1
+
+    def __init__(self, number):
+        self.number = number
+        self.asked = 0
+
+    def lookup(self, symbol, indices):
+        self.asked += symbol.name == "a"
+        return scalar(np.array([self.number]))
+
+
+LINE = Equation(id="t:1:a", left="a", printed=["b"])
+CATALOGUE = Catalogue([LINE], Notation())
+
+
+def test_a_left_side_is_evaluated_once_for_an_environment_and_anew_for_another():
+    one = Numbers(2.0)
+    for _ in range(3):
+        assert residual(CATALOGUE, LINE, ["b"], one, "a").value == 0.0
+    assert one.asked == 1
+    for number in range(100):  # some of them where a dead one was
+        found = residual(CATALOGUE, LINE, ["1"], Numbers(float(number)), "a").value
+        assert found == abs(number - 1) / max(number, 1)
+
+
+def test_left_sides_keep_no_environment_alive():
+    environment = Numbers(2.0)
+    residual(CATALOGUE, LINE, ["b"], environment, "a")
+    gone = weakref.ref(environment)
+    del environment
+    gc.collect()
+    assert gone() is None

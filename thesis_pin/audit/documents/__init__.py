@@ -1,0 +1,1 @@
+"""What an audit says, to people and machines: tables, JSON, Markdown, a page."""

@@ -1,0 +1,89 @@
+"""A slip in words that a reader can put a finger on: between what it stands, and what belongs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from thesis_pin.audit.comparison.differences import pieces
+from thesis_pin.audit.languages.phrases import Phrases
+from thesis_pin.audit.rows import Row
+from thesis_pin.audit.slips import Slip
+
+_WHOLE = 160
+"""Characters above which a statement isn't repeated beside its correction."""
+_SHOWN = 90
+"""Characters of a formula that are shown of a slip; of a longer one its ends."""
+_ENGLISH = Phrases()
+
+
+def code(formula: str) -> str:
+    """A piece of a formula as code, as terminals and Markdown show it."""
+    return f"`{formula}`"
+
+
+def slip_text(
+    row: Row, slip: Slip, say: Phrases = _ENGLISH, quote: Callable[[str], str] = code
+) -> str:
+    """A slip in a sentence.
+
+    Args:
+        row: The line it stands in.
+        slip: The slip.
+        say: The language.
+        quote: What makes a piece of a formula readable.
+    """
+
+    def shown(formula: str) -> str:
+        if len(formula) > _SHOWN:
+            formula = f"{formula[: 2 * _SHOWN // 3]} … {formula[-_SHOWN // 3 :]}"
+        return quote(formula)
+
+    where = ", ".join(_where(row, slip, say))
+    if not any(slip.neighbours) and len(slip.printed + slip.corrected) > _WHOLE:
+        return f"{where}: {say('the whole statement')}" if where else say("the whole statement")
+    before, after = (shown(text) if text else "" for text in slip.neighbours)
+    if before and after:
+        beside = say("between {a} and {b}", a=before, b=after)
+    elif before or after:
+        beside = say("after {a}", a=before) if before else say("before {b}", b=after)
+    else:
+        beside = ""
+    old, new = (shown(text) if text else "" for text in (slip.printed, slip.corrected))
+    if old and new:
+        change = say("{old} should be {new}", old=old, new=new)
+    else:
+        change = (
+            say("{new} is missing", new=new) if new else say("{old} should not be there", old=old)
+        )
+    said = f"{beside}, {change}" if beside else change
+    return f"{where}: {said}" if where else said
+
+
+def _where(row: Row, slip: Slip, say: Phrases) -> Iterator[str]:
+    """Side or member, term, and cell of a slip, as far as there are several."""
+    if slip.member == 0:
+        yield say("left side")
+    elif len(row.printed) > 1 or slip.member > len(row.printed):
+        yield say("member {n}", n=slip.member)
+    if slip.term:
+        yield say(slip.term)
+    cell = _cell(row, slip)
+    if cell:
+        rows, column = cell
+        row_only = say("row {m}, column {n}", m=rows, n=column)
+        yield row_only if rows else say("column {n}", n=column)
+
+
+def _cell(row: Row, slip: Slip) -> tuple[int, int] | None:
+    """Row, 0 if there is one alone, and column of a slip in a matrix."""
+    if slip.kind not in ("column", "statement") or slip.member > len(row.printed):
+        return None
+    text = row.printed[slip.member - 1] if slip.member else row.left
+    keys = [piece.key for piece in pieces(text)]
+    if slip.kind == "statement" and ("&" not in keys or "&" in slip.printed + slip.corrected):
+        return None
+    before = keys[: slip.start - 1]
+    lines = before.count("\\\\")
+    this = before[len(before) - before[::-1].index("\\\\") :] if lines else before
+    column = this.count("&") + 1 + (slip.printed or slip.corrected).startswith("&")
+    return (lines + 1 if "\\\\" in keys else 0), column
