@@ -5,7 +5,7 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import Environments
-from pollard_pin.thesis.following import effect_where_used
+from pollard_pin.thesis.following import Following
 
 from .conftest import value
 
@@ -14,7 +14,7 @@ ENVIRONMENTS = Environments()
 
 def effect(identity, **changed):
     equation = catalogue()[f"pollard:{identity}"].model_copy(update=changed)
-    return effect_where_used(catalogue(), ENVIRONMENTS.of, equation)
+    return Following(catalogue(), ENVIRONMENTS.of).effect(equation)
 
 
 def works(row):
