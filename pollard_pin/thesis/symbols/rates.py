@@ -24,6 +24,12 @@ from pollard_pin.thesis.symbols.loops import element, opening, side
 from thesis_pin.equations.dual import Along, Dual, dual, inverse, vee
 
 _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarray]]]
+"""States and a chain ("" for chain 0) → how a rate follows, differentiated as the thesis does.
+
+The denominator ``(n,)``, in [m²] of :func:`_first` and :func:`_third`, in [m] of :func:`_second`,
+a number else; and the numerator ``(n,)`` while variables move at given rates, in the same unit
+times the rate's: θ̇ is their quotient.
+"""
 
 
 def derivative(of: Callable[[State], object], state: State, along: Along) -> np.ndarray:
@@ -74,7 +80,11 @@ def _quotient(
     """From tan θ = sign · above / below, two elements of one transform."""
 
     def relation(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
-        """Its denominator, and its numerator along what moves."""
+        """Denominator below², ``(n,)``, and numerator along what moves, both numbers.
+
+        The numerator is sign · cos² θ · (above' below − above below'), ``(n,)``, of tan θ
+        differentiated; it is [1/s] where the rates are [rad/s].
+        """
 
         def up(s: State) -> Any:
             return element(s, letter, i, *above)

@@ -6,7 +6,8 @@ import pytest
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import Environments
 from pollard_pin.thesis.following import Following
-from thesis_pin.equations.evaluation import evaluate
+
+from .conftest import value
 
 ENVIRONMENTS = Environments()
 
@@ -18,10 +19,6 @@ def effect(identity, **changed):
 
 def works(row):
     return any(isinstance(x, str) or x > 0 for x in row.effect.values())
-
-
-def value(text, environment):
-    return evaluate(catalogue().parse(text), environment, {}).array
 
 
 def test_every_failing_line_has_an_effect_or_says_why_it_has_none(pollard_audit):
