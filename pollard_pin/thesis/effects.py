@@ -19,7 +19,7 @@ from pollard_pin.motion.curves import appendix_b
 from pollard_pin.specification import ACTUATORS
 from pollard_pin.thesis.claims.dynamics import AWAY
 from pollard_pin.thesis.explicit import ANGLES, ExplicitModel
-from pollard_pin.thesis.following import effect_where_used
+from pollard_pin.thesis.following import Following
 from pollard_pin.thesis.references import References
 from pollard_pin.thesis.state import State
 from pollard_pin.thesis.symbols.motion import Drive
@@ -50,7 +50,8 @@ class Effects:
         random: References,
         references: Callable[[Equation], Environment] | None = None,
     ) -> None:
-        self.equations, self._states, self._references = equations, random, references
+        self.equations, self._states = equations, random
+        self._following = references and Following(equations, references)
 
     @cached_property
     def path(self) -> References:
@@ -71,9 +72,7 @@ class Effects:
     def of(self, equation: Equation) -> Effect:
         """Changes by quantity; empty if neither the dynamics nor another line rest on it."""
         if not self.model.rests_on(equation):
-            if self._references is None:
-                return {}
-            return effect_where_used(self.equations, self._references, equation)
+            return self._following.effect(equation) if self._following else {}
         try:
             change, count = self.model.change(equation), self._states.state.size
         except FormulaError as error:

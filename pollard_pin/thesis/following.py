@@ -6,6 +6,7 @@ The symbol that the line defines takes the printed value, all others what they m
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -60,53 +61,107 @@ class Printed:
         return (own.name, own.dots) == (other.name, other.dots)
 
 
-def effect_where_used(
-    equations: Catalogue, references: Callable[[Equation], Environment], equation: Equation
-) -> Effect:
-    """Largest change of a line that uses a failing one, relative to its size.
+class Following:
+    """Failing lines followed in lines that use them; what these are without it is kept.
 
     Args:
         equations: All equations.
         references: Equation → what its symbols must equal.
-        equation: The failing line.
-
-    Returns:
-        The change by the line's number or name; empty if none changes, or the print can't be
-        read.
     """
-    defined, failing = _defined(equations, equation), min(equation.mending, default=0)
-    if defined is None or not 0 < failing <= len(equation.printed):
-        return {}
-    left, derived, turned = defined
-    try:
-        node = equations.parse(equation.printed[failing - 1])
-    except FormulaError:
-        return {}
 
-    found = {}
-    for user in _behind_first(equations, equation):
-        where = Unframed(references(user))
+    def __init__(self, equations: Catalogue, references: Callable[[Equation], Environment]) -> None:
+        self.equations, self.references = equations, references
+        self._exact: dict[str, list[tuple[dict[str, str], Value]]] = {}
 
-        def printed(indices: dict[str, str], where: Environment = where) -> Value:
-            value = evaluate(node, where, indices)
-            return transpose(value) if turned else value
+    def effect(self, equation: Equation) -> Effect:
+        """Largest change of a line that uses a failing one, relative to its size.
 
-        both: tuple[Environment, ...] = where, Printed(where, left, derived, printed, where.columns)
+        Returns:
+            The change by the line's number or name; empty if none changes, or the print can't
+            be read.
+        """
+        equations = self.equations
+        defined, count = _defined(equations, equation), len(equation.printed)
+        failing = min(equation.mending, default=1 if count == 1 else 0)
+        if defined is None or not 0 < failing <= count:
+            return {}
+        left, derived, turned = defined
         try:
-            member = equations.parse(user.members("corrected")[-1])
-            found[user.id] = max(
-                difference(*(evaluate(member, symbols, i) for symbols in both))
-                for i in equations.indices(equations.parse(user.left), member)
-            )
+            node = equations.parse(equation.printed[failing - 1])
         except FormulaError:
-            continue
-    # To six digits, so that of equal changes the first is named on every machine.
-    worst = max(found, key=lambda name: float(f"{found[name]:.6g}"), default="")
-    if not worst or found[worst] < HOLDS:
-        return {}
-    number = equations[worst].number
-    name = f"({number[0]})" if number else worst.split(":", 1)[1]
-    return {f"change of {name}, which uses it, worst [-]": found[worst]}
+            return {}
+
+        found = {}
+        for user in self._behind_first(equation):
+            where = Unframed(self.references(user))
+
+            def printed(indices: dict[str, str], where: Environment = where) -> Value:
+                value = evaluate(node, where, indices)
+                return transpose(value) if turned else value
+
+            followed = Printed(where, left, derived, printed, where.columns)
+            try:
+                member = equations.parse(user.members("corrected")[-1])
+                found[user.id] = max(
+                    difference(exact, evaluate(member, followed, indices))
+                    for indices, exact in self._of(user, member, where)
+                )
+            except FormulaError:
+                continue
+        # To six digits, so that of equal changes the first is named on every machine.
+        worst = max(found, key=lambda name: float(f"{found[name]:.6g}"), default="")
+        if not worst or found[worst] < HOLDS:
+            return {}
+        number = equations[worst].number
+        name = f"({number[0]})" if number else worst.split(":", 1)[1]
+        return {f"change of {name}, which uses it, worst [-]": found[worst]}
+
+    def _of(
+        self, user: Equation, member: Node, where: Environment
+    ) -> list[tuple[dict[str, str], Value]]:
+        """What a line that uses failing ones must equal: most are used by several."""
+        if user.id not in self._exact:
+            each = self.equations.indices(self.equations.parse(user.left), member)
+            self._exact[user.id] = [(i, evaluate(member, where, i)) for i in each]
+        return self._exact[user.id]
+
+    def _behind_first(self, equation: Equation) -> Iterator[Equation]:
+        """Lines with the symbol, from the line on and then from the thesis's start."""
+        equations, names = self.equations, self._names
+        node = equations.parse(equation.left)
+        own = {
+            symbol.bound(indices).name
+            for symbol in nt.symbols(node) - {Symbol("q", "j")}
+            for indices in equations.indices(node)
+        }
+        listed = equations.equations
+        here = next(k for k, other in enumerate(listed) if other.id == equation.id)
+        found = (
+            other
+            for other in (*listed[here:], *listed[:here])
+            if other.id != equation.id
+            and own & names[other.id]
+            and other.printed
+            and not other.claim
+        )
+        yield from itertools.islice(found, TRIED)
+
+    @functools.cached_property
+    def _names(self) -> dict[str, frozenset[str]]:
+        """Names of the symbols in each line's members, as they should be, by the line's id."""
+        found = {}
+        for equation in self.equations.equations:
+            names: set[str] = set()
+            for text in equation.members("corrected"):
+                try:
+                    inside = nt.symbols(self.equations.parse(text))
+                except FormulaError:
+                    continue
+                for symbol in inside:
+                    values = self.equations.indices(symbol)
+                    names |= {symbol.bound(each).name for each in values}
+            found[equation.id] = frozenset(names)
+        return found
 
 
 def _defined(equations: Catalogue, equation: Equation) -> tuple[Symbol, bool, bool] | None:
@@ -123,38 +178,3 @@ def _defined(equations: Catalogue, equation: Equation) -> tuple[Symbol, bool, bo
     if not isinstance(node, Symbol):
         return None
     return (replace(node, dots=node.dots + 1) if timed else node), derived, turned
-
-
-def _behind_first(equations: Catalogue, equation: Equation) -> Iterator[Equation]:
-    """Lines with the symbol, from the line on and then from the thesis's start."""
-    node = equations.parse(equation.left)
-    own = {
-        symbol.bound(indices).name
-        for symbol in nt.symbols(node) - {Symbol("q", "j")}
-        for indices in equations.indices(node)
-    }
-    listed, names = equations.equations, _names(equations)
-    here = next(k for k, other in enumerate(listed) if other.id == equation.id)
-    found = [
-        other
-        for other in (*listed[here:], *listed[:here])
-        if other.id != equation.id and own & names[other.id] and other.printed and not other.claim
-    ]
-    yield from found[:TRIED]
-
-
-@functools.lru_cache(maxsize=4)
-def _names(equations: Catalogue) -> dict[str, frozenset[str]]:
-    """Names of the symbols in each line's members, as they should be, by the line's id."""
-    found = {}
-    for equation in equations.equations:
-        names: set[str] = set()
-        for text in equation.members("corrected"):
-            try:
-                inside = nt.symbols(equations.parse(text))
-            except FormulaError:
-                continue
-            for symbol in inside:
-                names |= {symbol.bound(values).name for values in equations.indices(symbol)}
-        found[equation.id] = frozenset(names)
-    return found

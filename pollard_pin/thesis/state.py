@@ -13,14 +13,14 @@ Source: Pollard thesis, 2.4 and 2.7 (transformations).
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
 from pollard_pin.coordinates import pose_from_placement
-from thesis_pin.equations.dual import dual, times_elementary
+from thesis_pin.equations.dual import Along, Dual, dual, times_elementary
 from thesis_pin.equations.values import STEP
 
 Matrices = Any
@@ -36,6 +36,9 @@ VARIABLES = (*POSE, *JOINTS)
 """All angles [rad] and task coordinates [m, rad]."""
 LENGTHS_0 = ("z_10", "x_32", "x_65", "x_1514", "x_1918")
 CONSTANTS_I = ("y_10", "z_32", "x_43", "x_87", "x_1211", "z_1312", "beta_54", "beta_1413")
+
+_EACH: Mapping[Hashable, Along] = {name: {name: 1.0} for name in VARIABLES}
+"""Directions along which one variable changes and all others stand still."""
 
 SLANT = "slant_"
 """What an arm's offset has across its axis; the thesis's robots have none."""
@@ -98,7 +101,45 @@ class State:
     variables: dict[str, np.ndarray]
     rates: dict[str, np.ndarray]
     accelerations: dict[str, np.ndarray] = field(default_factory=dict)
-    along: Mapping[Hashable, Mapping[str, float | np.ndarray]] | None = None
+    along: Mapping[Hashable, Along] | None = None
+    _kept: dict[Hashable, Matrices] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+
+    def kept(self, name: Hashable, make: Callable[[Self], Matrices], rank: int = 0) -> Matrices:
+        """What is made of constants and variables, and made once.
+
+        Its derivative by each variable is kept; along :attr:`along` it follows from these.
+
+        Args:
+            name: What it is called.
+            make: Makes it of these states.
+            rank: 0 for a number a state, 1 for a vector, 2 for a matrix.
+        """
+        key = name, self.along is not None
+        if key not in self._kept:
+            self._kept[key] = make(self if self.along is None else self.by_each())
+        found = self._kept[key]
+        if self.along is None or self.along is _EACH or not isinstance(found, Dual):
+            return found
+        return found.towards(self.along, rank)
+
+    def towards(self, along: Mapping[Hashable, Along] | None) -> Self:
+        """The same states with other directions."""
+        return self._beside(replace(self, along=along))
+
+    def by_each(self) -> Self:
+        """The same states, of which all that is made carries its derivative by each variable."""
+        return self.towards(_EACH)
+
+    def with_rates(self, rates: dict[str, np.ndarray]) -> Self:
+        """The same states with other rates."""
+        return self._beside(replace(self, rates=rates))
+
+    def _beside(self, other: Self) -> Self:
+        """Another state of the same constants and variables, which keeps what this one keeps."""
+        object.__setattr__(other, "_kept", self._kept)
+        return other
 
     def with_(self, **changed: np.ndarray) -> State:
         """The same states with other values of some variables."""
@@ -109,7 +150,7 @@ class State:
         start = self.rates if rates else self.variables
         moved = {name: start[name] + 1j * STEP * np.asarray(by) for name, by in direction.items()}
         if rates:
-            return replace(self, rates={**self.rates, **moved})
+            return self.with_rates({**self.rates, **moved})
         return self.with_(**moved)
 
     def number(self, name: str, i: str = "") -> np.ndarray:
@@ -131,17 +172,26 @@ class State:
         if self.along is None:
             return times_elementary(placement, move, value)
         name = own_name(by, i)
-        speeds = {k: sign * np.asarray(to[name]) for k, to in self.along.items() if name in to}
+        if self.along is _EACH:
+            speeds: dict[Hashable, float | np.ndarray] = (
+                {name: float(sign)} if name in self.variables else {}
+            )
+        else:
+            speeds = {k: sign * np.asarray(to[name]) for k, to in self.along.items() if name in to}
         return dual(placement).then(move, value, speeds)
 
     def transform(self, name: str, i: str = "") -> Matrices:
         """A homogeneous transform of the thesis, shape ``(..., 4, 4)``."""
-        if name == "T_LD0":
-            return self.transform("pose") @ self.transform("nozzle")
-        result: Matrices = np.eye(4)
-        for move, sign, by in _FACTORS[name]:
-            result = self.after(result, move, by, i, sign)
-        return result
+
+        def made(state: State) -> Matrices:
+            if name == "T_LD0":
+                return state.transform("pose") @ state.transform("nozzle")
+            result: Matrices = np.eye(4)
+            for move, sign, by in _FACTORS[name]:
+                result = state.after(result, move, by, i, sign)
+            return result
+
+        return self.kept((name, i), made, rank=2)
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import functools
-import itertools
 import math
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from thesis_pin.audit.judging.residuals import TROUBLES, Free, what
@@ -122,19 +121,23 @@ class Thesis:
             if workers < 2:
                 for equation in chosen:
                     yield equation
-                    rows[equation.id] = here.row(equation)
+                    rows[equation.id] = here.followed(here.row(equation))
                 return
             begin = functools.partial(_begin, self, given, with_effects)
-            with closing(shared(_rows, _tasks(chosen), workers, begin)) as results:
-                for row, used in itertools.chain.from_iterable(results):
-                    rows[row.id], here.uses[row.id] = row, used
-                    yield equations[row.id]
+            tasks = _tasks(chosen, with_effects, workers)
+            with closing(shared(_done, tasks, workers, begin)) as results:
+                for done in results:
+                    here.effects.update(done.effects)
+                    here.uses.update(done.uses)
+                    for row in done.rows:
+                        rows[row.id] = row
+                        yield equations[row.id]
 
         with closing(judged()) as each:
             for _ in progress(each, len(chosen)) if progress else each:
                 pass
         if with_effects:
-            rows = {name: here.weighed(row) for name, row in rows.items()}
+            rows = {name: here.weighed(here.followed(row)) for name, row in rows.items()}
         return AuditReport(
             self.name,
             tuple(rows[equation.id] for equation in chosen),
@@ -151,21 +154,26 @@ class _Judge:
 
     Attributes:
         uses: Lines that a line uses, of those that are known to it already.
+        effects: What following a line's print does, likewise.
     """
 
     def __init__(self, thesis: Thesis, equations: Catalogue, with_effects: bool) -> None:
         self.name, self.equations, self.with_effects = thesis.name, equations, with_effects
         self.ground = thesis.ground(equations)
         self.uses: dict[str, tuple[str, ...]] = {}
+        self.effects: dict[str, Effect] = {}
 
     def row(self, equation: Equation) -> Row:
-        """The audit's answer on one equation, all but how much a failing one matters."""
+        """The audit's answer on one equation, all but what a failing one does."""
         environment = self.ground.references(equation)
         ground, free = self.ground, self._free(equation)
-        row = judge(self.equations, equation, environment, ground.claims, self.name, free)
+        return judge(self.equations, equation, environment, ground.claims, self.name, free)
+
+    def followed(self, row: Row) -> Row:
+        """A failing row with what following its print does, where its check hasn't said so."""
         if not row.failed or not self.with_effects or row.effect:
             return row
-        return replace(row, effect=self._effect(equation))
+        return replace(row, effect=self.effect(self.equations[row.id]))
 
     def weighed(self, row: Row) -> Row:
         """A failing row with how much it matters, and why where nothing changes."""
@@ -192,12 +200,16 @@ class _Judge:
         except TROUBLES:
             return ()  # a line that can't be read fails at the references as well
 
-    def _effect(self, equation: Equation) -> Effect:
-        try:
-            found = self.ground.effect(equation)
-        except TROUBLES as error:
-            return {"the law of motion": f"can't be computed, {what(error)}"}
-        return dict(_said(name, value) for name, value in found.items())
+    def effect(self, equation: Equation) -> Effect:
+        """What following a line's print does, by quantity."""
+        if equation.id not in self.effects:
+            try:
+                found = self.ground.effect(equation)
+                said = dict(_said(name, value) for name, value in found.items())
+            except TROUBLES as error:
+                said = {"the law of motion": f"can't be computed, {what(error)}"}
+            self.effects[equation.id] = said
+        return self.effects[equation.id]
 
 
 def _said(name: str, value: float | str) -> tuple[str, float | str]:
@@ -210,32 +222,62 @@ def _said(name: str, value: float | str) -> tuple[str, float | str]:
 # -- several processes ------------------------------------------------------------------
 
 _TOGETHER = 64
-"""Lines a process takes at once: neighbours, which share most of what they need."""
+"""Lines a process takes at most at once: neighbours, which share most of what they need."""
+_FEWEST = 8
+"""Lines it takes towards the end, so that all processes end together."""
+
+
+@dataclass(frozen=True)
+class _Task:
+    """Lines to judge, or lines to follow: what following needs is shared by all of them."""
+
+    names: tuple[str, ...]
+    follow: bool = False
+
+
+@dataclass
+class _Done:
+    """What a process found: rows, what their lines use, or what following lines does."""
+
+    rows: tuple[Row, ...] = ()
+    uses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    effects: Mapping[str, Effect] = field(default_factory=dict)
+
 
 _here: list[_Judge] = []
 """The judge of a process that shares an audit; empty in all others."""
 
 
-def _tasks(chosen: Sequence[Equation]) -> list[list[str]]:
-    """Ids in the order in which processes take them: checks in code first, which take longest.
+def _tasks(chosen: Sequence[Equation], with_effects: bool, workers: int) -> list[_Task]:
+    """Lines in the order in which processes take them: what takes longest first.
 
-    Lines of one check stay together, as it is run once.
+    A single process follows those that have a correction, which all but a few failing ones
+    have. Lines of one check stay together, as it is run once.
     """
     claims: dict[str, list[str]] = {}
     for equation in chosen:
         claims.setdefault(equation.claim, []).append(equation.id)
     lines = claims.pop("", [])
-    parts = (lines[k : k + _TOGETHER] for k in range(0, len(lines), _TOGETHER))
-    return [*claims.values(), *parts]
+    tasks = [_Task(tuple(names)) for names in claims.values()]
+    mended = tuple(e.id for e in chosen if e.mending or e.left_printed)
+    if with_effects and mended:
+        tasks.insert(0, _Task(mended, follow=True))
+    while lines:
+        count = min(max(len(lines) // (2 * workers), _FEWEST), _TOGETHER)
+        tasks.append(_Task(tuple(lines[:count])))
+        del lines[:count]
+    return tasks
 
 
 def _begin(thesis: Thesis, equations: Catalogue | None, with_effects: bool) -> None:
     _here[:] = [_Judge(thesis, equations or thesis.catalogue(), with_effects)]
 
 
-def _rows(names: list[str]) -> list[tuple[Row, tuple[str, ...]]]:
-    """Rows, each with the lines that it uses: a process has just read those that it judges."""
+def _done(task: _Task) -> _Done:
+    """A task's answers; a process that has read lines to judge them says what they use."""
     (judge,) = _here
-    rows = [judge.row(judge.equations[name]) for name in names]
-    used = uses(judge.equations, names) if judge.with_effects else {}
-    return [(row, used.get(row.id, ())) for row in rows]
+    equations = [judge.equations[name] for name in task.names]
+    if task.follow:
+        return _Done(effects={equation.id: judge.effect(equation) for equation in equations})
+    rows = tuple(map(judge.row, equations))
+    return _Done(rows, uses(judge.equations, task.names) if judge.with_effects else {})

@@ -8,7 +8,7 @@ Source: Pollard thesis, 3.2 and 3.4 (frames and centres of gravity), figures 3-1
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from pollard_pin.thesis.state import CONSTANTS_I, LENGTHS_0, Matrices, State
 from pollard_pin.thesis.symbols.loops import PATHS, Path, placement
 from pollard_pin.thesis.symbols.rates import joint_rates
 from thesis_pin.equations import lagrangian
-from thesis_pin.equations.dual import dual
+from thesis_pin.equations.dual import Dual, dual
 from thesis_pin.model.mechanism.inertia import Reading
 
 BODIES = ("1", "2", "3", "4", "5", "11", "21", "12", "22")
@@ -45,9 +45,13 @@ def turned(state: State, frame: str, i: str = "") -> Matrices:
 
 def centre(state: State, body: str) -> Matrices:
     """Centre of gravity of a body in the base frame [m], shape ``(..., 3)``."""
-    local = state.constants[f"centre {body}"]
-    local = np.concatenate([local, np.ones_like(local[..., :1])], axis=-1)
-    return (placement(state, *_path(body)) @ local[..., None])[..., :3, 0]
+
+    def made(state: State) -> Matrices:
+        local = state.constants[f"centre {body}"]
+        local = np.concatenate([local, np.ones_like(local[..., :1])], axis=-1)
+        return (placement(state, *_path(body)) @ local[..., None])[..., :3, 0]
+
+    return state.kept(("centre", body), made, rank=1)
 
 
 def inertia(state: State, body: str) -> np.ndarray:
@@ -58,18 +62,21 @@ def inertia(state: State, body: str) -> np.ndarray:
 
 def bodies(state: State) -> dict[str, lagrangian.Body]:
     """All bodies with their Jacobians by the pose, on closed states."""
-    rates = joint_rates(state)
-    moved = replace(
-        state, along={k: {name: row[..., k] for name, row in rates.items()} for k in range(6)}
-    )
+    rates, moved = joint_rates(state), state.by_each()
     found = {}
     for body in BODIES:
         place, frame = centre(moved, body), dual(placement(moved, *_path(body)))
-        linear = np.stack([place.along(k) for k in range(6)], axis=-1)
-        angular = np.stack([frame.axis(k) for k in range(6)], axis=-1)
+        linear, angular = (_by_pose(slopes, rates) for slopes in (place, frame.axes()))
         mass = state.constants[f"mass {body}"]
         found[body] = lagrangian.Body(mass, inertia(state, body), linear, angular, place.value)
     return found
+
+
+def _by_pose(slopes: Dual, rates: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Jacobian by the pose, shape ``(..., 3, 6)``, of a vector whose slopes are by the joints."""
+    joints = [name for name in slopes.directions if name in rates]
+    rows = np.stack(np.broadcast_arrays(*(rates[str(name)] for name in joints)), axis=-2)
+    return np.asarray(slopes.jacobian(joints) @ rows)
 
 
 def _path(body: str) -> tuple[Path, str]:

@@ -16,6 +16,10 @@ from thesis_pin.equations.dual import inverse
 
 def frame(state: State, name: str) -> Matrices | None:
     """The transforms that rename a side of a loop (2.25 – 2.110)."""
+    return state.kept(("frame", name), lambda s: _frame(s, name), rank=2)
+
+
+def _frame(state: State, name: str) -> Matrices | None:
     t = state.transform
     if name == "T_LDn":
         return t("pose")
@@ -48,8 +52,13 @@ def element(state: State, letter: str, i: str, row: int, column: int) -> Matrice
 
     None for a side chain's where no chain is meant.
     """
-    found = frame(state, _LETTERS[letter].replace("i", i))
-    return None if found is None else found[..., row - 1, column - 1]
+    name = _LETTERS[letter].replace("i", i)
+
+    def made(state: State) -> Matrices | None:
+        found = frame(state, name)
+        return None if found is None else found[..., row - 1, column - 1]
+
+    return state.kept(("element", name, row, column), made, rank=0)
 
 
 _LETTERS = {
@@ -73,6 +82,10 @@ def side(state: State, k: int, i: str = "") -> Matrices:
     the state has offsets (:func:`in_base_axes`), Ec_2 and Ec_4 move as the thesis differentiates
     them: along the base's axes, which θ21 and θ21i don't turn.
     """
+    return state.kept(("side", k, i), lambda s: _side(s, k, i), rank=1)
+
+
+def _side(state: State, k: int, i: str) -> Matrices:
     t = state.transform
     if k == 1:
         return t("T_315")[..., 3]
@@ -118,6 +131,10 @@ def in_base_axes(state: State, *, places: bool = False) -> State:
 
 def opening(state: State, i: str = "") -> Matrices:
     """|Ec_1|² − |Ec_2|², or |Ec_3|² − |Ec_4|² of a side chain, shape ``(n,)``."""
+    return state.kept(("opening", i), lambda s: _opening(s, i), rank=0)
+
+
+def _opening(state: State, i: str) -> Matrices:
     first, second = (side(state, k, i)[..., :3] for k in ((3, 4) if i else (1, 2)))
     return (first * first).sum(axis=-1) - (second * second).sum(axis=-1)
 
@@ -140,11 +157,16 @@ def between(state: State, name: str, i: str = "") -> Matrices | None:
 
 def placement(state: State, path: Path, i: str = "") -> Matrices:
     """Placement at the end of a path, base frame, shape ``(..., 4, 4)``."""
-    result: Matrices = np.eye(4)
-    for move, name in path:
+
+    def made(state: State) -> Matrices:
+        if not path:
+            return np.eye(4)
+        move, name = path[-1]
         sign = -1 if move[0] == "-" else 1
-        result = state.after(result, move.removeprefix("-"), name, i, sign)
-    return result
+        before = placement(state, path[:-1], i)
+        return state.after(before, move.removeprefix("-"), name, i, sign)
+
+    return state.kept(("placement", path, i), made, rank=2)
 
 
 Path = tuple[tuple[str, str], ...]

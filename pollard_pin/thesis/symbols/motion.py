@@ -196,7 +196,7 @@ class MotionSymbols(Positions):
             along = {name: self.state.rates[name] for name in JOINTS}
         else:
             return None
-        moved = dual(placement(replace(self.state, along={None: along}), PATHS[frame], i))
+        moved = dual(placement(self.state.towards({None: along}), PATHS[frame], i))
         return vector(moved.axis(None))
 
     def _axis(self, symbol: Symbol, i: str) -> Value | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable
 
@@ -24,6 +25,12 @@ class Positions(Symbols):
     def __init__(self, state: State) -> None:
         super().__init__()
         self.state = state
+        self._circles: dict[str, accelerations.Circle] = {}
+
+    @functools.cached_property
+    def _later(self) -> State:
+        """The states one imaginary step of time away."""
+        return self.state.step(dict(self.state.rates))
 
     def _find(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.dots == 1:
@@ -37,7 +44,7 @@ class Positions(Symbols):
     def _rate(self, symbol: Symbol, i: str) -> Value | None:
         if symbol.name in VARIABLES:
             return scalar(self.state.rates[symbol.name])
-        moved = both_chains(self.state.step(dict(self.state.rates)), symbol.name, i)
+        moved = both_chains(self._later, symbol.name, i)
         if moved is None:
             return None
         return Value(np.imag(moved.array) / STEP, moved.rank)
@@ -47,7 +54,9 @@ class Positions(Symbols):
             return scalar(self.state.accelerations[symbol.name])
         if re.match("[VEG]_", symbol.name):  # themselves derivatives
             return None
-        circle = accelerations.Circle(self.state, i)
+        if i not in self._circles:
+            self._circles[i] = accelerations.Circle(self.state, i)
+        circle = self._circles[i]
         moved = find(circle.state, symbol.name, i)
         if moved is None:
             return None

@@ -14,22 +14,27 @@ Source: Pollard thesis, 2.5 (2.49 – 2.74), 2.8 (2.132 – 2.160).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from pollard_pin.thesis.state import CHAIN_0, POSE, SIDE, State, own_name
 from pollard_pin.thesis.symbols.loops import element, opening, side
-from thesis_pin.equations.dual import dual, inverse, vee
+from thesis_pin.equations.dual import Along, Dual, dual, inverse, vee
 
-Along = Mapping[str, float | np.ndarray]
 _Relation = Callable[[State, str], tuple[np.ndarray, Callable[[Along], np.ndarray]]]
+"""States and a chain ("" for chain 0) → how a rate follows, differentiated as the thesis does.
+
+The denominator ``(n,)``, in [m²] of :func:`_first` and :func:`_third`, in [m] of :func:`_second`,
+a number else; and the numerator ``(n,)`` while variables move at given rates, in the same unit
+times the rate's: θ̇ is their quotient.
+"""
 
 
 def derivative(of: Callable[[State], object], state: State, along: Along) -> np.ndarray:
     """Exact derivative of a product of transforms along a direction, at complex states too."""
-    found: Any = of(replace(state, along={None: along}))
+    found: Any = of(state.towards({None: along}))
     return dual(found).along(None)
 
 
@@ -75,7 +80,11 @@ def _quotient(
     """From tan θ = sign · above / below, two elements of one transform."""
 
     def relation(state: State, i: str) -> tuple[np.ndarray, Callable[[Along], np.ndarray]]:
-        """Its denominator, and its numerator along what moves."""
+        """Denominator below², ``(n,)``, and numerator along what moves, both numbers.
+
+        The numerator is sign · cos² θ · (above' below − above below'), ``(n,)``, of tan θ
+        differentiated; it is [1/s] where the rates are [rad/s].
+        """
 
         def up(s: State) -> Any:
             return element(s, letter, i, *above)
@@ -205,7 +214,7 @@ def moving(state: State) -> State:
     """A closed state whose joints move as its pose does."""
     pose = np.stack([state.rates[name] for name in POSE], axis=-1)
     joints = {name: (row * pose).sum(axis=-1) for name, row in joint_rates(state).items()}
-    return replace(state, rates={**state.rates, **joints})
+    return state.with_rates({**state.rates, **joints})
 
 
 def joint_rates(state: State) -> dict[str, np.ndarray]:
@@ -214,8 +223,10 @@ def joint_rates(state: State) -> dict[str, np.ndarray]:
     The gap of a loop is the placement of one end in the other's frame; its
     derivative by the angles, times their rates, undoes its derivative by the pose.
     """
-    state = replace(state, along=None)
+    return dict(state.towards(None).kept("joint rates", _joint_rates))
 
+
+def _joint_rates(state: State) -> dict[str, np.ndarray]:
     def serial(s: State) -> Any:
         chain = s.transform("T_03") @ s.transform("T_315") @ s.transform("T_1519")
         return inverse(s.transform("pose")) @ chain
@@ -243,15 +254,21 @@ def explicit_rates(state: State) -> dict[str, np.ndarray]:
     2.8 do. On closed states these are :func:`joint_rates`; off them, what the
     thesis's k are as functions, which a derivative by one angle alone needs.
     """
+    axes = max(value.ndim for value in state.variables.values())
+
+    def ahead(row: np.ndarray) -> np.ndarray:
+        """The pose's six first, in front of all axes that states have."""
+        row = np.moveaxis(row, -1, 0)
+        return row.reshape(6, *(1,) * (axes + 1 - row.ndim), *row.shape[1:])
+
+    along = {name: ahead(unit) for name, unit in zip(POSE, np.eye(6), strict=True)}
     result: dict[str, np.ndarray] = {}
     for row in RATES:
         for i in ("1", "2") if row.side else ("",):
             below, numerator = row.relation(state, i)
-            found = [
-                numerator({POSE[k]: 1.0, **{name: one[..., k] for name, one in result.items()}})
-                for k in range(6)
-            ]
-            result[own_name(row.angle, i)] = np.stack(found, axis=-1) / below[..., None]
+            found = np.moveaxis(numerator(along), 0, -1) / below[..., None]
+            result[own_name(row.angle, i)] = found
+            along[own_name(row.angle, i)] = ahead(found)
     return result
 
 
@@ -262,15 +279,11 @@ def _solve(
     given: Sequence[Along],
 ) -> list[np.ndarray]:
     """Rates of unknown variables that keep a gap as it is while the given ones move."""
-
-    moved = gap(replace(state, along={**{n: {n: 1.0} for n in unknown}, **dict(enumerate(given))}))
-    back = inverse(moved.value)
-
-    def twist(direction: object) -> np.ndarray:
-        rate = back @ moved.along(direction)
-        return np.concatenate([rate[..., :3, 3], vee(rate)], axis=-1)
-
-    matrix = np.stack([twist(name) for name in unknown], axis=-1)
-    right = np.stack([twist(k) for k in range(len(given))], axis=-1)
+    moved = gap(state.by_each())
+    rate = inverse(moved.value) @ moved.stack
+    slopes = np.concatenate([rate[..., :3, 3], vee(rate)], axis=-1)
+    twist = Dual.of(np.zeros(slopes.shape[1:]), moved.directions, slopes)  # none at rest
+    matrix = twist.jacobian(unknown)
+    right = twist.towards(dict(enumerate(given)), rank=1).jacobian(range(len(given)))
     solved = np.linalg.solve(matrix, -right)
     return [solved[..., k, :] for k in range(len(unknown))]

@@ -44,13 +44,14 @@ def printed_angles() -> tuple[np.ndarray, np.ndarray]:
 
 
 def _constant_angles(equation: Equation) -> ClaimResult:
-    """Angles that stay what is printed in all 41 rows."""
+    """Angles of both legs that stay what is printed in all 41 rows."""
     degrees, _ = printed_angles()
     joints = [_joint(name) for name in equation.left.split(", ")]
     if len(set(joints)) < len(joints):
         raise unreadable(equation.left)
 
     def residual(text: str, left: str) -> float:
+        """Largest difference of a printed row from the number said [°]."""
         columns = [*joints, *(k + 6 for k in joints)]
         return float(np.abs(degrees[:, columns] - quantity(text)[0]).max())
 
@@ -71,7 +72,10 @@ def _initial_angles(equation: Equation) -> ClaimResult:
         raise unreadable(equation.left)
 
     def residual(text: str, left: str) -> float:
-        """Largest difference from the tables' first row, relative."""
+        """Largest difference from the tables' first row, relative to what stands there.
+
+        Where the row has a zero, the difference itself [°].
+        """
         found = re.fullmatch(r"\(((?:(?:\\pm |\\mp )?[\d.]+(?:, |(?=\)))){6})\)°", text)
         if not found:
             raise unreadable(text)
@@ -99,6 +103,10 @@ def _printed_angles(robot: Scout, program: Gait, equation: Equation) -> ClaimRes
     gap = np.abs(found - degrees)
 
     def residual(text: str, left: str) -> float:
+        """Largest difference [°] beyond half the last digit and the program's solver.
+
+        One more where the text counts other angles, or names other times.
+        """
         words = re.fullmatch(r"\\text\{(\d+) angles, t = (\d+) … (\d+)\}", text)
         if not words:
             raise unreadable(text)

@@ -44,6 +44,7 @@ def _conditions(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     splines = Splines()
 
     def residual(text: str, left: str) -> float:
+        """Largest difference of both sides, relative to the largest value, at random splines."""
         return identity(catalogue, _values(left), _values(text), splines)
 
     return both(equation, residual)
@@ -55,6 +56,10 @@ def _straight(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     straight = Splines(straight=True)
 
     def residual(text: str, left: str) -> float:
+        """Largest difference of a_1 and the left side, and of that and the text, both relative.
+
+        The first at random splines, the second at those that begin straight.
+        """
         return max(general, identity(catalogue, left, text, straight))
 
     return both(equation, residual)
@@ -65,7 +70,10 @@ def _pieces_of_c(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     splines = Splines()
 
     def residual(text: str, left: str) -> float:
-        """How far the formulas are from the pieces, which have to follow one another."""
+        """Largest difference of a formula from its piece, relative to the largest value.
+
+        :data:`WRONG` where the pieces don't follow one another to the last.
+        """
         inside = re.fullmatch(r"\\begin\{cases\}(.*)\\end\{cases\}", text)
         if not inside or equation.left != "S(t)":
             raise unreadable(text)
@@ -117,6 +125,10 @@ def _node(equation: Equation) -> ClaimResult:
     table = {float(row["t"]): row["y_B"] for row in table_rows()}
 
     def residual(text: str, left: str) -> float:
+        """Difference [mm] from the table's value at that t, relative to a step's length.
+
+        :data:`WRONG` where the table has none.
+        """
         t, value = _read_node(text)
         if table.get(t, "-") == "-":
             return WRONG
@@ -134,6 +146,7 @@ def _figure_c_1(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     found = spline_coefficients(times, values)
 
     def residual(text: str, left: str) -> float:
+        """Largest difference of a coefficient beyond half its last digit [mm; t has no unit]."""
         if not re.fullmatch(r"(\((-?[\d.]+, ){2}-?[\d.]+\)(, |$)){3}", text):
             raise unreadable(text)
         cells = re.findall(r"-?\d+(?:\.\d+)?", text)

@@ -71,6 +71,10 @@ def _spline(exact: Gait, equation: Equation) -> ClaimResult:
     curve = exact.curves[body][axis]
 
     def residual(text: str, left: str) -> float:
+        """Largest difference [mm] beyond rounding, relative to a step's length.
+
+        :data:`WRONG` where an instant has no value or two, or a piece ends at no node.
+        """
         found, worst = pieces(text), 0.0
         if not _tiles(found, 0.0, _END):
             return WRONG
@@ -115,7 +119,11 @@ def table_rows() -> list[dict[str, str]]:
 
 
 def _table(exact: Gait) -> ClaimResult:
-    """Which values of table 5.1 the splines miss, and that the nodes are met."""
+    """Which values of table 5.1 the splines miss, and that the nodes are met.
+
+    Both residuals are largest differences [mm] relative to a step's length: of all values, and
+    of those at nodes.
+    """
     missed, at_nodes, worst = [], 0.0, 0.0
     for row in table_rows():
         t = float(row["t"])
@@ -147,7 +155,11 @@ def _program_spline(catalogue: Catalogue, equation: Equation) -> ClaimResult:
     apart: list[float] = []
 
     def residual(text: str, left: str) -> float:
-        """Largest difference of coefficients, and of the values at the end, beyond rounding."""
+        """Largest difference beyond rounding: of the coefficients and of the value at the end.
+
+        A coefficient's is relative to chapter 5's [mm where that is zero], the value's to a
+        step's length; :data:`WRONG` where the intervals differ.
+        """
         own, worst = pieces(text), 0.0
         beside = [piece for piece in own if piece.start < printed[-1].end]
         if len(beside) != len(printed):

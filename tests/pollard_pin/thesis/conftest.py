@@ -1,11 +1,13 @@
-"""What lines are judged by, and lines with a slip, shared by the tests of Pollard's thesis."""
+"""Formulas, lines with a slip and what lines are judged by, for the tests of Pollard's thesis."""
 
+import numpy as np
 import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import THESIS, Environments
 from thesis_pin.audit.judging.verdicts import judge
 from thesis_pin.equations.catalogue import Equation
+from thesis_pin.equations.evaluation import evaluate
 
 
 @pytest.fixture(scope="module")
@@ -16,6 +18,20 @@ def ground():
 @pytest.fixture(scope="module")
 def environments():
     return Environments()
+
+
+def value(text, symbols, **indices):
+    """What a formula is where its symbols are what an environment says, of a chain if it has i."""
+    return evaluate(catalogue().parse(text), symbols, {k: v for k, v in indices.items() if v}).array
+
+
+def base_frame(state):
+    """X, Y, Z as (2.20) prints them: the wrist less the elbow, in the base's axes."""
+    wrist = state.transform("T_LD0")[..., :3, 3]
+    theta = state.variables["theta_21"]
+    x = wrist[..., 0] - state.constants["x_32"] * np.cos(theta)
+    z = wrist[..., 2] - state.constants["z_10"] + state.constants["x_32"] * np.sin(theta)
+    return np.stack([x, wrist[..., 1], z])
 
 
 def with_slip(identity: str, old: str, new: str) -> Equation:

@@ -12,9 +12,10 @@ from pollard_pin.thesis.references import OpenReferences
 from pollard_pin.thesis.state import POSE
 from pollard_pin.thesis.symbols.accelerations import Circle, accelerating, coefficient
 from pollard_pin.thesis.symbols.loops import side
-from thesis_pin.equations.evaluation import evaluate
 
 from ..conftest import closed_motion
+from .conftest import base_frame
+from .conftest import value as value_of
 
 
 @pytest.fixture(scope="module")
@@ -23,8 +24,7 @@ def opened():
 
 
 def value(formula, state, i=""):
-    node = catalogue().parse(formula)
-    return evaluate(node, OpenReferences(state), {"i": i} if i else {}).array
+    return value_of(formula, OpenReferences(state), i=i)
 
 
 def test_derivatives_on_the_circle_are_those_of_calculus(opened):
@@ -80,14 +80,9 @@ def test_the_last_coefficient_is_all_that_the_poses_acceleration_leaves(opened):
 def in_base_frame(state):
     """X and Z as (2.20) prints them, and their first and second derivatives."""
 
-    def printed(s):
-        wrist = s.transform("T_LD0")[:, :3, 3]
-        theta = s.variables["theta_21"]
-        x = wrist[:, 0] - s.number("x_32") * np.cos(theta)
-        return x, wrist[:, 2] - s.number("z_10") + s.number("x_32") * np.sin(theta)
-
     circle = Circle(state, "")
-    return [[circle.derivative(v, k) for v in printed(circle.state)] for k in (1, 2)]
+    x, _, z = base_frame(circle.state)
+    return [[circle.derivative(v, k) for v in (x, z)] for k in (1, 2)]
 
 
 def test_the_second_derivatives_of_X_and_Z_fail_because_220_is_in_the_base_frame(opened):

@@ -59,6 +59,16 @@ def test_rows_are_the_same_where_two_processes_share_the_work(report, monkeypatc
     assert any(row.failed and row.effect for row in shared.rows)
 
 
+def test_a_slip_that_nothing_mends_is_followed_where_two_processes_share_the_work(monkeypatch):
+    monkeypatch.setattr(thesis, "_TOGETHER", 1)
+    line = catalogue()["pollard:E:G_2"]
+    slip = line.model_copy(update={"printed": ("-" + line.printed[0],)})
+    shared = audit(catalogue().with_equation(slip), only=[line.id, "pollard:2.1:T_z1"], jobs=2)
+    assert shared.rows[0].verdict == "unexplained"
+    assert max(shared.rows[0].effect.values()) > 0
+    assert shared.rows[1].verdict == "holds"
+
+
 def test_the_numbers_are_those_of_the_thesis():
     assert len(NUMBERS) == 333
     known = {number for equation in catalogue().equations for number in equation.number}

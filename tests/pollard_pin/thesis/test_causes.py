@@ -14,15 +14,12 @@ from thesis_pin.audit.comparison.kinds import of_equation
 from thesis_pin.audit.comparison.places import places
 from thesis_pin.audit.judging.verdicts import residual
 from thesis_pin.equations.catalogue import index_values
-from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.values import STEP
 from thesis_pin.numeric.arrays import wrap
 
+from .conftest import base_frame, value
+
 OPEN, CLOSED = (OpenReferences(states(closed=closed)) for closed in (False, True))
-
-
-def value(text, references, **indices):
-    return evaluate(catalogue().parse(text), references, indices).array
 
 
 def lines(cause):
@@ -46,15 +43,6 @@ def test_with_the_printed_x_and_z_the_tangent_is_that_of_both_angles():
     np.testing.assert_allclose(np.sin(both) * x + np.cos(both) * z, 0, atol=1e-12)
     alone = CLOSED.state.variables["theta_43"]
     assert np.abs(np.sin(alone) * x + np.cos(alone) * z).min() > 1e-4
-
-
-def base_frame(state):
-    """X, Y, Z as (2.20) prints them: the wrist less the elbow, in the base's axes."""
-    wrist = state.transform("T_LD0")[..., :3, 3]
-    theta = state.variables["theta_21"]
-    x = wrist[..., 0] - state.constants["x_32"] * np.cos(theta)
-    z = wrist[..., 2] - state.constants["z_10"] + state.constants["x_32"] * np.sin(theta)
-    return np.stack([x, wrist[..., 1], z])
 
 
 def rate(along):

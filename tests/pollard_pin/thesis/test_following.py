@@ -5,23 +5,20 @@ import pytest
 
 from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.audit import Environments
-from pollard_pin.thesis.following import effect_where_used
-from thesis_pin.equations.evaluation import evaluate
+from pollard_pin.thesis.following import Following
+
+from .conftest import value
 
 ENVIRONMENTS = Environments()
 
 
 def effect(identity, **changed):
     equation = catalogue()[f"pollard:{identity}"].model_copy(update=changed)
-    return effect_where_used(catalogue(), ENVIRONMENTS.of, equation)
+    return Following(catalogue(), ENVIRONMENTS.of).effect(equation)
 
 
 def works(row):
     return any(isinstance(x, str) or x > 0 for x in row.effect.values())
-
-
-def value(text, environment):
-    return evaluate(catalogue().parse(text), environment, {}).array
 
 
 def test_every_failing_line_has_an_effect_or_says_why_it_has_none(pollard_audit):

@@ -53,6 +53,11 @@ class References:
         self._moved: dict[tuple[int | None, int, complex], References] = {}
 
     @property
+    def glossary(self) -> Glossary:
+        """What the letters stand for."""
+        return self._shared.glossary
+
+    @property
     def used(self) -> set[str]:
         """Ids of the equations whose definitions were needed."""
         return self._shared.used
@@ -158,14 +163,32 @@ class References:
             return None
         angle: np.ndarray | float = 0.0
         for sign, part in re.findall(r"([+-]?)([^+-]+)", symbol.sub):
-            numbers = [int(digit) - 1 for digit in part] if part.isdigit() else []
-            named = glossary.coordinates.get((re.sub(r"(?<=[a-z])(?=\d)", "_", part), False))
-            numbers += [named] if named is not None else []
-            if not numbers or not all(0 <= k < self.columns for k in numbers):
+            numbers: list[int | None] = []
+            if part.isdigit():
+                numbers = [self._angle(digit, symbol) for digit in part]
+            elif (name := (re.sub(r"(?<=[a-z])(?=\d)", "_", part), False)) in glossary.coordinates:
+                numbers = [glossary.coordinates[name]]
+            if not numbers or None in numbers:
                 return None
-            turned = sum(self.states.x[..., k] for k in numbers)
+            turned = sum(np.take(self.states.x, k, axis=-1) for k in numbers if k is not None)
             angle = angle - turned if sign == "-" else angle + turned
         return scalar(np.cos(angle) if symbol.base == glossary.cos else np.sin(angle))
+
+    def _angle(self, digit: str, symbol: Symbol) -> int | None:
+        """The angle that a digit in a subscript means, as 4 of c_{45}; None if there is none.
+
+        That is the angle with this number, wherever the header has it: a wrist alone counts from 4,
+        and a cart's x stands before θ_1. Where no coordinate is numbered they count in their order.
+        """
+        numbered = self._shared.glossary.numbered
+        angles = np.flatnonzero(self.states.turning)
+        meant = [k for k in numbered.get(digit, ()) if k in angles]
+        if len(meant) > 1:
+            listed = " or ".join(self.states.coordinates.symbols[k] for k in meant)
+            raise FormulaError(f"{symbol.name} may be of {listed}: write the angle out")
+        if meant or numbered:
+            return meant[0] if meant else None
+        return int(digit) - 1 if int(digit) - 1 in angles else None
 
     def _defined(self, symbol: Symbol) -> Value | None:
         """A symbol from the file's own first definition of it."""

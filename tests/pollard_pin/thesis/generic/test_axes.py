@@ -9,10 +9,9 @@ from pollard_pin.thesis import catalogue
 from pollard_pin.thesis.generic.axes import AnyAxes, slopes
 from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.audit.rows import HOLDS
-from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.numeric.rotations import rotation
 
-from ..conftest import verdict, with_slip
+from ..conftest import value, verdict, with_slip
 
 TURN_54 = r"\mathbf{R}_z(\theta_{54})"
 STEP = 1e-6
@@ -21,10 +20,6 @@ STEP = 1e-6
 @pytest.fixture(scope="module")
 def symbols():
     return AnyAxes.drawn()
-
-
-def value(symbols, text, i=""):
-    return evaluate(catalogue().parse(text), symbols, {"i": i} if i else {}).array
 
 
 @pytest.mark.parametrize(
@@ -87,27 +82,27 @@ def test_every_line_of_slopes_holds_there_as_it_should_be_printed(symbols):
 def test_an_axis_is_what_turning_its_joint_leaves_in_place(symbols, axis, frame, angle, i):
     turned = [
         value(
-            AnyAxes(symbols.state.with_(**{angle: at}), symbols.drive),
             rf"\mathbf{{R}}_{{{frame}}}^0",
-            i,
+            AnyAxes(symbols.state.with_(**{angle: at}), symbols.drive),
+            i=i,
         )
         for at in (symbols.state.variables[angle] + by for by in (-STEP, STEP))
     ]
     slope = (turned[1] - turned[0]) / (2 * STEP)
-    spin = slope @ np.swapaxes(value(symbols, rf"\mathbf{{R}}_{{{frame}}}^0", i), -1, -2)
+    spin = slope @ np.swapaxes(value(rf"\mathbf{{R}}_{{{frame}}}^0", symbols, i=i), -1, -2)
     vector = np.stack([spin[..., 2, 1], spin[..., 0, 2], spin[..., 1, 0]], axis=-1)
-    np.testing.assert_allclose(value(symbols, axis, i), vector, atol=1e-8)
+    np.testing.assert_allclose(value(axis, symbols, i=i), vector, atol=1e-8)
 
 
 def test_no_axis_is_at_a_right_angle_to_the_next(symbols):
     names = [r"\mathbf{j}_3^0", r"\mathbf{k}_4^0", r"\mathbf{i}_{15}^0", r"\mathbf{k}_{16}^0"]
-    axes = [value(symbols, name) for name in (*names, r"\mathbf{i}_{17}^0")]
+    axes = [value(name, symbols) for name in (*names, r"\mathbf{i}_{17}^0")]
     for one, following in itertools.pairwise(axes):
         assert np.abs((one * following).sum(axis=-1)).min() > 1e-2
 
 
 def test_a_printed_rotation_turns_as_the_mechanism_does(symbols):
-    printed = value(symbols, r"\mathbf{R}_y(\theta_{21}) \mathbf{R}_y(\theta_{43})")
-    np.testing.assert_allclose(printed, value(symbols, r"\mathbf{R}_4^0"), atol=1e-12)
+    printed = value(r"\mathbf{R}_y(\theta_{21}) \mathbf{R}_y(\theta_{43})", symbols)
+    np.testing.assert_allclose(printed, value(r"\mathbf{R}_4^0", symbols), atol=1e-12)
     straight = rotation("y", symbols.state.variables["theta_21"])
-    assert np.abs(value(symbols, r"\mathbf{R}_y(\theta_{21})") - straight).max() > 0.1
+    assert np.abs(value(r"\mathbf{R}_y(\theta_{21})", symbols) - straight).max() > 0.1

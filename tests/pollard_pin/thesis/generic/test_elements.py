@@ -4,29 +4,28 @@ import pytest
 
 from pollard_pin.thesis.audit import THESIS
 from pollard_pin.thesis.generic.elements import Elements
-from thesis_pin.audit.judging.verdicts import judge
+
+from ..conftest import verdict
 
 EQUATIONS = THESIS.catalogue()
 GROUND = THESIS.ground(EQUATIONS)
 NAMED = ["2.4.4:2.26", "2.4.4:2.30", "2.4.6:2.44", "2.7.4:2.110", "2.7.5:2.119", "2.7.6:2.128"]
 
 
-def verdict(equation):
-    free = GROUND.substituted(equation)
-    return judge(EQUATIONS, equation, GROUND.references(equation), {}, "", free).verdict
-
-
 @pytest.mark.parametrize("name", NAMED)
 def test_an_element_of_a_transforms_last_row_can_not_change_unseen(name):
     equation = EQUATIONS[f"pollard:{name}"]
-    assert verdict(equation) == "holds"
+    assert verdict(GROUND, equation) == "holds"
     (text,) = equation.printed
     letter = text.split("_{11}")[0][-1]
     for place in ("41", "34") if f"{letter}_{{41}}" in text else ("34", "33"):
         for changed in (f"-{letter}_{{{place}}}", f"2 {letter}_{{{place}}}", f"{letter}_{{42}}"):
             slipped = text.replace(f"{letter}_{{{place}}}", changed)
             assert slipped != text
-            assert verdict(equation.model_copy(update={"printed": (slipped,)})) == "unexplained"
+            assert (
+                verdict(GROUND, equation.model_copy(update={"printed": (slipped,)}))
+                == "unexplained"
+            )
 
 
 def test_no_other_line_is_held_to_free_elements():

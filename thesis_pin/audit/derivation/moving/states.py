@@ -87,6 +87,12 @@ class States:
         """The same states of bodies without inertia about their centres of mass."""
         return replace(self, tree=replace(self.tree, inertia=0.0 * self.tree.inertia))
 
+    @property
+    def turning(self) -> np.ndarray:
+        """Whether each coordinate is an angle: whether a joint turns with it, shape ``(n,)``."""
+        turns = self.tree.turns.any(axis=-1)
+        return np.asarray((self.coordinates.joint_rates[turns] != 0).any(axis=0))
+
     @classmethod
     def random(
         cls, tree: Tree, frames: Frames, coordinates: Coordinates, gravity: np.ndarray

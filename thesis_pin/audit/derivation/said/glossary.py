@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from thesis_pin.audit.derivation.said.phrases import Phrase
 from thesis_pin.equations.formula import Node, Symbol
@@ -39,6 +40,16 @@ class Glossary:
         every = {**self.coordinates, **self.constants, **self.symbols}
         name, bold = key(symbol)
         return next((k for k in ((name, bold), (name, not bold)) if k in every), None)
+
+    @cached_property
+    def numbered(self) -> Mapping[str, tuple[int, ...]]:
+        """Numeral in a subscript → numbers of the coordinates that have it, as 4 of θ_4."""
+        found: dict[str, tuple[int, ...]] = {}
+        for (name, _), k in self.coordinates.items():
+            numeral = name.rpartition("_")[2]
+            if numeral.isdigit():
+                found[numeral] = (*found.get(numeral, ()), k)
+        return found
 
     @property
     def names(self) -> list[str]:
