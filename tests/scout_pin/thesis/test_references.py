@@ -135,3 +135,10 @@ def test_entries_of_the_actuation_matrix_are_told_apart(digits, entry):
     from scout_pin.thesis.symbols.forces import matrix_entry
 
     assert matrix_entry(digits) == entry
+
+
+@pytest.mark.parametrize(("base", "sub"), [("u", "theta71"), ("u", "x9"), ("t", "theta71")])
+def test_a_vector_of_no_coordinate_is_not_defined(references, base, sub):
+    assert value(references, "u", "theta31", "0").shape[-1] == 3
+    with pytest.raises(FormulaError, match="defined"):
+        value(references, base, sub, "0")
