@@ -53,6 +53,11 @@ class References:
         self._moved: dict[tuple[int | None, int, complex], References] = {}
 
     @property
+    def glossary(self) -> Glossary:
+        """What the letters stand for."""
+        return self._shared.glossary
+
+    @property
     def used(self) -> set[str]:
         """Ids of the equations whose definitions were needed."""
         return self._shared.used
