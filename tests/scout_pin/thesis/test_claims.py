@@ -7,6 +7,7 @@ import pytest
 
 from scout_pin.thesis import catalogue
 from scout_pin.thesis.audit import THESIS
+from scout_pin.thesis.claims import angles
 from scout_pin.thesis.claims.gait import Numbers
 from scout_pin.thesis.claims.law import _law_of_motion as law_of_motion
 from scout_pin.thesis.claims.splines import table_rows
@@ -236,3 +237,14 @@ def test_the_splines_leave_out_the_last_instant_of_the_table():
         printed, mended = pieces(row.printed[0]), pieces(row.members("corrected")[0])
         assert not any(piece.has(np.array([last]))[0] for piece in printed)
         assert any(piece.has(np.array([last]))[0] for piece in mended)
+
+
+def test_an_angle_that_is_off_fails_by_as_many_degrees(ground, monkeypatch):
+    degrees, half = angles.printed_angles()
+    equation = catalogue()["scout:D:Out_347_358"]
+    off = degrees.copy()
+    off[7, 3] += 0.25
+    monkeypatch.setattr(angles, "printed_angles", lambda: (off, half))
+    found = ground.claims[equation.claim](equation).printed
+    # The print is rounded to its last digit, and the program's solver stops before the root.
+    assert abs(found - 0.25) < 2 * half[7, 3] + 2 * angles.SOLVER

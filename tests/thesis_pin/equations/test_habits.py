@@ -118,6 +118,9 @@ def test_a_lost_bracket_is_named_by_its_place():
     with pytest.raises(Unreadable) as error:
         NOTATION.parse(r"a + b) + c")
     assert error.value.position == r"a + b) + c".index(")")
+    with pytest.raises(Unreadable) as error:
+        NOTATION.parse("^a")
+    assert error.value.position == 0
 
 
 @pytest.mark.parametrize(
@@ -172,6 +175,8 @@ def test_layout_is_blanked_in_place():
     assert blank.index("f") == formula.index("f ")
     assert r"\begin{pmatrix} b & c \\ d & e \end{pmatrix}" in blank
     assert blank.count("&") == formula.count("&") - 2
+    assert plain("a &= b") == "a  = b"
+    assert plain(r"a \\ = b") == "a    = b"
 
 
 def test_a_second_derivative_is_one_twice():
