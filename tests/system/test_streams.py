@@ -5,16 +5,17 @@ import os
 import re
 import subprocess
 import sys
-from functools import cache
 from pathlib import Path
 
 import pytest
+from commands import run
 
 ROOT = Path(__file__).parents[2]
 IK = {
     "scout": ["ik", "left", "--position", "-0.0445", "-0.02", "-0.22"],
     "pollard": ["ik", "0.45", "0", "0.1", "0", "0", "0"],
 }
+ANSWERS = {}
 EVERY = [(robot, words) for robot in IK for words in (["info"], IK[robot])]
 
 
@@ -34,22 +35,30 @@ def command(robot, *words, environment=None, **options):
     return done
 
 
-@cache
-def answer(robot, words, **environment):
-    """What a command says on standard output in UTF-8; several tests compare with it."""
-    settings = {"PYTHONIOENCODING": "utf-8"} | environment
-    return command(robot, *words, environment=settings).stdout.decode()
+@pytest.fixture
+def answer(capfd, monkeypatch):
+    """What a command says on standard output, called in this process; some compare with it."""
+
+    def said(robot, words, columns):
+        if (robot, *words, columns) not in ANSWERS:
+            monkeypatch.setenv("COLUMNS", columns)
+            code, out, err = run(f"{robot}-pin", words, capfd)
+            assert (code, err) == (0, "")
+            ANSWERS[robot, *words, columns] = out
+        return ANSWERS[robot, *words, columns]
+
+    return said
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252", "cp437"])
 @pytest.mark.parametrize(("robot", "words"), EVERY)
-def test_every_encoding_gets_a_readable_answer(robot, words, encoding):
+def test_every_encoding_gets_a_readable_answer(robot, words, encoding, answer):
     environment = {"PYTHONIOENCODING": encoding, "COLUMNS": "80"}
     done = command(robot, *words, environment=environment)
     assert (done.returncode, done.stderr) == (0, b"")
     text = done.stdout.decode(encoding)
     assert not re.search(r"\\u|\\x|\?", text)
-    plain = answer(robot, tuple(words), COLUMNS="80")
+    plain = answer(robot, words, "80")
     numbers = [re.findall(r"\d+\.\d+", one) for one in (text, plain)]
     assert numbers[0] == numbers[1]
     assert len(numbers[0]) > 10
@@ -57,8 +66,8 @@ def test_every_encoding_gets_a_readable_answer(robot, words, encoding):
 
 @pytest.mark.parametrize("width", ["20", "40"])
 @pytest.mark.parametrize(("robot", "words"), EVERY)
-def test_no_number_is_cut_below_80_columns(robot, words, width):
-    wide, narrow = (answer(robot, tuple(words), COLUMNS=columns) for columns in ("200", width))
+def test_no_number_is_cut_below_80_columns(robot, words, width, answer):
+    wide, narrow = (answer(robot, words, columns) for columns in ("200", width))
     decimals = r"-?\d+\.\d+"
     assert sorted(re.findall(decimals, narrow)) == sorted(re.findall(decimals, wide))
     assert "…" not in narrow
