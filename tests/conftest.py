@@ -69,8 +69,17 @@ def _untidy():
     return set(found.stdout.splitlines()) if found.returncode == 0 else set()
 
 
-def pytest_configure():
-    """Let the commands under test be interrupted, also where a shell's background job can't be."""
+def pytest_configure(config):
+    """Let the commands under test be interrupted, also where a shell's background job can't be.
+
+    Workers that share the cores leave them to each other: a BLAS's threads would wait for a core
+    that they don't get, and spin meanwhile. Processes that they start are as a user's.
+    """
+    if hasattr(config, "workerinput"):
+        import scipy.linalg  # noqa: F401 # it brings a BLAS beside NumPy's
+        from threadpoolctl import threadpool_limits
+
+        threadpool_limits(1)
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
