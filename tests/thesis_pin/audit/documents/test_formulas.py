@@ -58,3 +58,33 @@ def test_what_cant_be_set_is_shown_as_its_source():
 def test_signs_of_html_stay_signs():
     assert "&lt;" in mathml("a < b")
     assert "<b" not in mathml("a <b> c")
+
+
+@pytest.mark.parametrize(
+    ("formula", "slip", "markup"),
+    [
+        ("a + b", (0, 1), "<mi class=e>a</mi><mo>+</mo><mi>b</mi>"),
+        ("a + b", (2, 3), "<mi>a</mi><mo class=e>+</mo><mi>b</mi>"),
+        ("a b c", (2, 3), "<mi>a</mi><mi class=e>b</mi><mi>c</mi>"),
+        (r"a \mathbf{v}", (2, 12), "<mi>a</mi><mi class=be>v</mi>"),
+        (r"\dot\theta a", (0, 10), "<mover><mi class=e>θ</mi><mn class=e>˙</mn></mover><mi>a</mi>"),
+        ("a b", (2, 2), "<mi>a</mi><mi class=e>‸</mi><mi>b</mi>"),
+    ],
+)
+def test_a_slip_is_marked_and_nothing_else(formula, slip, markup):
+    assert mathml(formula, [slip]) == f"<math>{markup}</math>"
+
+
+@pytest.mark.parametrize(
+    ("formula", "slip"),
+    [
+        (r"\dot x + b", (0, 4)),  # the dot without its letter
+        (r"\frac{a}{b}", (5, 9)),  # half of a pair of braces
+        (r"\begin{bmatrix} a & b \end{bmatrix}", (16, 21)),  # two cells
+    ],
+)
+def test_a_mark_that_would_change_the_formula_is_left_out_and_the_others_stay(formula, slip):
+    assert mathml(formula, [slip]) == mathml(formula)
+    longer = f"z + {formula}"
+    moved = (slip[0] + 4, slip[1] + 4)
+    assert mathml(longer, [(0, 1), moved]) == mathml(longer, [(0, 1)]) != mathml(longer)
