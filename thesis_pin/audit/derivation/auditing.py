@@ -111,7 +111,8 @@ class DerivationThesis(Thesis):
             found = residual(equations, one, turned, self.references[0], row.left).value < HOLDS
             return f"it would hold transposed: {_COLUMNS}" if found else _COLUMNS
         here = self.references[0]
-        pointed = self.points is not None and of_points(one, equations, self.points, here)
+        points = None if row.reason else self.points
+        pointed = points is not None and of_points(one, equations, points, here)
         if pointed and not names_inertia(one, equations, here.glossary):
             return _POINTS
         if passive := self._passive(row, equations):
