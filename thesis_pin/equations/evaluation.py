@@ -145,9 +145,13 @@ def evaluate(node: Node, environment: Environment, indices: dict[str, str]) -> V
             return total
         case nt.Matrix(rows):
             return blocks([[of(cell) for cell in row] for row in rows], environment.columns)
-        case nt.Norm(inner):
-            length = of(inner).array
-            return scalar(np.sqrt((length * length).sum(axis=-1)))
+        case nt.Norm(inner, single):
+            length = of(inner)
+            if single and length.rank == len("ij"):
+                return _call(nt.Call("det", inner), environment, indices)
+            if single and length.rank <= 0:
+                return scalar(np.sqrt(length.array * length.array))  # also of a complex step
+            return scalar(np.sqrt((length.array * length.array).sum(axis=-1)))
     raise FormulaError(f"can't evaluate {node!r}")
 
 
