@@ -44,3 +44,21 @@ def test_left_sides_keep_no_environment_alive():
     del environment
     gc.collect()
     assert gone() is None
+
+
+def test_a_reason_names_its_member_where_there_are_several():
+    two = Numbers(2.0)
+    assert "member" not in residual(CATALOGUE, LINE, ["b +"], two, "a").reason
+    found = residual(CATALOGUE, LINE, ["b", "b +"], two, "a")
+    assert found.reason.startswith("member 2 ")
+    assert found.members == (0.0, np.inf)
+
+
+def test_members_asked_for_alone_are_those_and_say_what_was_not_said_before():
+    two, members = Numbers(2.0), ["b", "1", "b", "a"]
+    assert residual(CATALOGUE, LINE, members, two, "a", (1,)).members == (0.0,)
+    assert residual(CATALOGUE, LINE, members, two, "a", (1, 2)).members == (0.0, 0.5)
+    for number in (3, 4):  # the first member's text again, and the left side's
+        again = residual(CATALOGUE, LINE, members, two, "a", (number,))
+        assert again.value == np.inf
+        assert "said before" in again.reason

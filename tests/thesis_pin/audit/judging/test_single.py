@@ -115,6 +115,8 @@ def test_a_term_is_counted_in_the_outermost_sum():
     ]
     assert term_of(formula, formula.index("g")) == "term 3 of 3"
     assert term_of("a b", 0) == ""
+    # A sign belongs to the term that it stands before.
+    assert [term_of("a + b - e", place) for place in (2, 6)] == ["term 2 of 3", "term 3 of 3"]
 
 
 @pytest.mark.parametrize(
