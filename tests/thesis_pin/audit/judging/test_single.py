@@ -89,6 +89,17 @@ def test_a_left_side_a_member_too_many_and_one_too_few_are_slips():
     assert (few.member, few.start, few.printed, few.corrected, few.kind) == (2, 1, "", "c", "term")
 
 
+def test_a_slip_of_a_checked_line_is_put_back_among_all_of_its_members():
+    def digits(equation):
+        one, ten, hundred = map(float, equation.printed)
+        return ClaimResult(abs(one + 10 * ten + 100 * hundred - 321) / 321, 0.0)
+
+    law = {"digits": digits}
+    (slip,) = row(law, claim="digits", printed=("1", "5", "3"), corrected={2: "2"}).slips
+    assert (slip.member, slip.printed, slip.corrected) == (2, "5", "2")
+    assert slip.residual == pytest.approx(30 / 321)
+
+
 def test_another_statement_is_one_slip_beside_those_of_its_text():
     wrong = row(printed="a a + 1", right="a b + b b - b b", misread={1: "a a + b"})
     assert wrong.verdict == "wrong"
