@@ -51,6 +51,8 @@ class Value:
 
     def within(self, frames: Frames) -> Value:
         """The same numbers, seen from a frame or turning between two."""
+        if frames is self.frames:
+            return self
         return Value(self.array, self.rank, frames, self.turns)
 
 
@@ -101,7 +103,7 @@ def add(first: Value, second: Value) -> Value:
     """Sum of two values of one shape."""
     if first.rank == -1 or second.rank == -1:
         return second if first.rank == -1 else first
-    if first.rank != second.rank or first.tail != second.tail:
+    if first.rank != second.rank or (first.rank and first.tail != second.tail):
         raise FormulaError(f"adds {first.describe()} and {second.describe()}")
     frames = fr.same(first.frames, second.frames)
     if not frames:
@@ -205,9 +207,11 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
     if len({len(row) for row in rows}) > 1:
         raise FormulaError("a matrix whose rows differ in length")
     if all(cell.rank <= 0 for cell in cells):
-        batch = np.broadcast_shapes(*(cell.array.shape for cell in cells))
-        spread = [[np.broadcast_to(cell.array, batch) for cell in row] for row in rows]
-        array = np.stack([np.stack(row, axis=-1) for row in spread], axis=-2)
+        arrays = [cell.array for cell in cells]
+        batch = np.broadcast_shapes(*{array.shape for array in arrays})
+        array = np.empty((*batch, len(rows), len(rows[0])), dtype=np.result_type(*arrays))
+        for row, column in np.ndindex(array.shape[-2:]):
+            array[..., row, column] = rows[row][column].array
         if len(rows[0]) == 1 < len(rows):
             return Value(array[..., 0], 1, turns=any(cell.turns for cell in cells))
         return matrix(array)
