@@ -11,6 +11,9 @@ from thesis_pin.equations.formula import FormulaError, FrameError
 from thesis_pin.equations.frames import ANY, Frames
 from thesis_pin.numeric.turns import TURN
 
+_STACKED = 3
+"""Axes of an array of matrices, at least."""
+
 STEP = 1e-30
 """Complex step: small enough that its square vanishes, so derivatives are exact."""
 
@@ -133,9 +136,18 @@ def multiply(first: Value, second: Value) -> Value:
         raise FormulaError(f"multiplies {first.describe()} by {second.describe()}")
     frames = _joined(first, second)
     if second.rank == 1:
-        result = np.matmul(a, b[..., None])[..., 0]
+        result = _matmul(a, b[..., None])[..., 0]
         return scalar(result[..., 0]) if first.tail[0] == 1 else Value(result, 1, frames)
-    return Value(np.matmul(a, b), 2, frames)
+    return Value(_matmul(a, b), 2, frames)
+
+
+def _matmul(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """a @ b; where the second is one for all of the last batch axis, of one tall matrix."""
+    if min(a.ndim, b.ndim) < _STACKED or b.shape[-3] != 1 or a.shape[-3] == 1:
+        return np.asarray(np.matmul(a, b))
+    tall = a.reshape(*a.shape[:-3], -1, a.shape[-1])
+    result = np.matmul(tall, b[..., 0, :, :])
+    return np.asarray(result.reshape(*result.shape[:-2], *a.shape[-3:-1], b.shape[-1]))
 
 
 def _whole(value: Value) -> bool:
