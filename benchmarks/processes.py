@@ -17,9 +17,10 @@ ENVIRONMENT = {
     key: value
     for key, value in os.environ.items()
     if key not in (*THREADS, "PYTHONDONTWRITEBYTECODE")
-} | {"PYTHONPYCACHEPREFIX": _BYTECODE.name}
+} | {"PYTHONPYCACHEPREFIX": os.environ.get("PYTHONPYCACHEPREFIX") or _BYTECODE.name}
 """Of children: nobody sets the number of threads for a user, and all is compiled, as an installer
-leaves it: the first run, which isn't counted, compiles."""
+leaves it: the first run, which isn't counted, compiles, unless the caller names a folder where
+that was done before."""
 
 _MEASURE = """
 import json, resource, sys, time

@@ -13,6 +13,7 @@ import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from thesis_pin.audit.thesis import Thesis
@@ -69,8 +70,13 @@ def section_names(text: str) -> Iterator[str]:
             yield f"{'chapter' if word == 'chapter' else 'appendix'} {name}"
 
 
-def docstrings() -> Iterator[tuple[str, str, str]]:
+@cache
+def docstrings() -> tuple[tuple[str, str, str], ...]:
     """Package, dotted name and ``Source:`` paragraph of everything that has one."""
+    return tuple(_docstrings())
+
+
+def _docstrings() -> Iterator[tuple[str, str, str]]:
     for package in ("thesis_pin", *(f"{name}_pin" for name in THESES)):
         for path in sorted((ROOT / package).rglob("*.py")):
             module = ".".join(path.relative_to(ROOT).with_suffix("").parts)

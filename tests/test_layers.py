@@ -2,6 +2,7 @@
 
 import ast
 from copy import deepcopy
+from functools import cache
 from pathlib import Path
 
 import grimp
@@ -28,13 +29,22 @@ CONTRACTS = {options["name"]: options for options in CONFIGURATION["contracts_op
 IMPORTS_BY_NAME = "thesis_pin.command."
 
 
+@cache
 def sources():
-    """Module → syntax tree of every file of the packages."""
+    """(module, string, line) of every string of the packages; (module, call) of what may import."""
+    strings, calls = [], []
     for package in PACKAGES:
         for path in sorted((ROOT / package).rglob("*.py")):
             parts = path.relative_to(ROOT).with_suffix("").parts
             module = ".".join(part for part in parts if part != "__init__")
-            yield module, ast.parse(path.read_text(encoding="utf-8"))
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    strings.append((module, node.value, node.lineno))
+                elif isinstance(node, ast.Call):
+                    name = getattr(node.func, "attr", getattr(node.func, "id", None))
+                    if name in ("import_module", "__import__"):
+                        calls.append((module, node))
+    return strings, calls
 
 
 def in_strings(graph):
@@ -42,13 +52,12 @@ def in_strings(graph):
 
     ``module`` and ``module:function`` count, the latter also seen from the package.
     """
-    for module, tree in sources():
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Constant) and isinstance(node.value, str):
-                named, colon, _ = node.value.partition(":")
-                names = {named, f"{module.partition('.')[0]}.{named}"} if colon else {named}
-                for name in names & (graph.modules - set(PACKAGES)):
-                    yield module, name, node.lineno
+    modules = graph.modules - set(PACKAGES)
+    for module, text, line in sources()[0]:
+        named, colon, _ = text.partition(":")
+        names = {named, f"{module.partition('.')[0]}.{named}"} if colon else {named}
+        for name in names & modules:
+            yield module, name, line
 
 
 def in_stubs():
@@ -112,10 +121,8 @@ def test_a_contract_sees_an_import_that_breaks_it(importer, imported, name, whol
 def test_modules_are_imported_by_a_name_in_a_variable_by_the_commands_only():
     places = {
         module
-        for module, tree in sources()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call)
-        and ast.unparse(node.func) in ("import_module", "importlib.import_module", "__import__")
+        for module, node in sources()[1]
+        if ast.unparse(node.func) in ("import_module", "importlib.import_module", "__import__")
         and not isinstance(node.args[0], ast.Constant)
     }
     assert all(place.startswith(IMPORTS_BY_NAME) for place in places), places

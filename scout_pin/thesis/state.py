@@ -228,7 +228,14 @@ class State:
 
     def centre(self, body: str) -> tuple[np.ndarray, np.ndarray]:
         """Centre of mass of a link and its Jacobian J."""
-        return self.point(body, self.parameters.values[f"G{body}"])
+        if body not in self._centres:
+            self._centres[body] = self.point(body, self.parameters.values[f"G{body}"])
+        return self._centres[body]
+
+    @cached_property
+    def _centres(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Centres that were asked for: a column of J holds all of J, and there are 18 of them."""
+        return {}
 
     def angular(self, body: str) -> np.ndarray:
         """Jacobian W of a link's angular velocity, shape ``(N, J, 3, 18)``."""

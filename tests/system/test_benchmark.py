@@ -16,6 +16,13 @@ SUITES = (*USUAL, *SLOW)
 STORED = json.loads((ROOT / "docs" / "speed.json").read_text(encoding="utf-8"))
 
 
+@pytest.fixture(scope="module")
+def bytecode(tmp_path_factory):
+    """What the processes of one run have compiled serves those of the others."""
+    folder = str(tmp_path_factory.mktemp("bytecode"))
+    return f"import os\nos.environ['PYTHONPYCACHEPREFIX'] = {folder!r}"
+
+
 def run(*words, before=""):
     """The benchmark in a process of its own, after some Python."""
     script = str(ROOT / "benchmarks" / "run.py")
@@ -42,10 +49,10 @@ def measured(suite, path, **more):
 
 
 @pytest.mark.parametrize("suite", [*USUAL, "simulation", "fastest"])
-def test_a_smoke_run_finds_equal_answers_and_judges_every_goal(suite, tmp_path):
+def test_a_smoke_run_finds_equal_answers_and_judges_every_goal(suite, tmp_path, bytecode):
     if suite == "threads" and len(getattr(os, "sched_getaffinity", lambda _: [])(0)) < 2:
         pytest.skip("one core")
-    done, found = measured(suite, tmp_path / "run.json")
+    done, found = measured(suite, tmp_path / "run.json", before=bytecode)
     assert found["quick"]
     assert {"processor", "cores", "simd"} <= set(found["machine"])
     assert found["versions"]["numpy"]

@@ -2,13 +2,12 @@
 
 import json
 import re
-import subprocess
-import sys
 from pathlib import Path
+from types import SimpleNamespace
 
+import commands
 import numpy as np
 import pytest
-from commands import MODULES
 
 import scout_pin
 
@@ -16,11 +15,17 @@ ROOT = Path(__file__).parents[2]
 POLLARD = ("urdf/pollard/pollard.urdf", "urdf/pollard/pollard.closures.yaml")
 
 
-def run(command, *words):
-    code = f"import sys; from {MODULES[command]} import main; sys.exit(main())"
-    return subprocess.run(
-        [sys.executable, "-c", code, *map(str, words)], cwd=ROOT, capture_output=True, text=True
-    )
+@pytest.fixture
+def run(capfd, monkeypatch):
+    """A command called in this process, in the checkout."""
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setenv("COLUMNS", "80")
+
+    def call(command, *words):
+        code, out, err = commands.run(command, list(map(str, words)), capfd)
+        return SimpleNamespace(returncode=code, stdout=out, stderr=err)
+
+    return call
 
 
 def document(done):
@@ -28,7 +33,7 @@ def document(done):
     return json.loads(done.stdout)
 
 
-def test_a_gaits_json_has_both_reports():
+def test_a_gaits_json_has_both_reports(run):
     words = ("gait", "--samples", "41", "--json", "-")
     both = document(run("scout-pin", *words, "--beside", "examples/cruise.toml"))
     first = document(run("scout-pin", *words))
@@ -38,7 +43,7 @@ def test_a_gaits_json_has_both_reports():
     assert beside == {"names": ["thesis", "walk"], "aligned": "from the start", "report": second}
 
 
-def test_both_verdicts_are_told_side_by_side():
+def test_both_verdicts_are_told_side_by_side(run):
     done = run("scout-pin", "gait", "--samples", "41", "--beside", "examples/cruise.toml")
     assert done.returncode == 0, done.stderr
     assert re.search(r"within all limits +no +yes", done.stdout)
@@ -47,7 +52,7 @@ def test_both_verdicts_are_told_side_by_side():
     )
 
 
-def test_a_second_robot_walks_beside_the_first_with_its_own_torques(tmp_path):
+def test_a_second_robot_walks_beside_the_first_with_its_own_torques(run, tmp_path):
     text = (ROOT / "scout_pin" / "specifications" / "scout.toml").read_text()
     heavy, count = re.subn(
         r"(\nmass = )([\d.]+)", lambda found: f"{found[1]}{1.2 * float(found[2]):.6g}", text
@@ -61,7 +66,7 @@ def test_a_second_robot_walks_beside_the_first_with_its_own_torques(tmp_path):
     assert np.abs(second["torque"]).max() > np.abs(both["torque"]).max()
 
 
-def test_a_path_beside_appendix_b_and_a_motion_beside_a_motion(tmp_path):
+def test_a_path_beside_appendix_b_and_a_motion_beside_a_motion(run, tmp_path):
     out = tmp_path / "out"
     words = ("trajectory", "--samples", "21", "--beside", "examples/spray_arch.toml")
     done = run("pollard-pin", *words, "--duration", "10", "--out", out, "--figure", "4.4")
@@ -88,13 +93,13 @@ def test_a_path_beside_appendix_b_and_a_motion_beside_a_motion(tmp_path):
         (("gait", "--beside-robot", "none.toml"), "none.toml"),
     ],
 )
-def test_what_cannot_stand_beside_is_refused(words, said):
+def test_what_cannot_stand_beside_is_refused(run, words, said):
     done = run("scout-pin", *words)
     assert (done.returncode, done.stdout) == (2, "")
     assert said in done.stderr
 
 
-def test_json_says_which_times_belong_together():
+def test_json_says_which_times_belong_together(run):
     words = ("gait", "--samples", "41", "--beside", "examples/cruise.toml", "--align", "phase")
     beside = document(
         run("scout-pin", *words, "--gait", "examples/quasi_static.toml", "--json", "-")
@@ -115,7 +120,7 @@ def test_json_says_which_times_belong_together():
 
 
 @pytest.mark.browser
-def test_by_phase_the_second_robot_steps_with_the_first(browser, folder, artefacts):
+def test_by_phase_the_second_robot_steps_with_the_first(run, browser, folder, artefacts):
     file = folder / "aligned.html"
     words = ("gait", "--samples", "301", "--gait", "examples/quasi_static.toml", "--html", file)
     done = run("scout-pin", *words, "--beside", "examples/cruise.toml", "--align", "phase")
@@ -141,7 +146,7 @@ def test_by_phase_the_second_robot_steps_with_the_first(browser, folder, artefac
 
 
 @pytest.mark.browser
-def test_the_page_has_both_curves_and_the_second_robot_where_it_is(browser, folder, artefacts):
+def test_the_page_has_both_curves_and_the_second_robot_where_it_is(run, browser, folder, artefacts):
     file = folder / "beside.html"
     words = ("gait", "--samples", "101", "--beside", "examples/cruise.toml", "--html", file)
     done = run("scout-pin", *words)

@@ -11,6 +11,7 @@ from urllib.parse import urlsplit
 import pytest
 from commands import MODULES, ROOT, example, run
 
+from thesis_pin.pages.meshcat import window
 from thesis_pin.pages.meshcat.window import Window
 
 NAMES = ("scout-pin view", "pollard-pin view", "thesis-pin view")
@@ -66,6 +67,7 @@ def test_flags_of_our_own_server_mean_nothing_on_another(flag, capfd):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_server_that_isnt_there_is_one_error(name, monkeypatch, capfd):
+    monkeypatch.setattr(window, "FIRST_ANSWER", 0.5)
     monkeypatch.chdir(ROOT)
     words = [*example(name), "--meshcat", "tcp://127.0.0.1:9"]
     code, out, err = run(name, words, capfd)

@@ -6,6 +6,7 @@ import sys
 from importlib.machinery import PathFinder
 
 from thesis_pin.errors import BadInput
+from thesis_pin.numeric.workers import ctrl_c_later
 
 OLDEST, NEWEST = (4, 1), (5, 0)
 """Versions of Pinocchio from which and below which everything here works."""
@@ -21,7 +22,8 @@ def require_pinocchio() -> None:
         BadInput: It doesn't; says which file it gives, and what to do.
     """
     try:
-        import pinocchio as pin
+        with ctrl_c_later():  # compiled modules would take it for a failure of what they import
+            import pinocchio as pin
     except Exception as error:  # what another build fails with is up to it
         if not (place := _place()):
             raise BadInput("Pinocchio isn't installed", remedy="pip install pin") from None

@@ -169,11 +169,13 @@ def _geometry(shape: Any, name: str) -> dict[str, object]:
     if kind in ("Cylinder", "Capsule", "Cone"):
         return {"type": kind.lower(), "radius": shape.radius, "length": 2 * shape.halfLength}
     if hasattr(shape, "tri_indices"):
-        faces = [[shape.tri_indices(k)[j] for j in range(3)] for k in range(shape.num_tris)]
+        corners = map(shape.tri_indices, range(shape.num_tris))
+        faces = [(corner[0], corner[1], corner[2]) for corner in corners]
         return {"type": "mesh", "vertices": np.array(shape.vertices()), "faces": np.array(faces)}
     if kind.startswith("Convex"):
         points = np.array([shape.point(k) for k in range(shape.num_points)])
-        faces = [[shape.polygons(k)[j] for j in range(3)] for k in range(shape.num_polygons)]
+        corners = map(shape.polygons, range(shape.num_polygons))
+        faces = [(corner[0], corner[1], corner[2]) for corner in corners]
         return {"type": "mesh", "vertices": points, "faces": np.array(faces)}
     raise BadInput(
         f"can't draw a {kind}",

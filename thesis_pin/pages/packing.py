@@ -9,13 +9,22 @@ import math
 import re
 import struct
 from collections.abc import Mapping
+from functools import cache
 from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from thesis_pin.errors import BadInput
+
+if TYPE_CHECKING:
+    import jinja2
+
+MESHCAT = ("meshcat", "viewer/dist/main.min.js")
+PLOTLY = ("plotly", "package_data/plotly.min.js")
+"""The libraries of pages: package and file, as :func:`package_file` takes them."""
 
 
 def player_parts(document: Mapping[str, object]) -> dict[str, str]:
@@ -25,7 +34,7 @@ def player_parts(document: Mapping[str, object]) -> dict[str, str]:
         document: See :meth:`thesis_pin.pages.scene.Scene.document`.
     """
     return {
-        "meshcat": packed(_meshcat_bundle()),
+        "meshcat": packed_file(*MESHCAT),
         "scene": packed(encode(document)),
         "player": "".join(web_file(f"{name}.js") for name in ("items", "stage", "player")),
         "player_style": web_file("player.css"),
@@ -36,6 +45,11 @@ def player_parts(document: Mapping[str, object]) -> dict[str, str]:
 
 def render(template: str, **values: object) -> bytes:
     """A page from a template of ``thesis_pin/pages/web``; every value is escaped by default."""
+    return _environment().get_template(template).render(**values).encode()
+
+
+@cache
+def _environment() -> jinja2.Environment:
     import jinja2
 
     environment = jinja2.Environment(
@@ -46,7 +60,7 @@ def render(template: str, **values: object) -> bytes:
         lstrip_blocks=True,
     )
     environment.filters["numbers_whole"] = _numbers_whole
-    return environment.get_template(template).render(**values).encode()
+    return environment
 
 
 _NUMBER = re.compile(r"([-−+]?\d[\d.,]*\d(?:e[-+]?\d+)?)")
@@ -86,8 +100,14 @@ def package_file(package: str, path: str) -> bytes:
     raise BadInput(f"{path} is missing", where=package, remedy=f"Install it: pip install {package}")
 
 
-def _meshcat_bundle() -> bytes:
-    return package_file("meshcat", "viewer/dist/main.min.js")
+@cache
+def packed_file(package: str, path: str) -> str:
+    """The same, :func:`packed`; worked out once, for a library is the same in every page.
+
+    Raises:
+        BadInput: See :func:`package_file`.
+    """
+    return packed(package_file(package, path))
 
 
 def encode(document: Mapping[str, object]) -> bytes:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 
 from thesis_pin.pages import player as viewer
+from thesis_pin.pages.packing import PLOTLY
 from thesis_pin.pages.plots import MARGINS, figure
 from thesis_pin.pages.scene import Scene
 from thesis_pin.report.curves import Plot
@@ -93,7 +94,7 @@ def html(page: Page) -> bytes:
 
 def _plot_parts(plots: Sequence[Plot]) -> dict[str, str]:
     return {
-        "library": viewer.packed(viewer.package_file("plotly", "package_data/plotly.min.js")),
+        "library": viewer.packed_file(*PLOTLY),
         "figures": viewer.packed(_json([figure(plot) for plot in plots])),
     }
 

@@ -25,8 +25,8 @@ from thesis_pin.errors import BadInput
 from thesis_pin.files import write_file
 from thesis_pin.numeric.checks import choice, instance, real, shown
 from thesis_pin.pages import packing
-from thesis_pin.pages.packing import package_file as package_file
 from thesis_pin.pages.packing import packed as packed
+from thesis_pin.pages.packing import packed_file as packed_file
 from thesis_pin.pages.packing import render as render
 from thesis_pin.pages.packing import web_file as web_file
 from thesis_pin.pages.scene import LOOKS, Look, Scene

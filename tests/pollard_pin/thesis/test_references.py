@@ -1,5 +1,7 @@
 """References of chapter 3: by finite differences, and with each other."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -81,6 +83,15 @@ def test_what_a_side_chain_numbers_anew_keeps_its_own_value(mechanics):
     assert row.shape[-1] == 6
     assert other.shape[-1] == 3
     np.testing.assert_array_equal(look(mechanics, "k", "2(1)"), row)
+
+
+@pytest.mark.parametrize("base", ["bb:D", "bb:V"])
+def test_a_row_of_the_law_of_motion_with_a_dot_is_its_rate(mechanics, base):
+    plain = Symbol(base, "1j", kept="i")
+    assert mechanics.lookup(plain, {}).array.shape[0] == 6
+    dotted = mechanics.lookup(replace(plain, dots=1), {}).array
+    np.testing.assert_array_equal(dotted, mechanics.partial(plain, None, {}).array)
+    assert np.abs(dotted - mechanics.lookup(plain, {}).array).max() > 0.1
 
 
 def test_derivatives_of_N_are_exact(mechanics):

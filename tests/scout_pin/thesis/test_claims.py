@@ -7,13 +7,14 @@ import pytest
 
 from scout_pin.thesis import catalogue
 from scout_pin.thesis.audit import THESIS
+from scout_pin.thesis.claims import angles
 from scout_pin.thesis.claims.gait import Numbers
 from scout_pin.thesis.claims.law import _law_of_motion as law_of_motion
 from scout_pin.thesis.claims.splines import table_rows
 from scout_pin.thesis.claims.texts import components, pieces, points, quantity
 from scout_pin.thesis.symbols.splines import Splines, spline_coefficients
 from thesis_pin.audit.judging.verdicts import judge
-from thesis_pin.equations.formula import FormulaError
+from thesis_pin.equations.formula import FormulaError, Symbol
 
 
 @pytest.fixture(scope="module")
@@ -220,6 +221,15 @@ def test_spline_coefficients_are_those_of_a_smooth_curve_through_the_nodes():
     np.testing.assert_allclose(a[:, 0], 0.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("name", ["a_0", "a_99", "b_99", "t_99", "f_99", "dot_a_1", "dot_t_1"])
+def test_a_spline_has_the_nodes_and_pieces_it_has_and_they_stand_still(name):
+    *dot, base, sub = name.split("_")
+    symbol = Symbol(base, sub, dots=len(dot))
+    assert Splines().lookup(Symbol(base, "1"), {}).rank == 0
+    with pytest.raises(FormulaError, match="defined"):
+        Splines().lookup(symbol, {})
+
+
 def test_the_printed_angles_close_the_printed_gait_and_a_hundredth_of_a_millimetre_shows():
     numbers = Numbers.read(catalogue())
     assert numbers.gap() == 0.0
@@ -236,3 +246,23 @@ def test_the_splines_leave_out_the_last_instant_of_the_table():
         printed, mended = pieces(row.printed[0]), pieces(row.members("corrected")[0])
         assert not any(piece.has(np.array([last]))[0] for piece in printed)
         assert any(piece.has(np.array([last]))[0] for piece in mended)
+
+
+def test_an_angle_that_is_off_fails_by_as_many_degrees(ground, monkeypatch):
+    degrees, half = angles.printed_angles()
+    equation = catalogue()["scout:D:Out_347_358"]
+    off = degrees.copy()
+    off[7, 3] += 0.25
+    monkeypatch.setattr(angles, "printed_angles", lambda: (off, half))
+    found = ground.claims[equation.claim](equation).printed
+    # The print is rounded to its last digit, and the program's solver stops before the root.
+    assert abs(found - 0.25) < 2 * half[7, 3] + 2 * angles.SOLVER
+
+
+def test_the_sign_of_a_printed_zero_counts_as_its_last_digit(ground):
+    equation = catalogue()["scout:B.6:I_31^51"]
+    (text,) = equation.printed
+    assert text.count("-0.00") == 2
+    changed = equation.model_copy(update={"printed": (text.replace("-0.00", "0.00"),)})
+    found = ground.claims["twin_inertia"](changed).printed
+    assert found == pytest.approx(0.01 / 57.65, rel=1e-9)  # of the twin's largest entry

@@ -135,3 +135,21 @@ def test_entries_of_the_actuation_matrix_are_told_apart(digits, entry):
     from scout_pin.thesis.symbols.forces import matrix_entry
 
     assert matrix_entry(digits) == entry
+
+
+@pytest.mark.parametrize(("base", "sub"), [("u", "theta71"), ("u", "x9"), ("t", "theta71")])
+def test_a_vector_of_no_coordinate_is_not_defined(references, base, sub):
+    assert value(references, "u", "theta31", "0").shape[-1] == 3
+    with pytest.raises(FormulaError, match="defined"):
+        value(references, base, sub, "0")
+
+
+def test_a_velocity_is_the_rate_of_its_vector_and_seen_from_the_world(references):
+    point = value(references, "r", "31", "0", 1)
+    np.testing.assert_array_equal(value(references, "v", "31", "0"), point)
+    np.testing.assert_array_equal(
+        value(references, "v", "31", "0", 1), value(references, "a", "31", "0")
+    )
+    for sup in ("", "1"):
+        with pytest.raises(FormulaError, match="defined"):
+            value(references, "v", "31", sup)

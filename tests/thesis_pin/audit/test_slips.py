@@ -60,6 +60,12 @@ def test_the_document_explains_each_cause_once_with_its_lines():
     assert "Not met." not in text
 
 
+def test_the_lines_of_a_cause_are_in_the_order_of_their_numbers():
+    names = ("V_10", "V_9", "V_100", "V_a")
+    text = markdown(AuditReport("T", tuple(map(failing, names)), (), "", {"slip": SLIP}), "make it")
+    assert "Lines (4): 1:V_9, 1:V_10, 1:V_100, 1:V_a." in text
+
+
 def test_the_json_gives_each_cause_with_its_rows():
     cause = audit_json.document(REPORT)["causes"]["slip"]
     assert (cause["title"], cause["enters"]) == (SLIP.title, SLIP.enters)

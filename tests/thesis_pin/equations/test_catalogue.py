@@ -122,3 +122,10 @@ def test_a_formula_that_cannot_be_read_keeps_nothing_alive():
     gc.collect()
     assert [one() for one in gone] == [None, None]
     assert all(kept.__traceback__ is None for kept in catalogue._parsed.values())
+
+
+def test_an_index_may_stand_in_a_superscript_alone():
+    legs = Catalogue([], Notation(ranges=(("i", ("1", "2")), ("k", ("a",)))))
+    sides = legs.parse(r"\mathbf{r}^i"), legs.parse(r"\mathbf{k}")
+    assert list(legs.indices(*sides)) == [{"i": "1"}, {"i": "2"}]
+    assert list(legs.indices(sides[1])) == [{}]

@@ -23,6 +23,13 @@ def test_shapes_that_do_not_fit_are_refused_in_words():
         ev.blocks([[three], [three, three]], 18)
 
 
+def test_nothing_can_be_added_to_anything_and_anything_to_nothing():
+    three = ev.vector(np.array([1.0, 2.0, 3.0]))
+    np.testing.assert_array_equal(ev.add(three, ev.ZERO).array, three.array)
+    np.testing.assert_array_equal(ev.add(ev.ZERO, three).array, three.array)
+    assert ev.multiply(three, ev.ZERO) is ev.multiply(ev.ZERO, three) is ev.ZERO
+
+
 def test_transposing_twice_gives_the_value_back_and_never_conjugates():
     value = ev.vector(np.array([1 + 2j, 3 - 1j]))
     np.testing.assert_array_equal(ev.transpose(ev.transpose(value)).array, value.array)

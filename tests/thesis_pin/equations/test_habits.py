@@ -8,6 +8,8 @@ from thesis_pin.equations.formula import (
     Call,
     Derivative,
     FormulaError,
+    Matrix,
+    Power,
     Product,
     Symbol,
     Transpose,
@@ -99,7 +101,8 @@ def test_a_formula_is_worth_what_its_author_means(formula, expected):
         r"a/b c",  # a over b, times c; or a over bc
         r"\cos\theta/2",  # half a cosine, or the cosine of a half
         r"\frac{d}{dt} m l",  # of m, or of the product
-        r"(a, b)",
+        r"m (a, b)",  # m of a and b, or a vector m times as long
+        r"l(q, a)^\top",
         r"\cos",
     ],
 )
@@ -115,6 +118,9 @@ def test_a_lost_bracket_is_named_by_its_place():
     with pytest.raises(Unreadable) as error:
         NOTATION.parse(r"a + b) + c")
     assert error.value.position == r"a + b) + c".index(")")
+    with pytest.raises(Unreadable) as error:
+        NOTATION.parse("^a")
+    assert error.value.position == 0
 
 
 @pytest.mark.parametrize(
@@ -125,6 +131,16 @@ def test_a_lost_bracket_is_named_by_its_place():
         (r"\bar{x}_1", Symbol("bar:x", "1")),
         (r"{}^0R_1", Symbol("R", "1", "0")),
         (r"{}^{A}_{B}R", Symbol("R", "B", "A")),
+        (r"{}_{B}^{A}R", Symbol("R", "B", "A")),
+        (r"^0R_1", Symbol("R", "1", "0")),
+        (r"^A_B R", Symbol("R", "B", "A")),
+        (r"{^A_BR}", Symbol("R", "B", "A")),
+        (r"^{0}R_1 \, {}^1R_2", Product((Symbol("R", "1", "0"), Symbol("R", "2", "1")))),
+        (r"R ^2 l", Product((Power(Symbol("R"), 2), Symbol("l")))),
+        (r"(a, l)", Matrix(((Symbol("a"),), (Symbol("l"),)))),
+        (r"\left(a,\; l\right)^{\mathrm T}", Matrix(((Symbol("a"),), (Symbol("l"),)))),
+        (r"m (a, l)^\top", Product((Symbol("m"), Matrix(((Symbol("a"),), (Symbol("l"),)))))),
+        (r"l(q, \dot q)^\top", Transpose(Symbol("l"))),
         (r"\mathbf{p}^0{}^T", Transpose(Symbol("p", "", "0", bold=True))),
         (r"\dot\theta_1(t)", Symbol("theta", "1", dots=1)),
         (r"\ddot{\theta}_{1}", Symbol("theta", "1", dots=2)),
@@ -159,6 +175,8 @@ def test_layout_is_blanked_in_place():
     assert blank.index("f") == formula.index("f ")
     assert r"\begin{pmatrix} b & c \\ d & e \end{pmatrix}" in blank
     assert blank.count("&") == formula.count("&") - 2
+    assert plain("a &= b") == "a  = b"
+    assert plain(r"a \\ = b") == "a    = b"
 
 
 def test_a_second_derivative_is_one_twice():

@@ -24,6 +24,7 @@ def arm():
         dr=(r"\frac{\partial \mathbf{r}_1}{\partial q_j}", "b"),
         w=("w", r"\mathbf{r}_2 + \dot{\mathbf{r}}_1 + \dot{\mathbf{r}}_2"),
         j=("J", r"\frac{\partial \mathbf{r}_1}{\partial q_j}"),
+        t=("T", r"\frac{d \mathbf{r}_1}{dt}"),
         bad=("z", "a + ("),
     )
 
@@ -42,6 +43,7 @@ def test_a_line_uses_the_definitions_of_its_symbols(arm):
     assert found["v"] == ["a"]  # no line defines the rate of a
     assert found["w"] == ["r", "v"]
     assert found["j"] == ["dr"]
+    assert found["t"] == ["v"]
 
 
 def test_a_line_that_cant_be_read_uses_what_its_correction_does(arm):

@@ -6,10 +6,11 @@ import random
 import stat
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
-from killing import killed_after, killed_at_line
+from killing import one_by_one as one_by_one_in_a_process
 from users import as_user
 
 from thesis_pin.errors import Busy, CannotWrite
@@ -308,13 +309,13 @@ def lay(folder: Path, files: dict[str, bytes]) -> None:
     (folder / "notes").write_text("mine")
 
 
-def test_an_exchanged_folder_is_old_or_new_whatever_line_a_run_is_killed_at(tmp_path):
+def test_an_exchanged_folder_is_old_or_new_whatever_line_a_run_is_killed_at(tmp_path, killer):
     folder, note = tmp_path / "out", {"notes": b"mine"}
     seen = []
     for line in range(0, 5000, 3):
         lay(folder, OLD)
         assert tree(folder) == OLD | note
-        done = not killed_at_line(lambda: write_folder(folder, NEW), line)
+        done = not killer.at_line([partial(write_folder, folder, NEW)], line)
         found = tree(folder)
         assert found in (OLD | note, NEW | note)
         assert unlike_manifest(folder) == ()
@@ -331,9 +332,10 @@ def test_an_exchanged_folder_is_old_or_new_whatever_line_a_run_is_killed_at(tmp_
 
 @pytest.mark.parametrize("before", ["one of our runs", "files of the same names"])
 def test_what_a_killed_run_leaves_of_single_files_is_known_to_be_a_mixture(
-    tmp_path, one_by_one, before
+    tmp_path, one_by_one, before, killer
 ):
     folder, note = tmp_path / "out", {"notes": b"mine"}
+    write = partial(one_by_one_in_a_process, write_folder, folder, NEW)
     mixtures = 0
     for line in range(0, 5000, 3):
         lay(folder, OLD)
@@ -341,7 +343,7 @@ def test_what_a_killed_run_leaves_of_single_files_is_known_to_be_a_mixture(
             (folder / MANIFEST).unlink()
             (folder / "stale.txt").unlink()
         old = tree(folder)
-        done = not killed_at_line(lambda: write_folder(folder, NEW), line)
+        done = not killer.at_line([write], line)
         found, unlike = tree(folder), unlike_manifest(folder)
         assert found["notes"] == b"mine"
         assert found in (old, NEW | note) or unlike
@@ -358,18 +360,14 @@ def test_what_a_killed_run_leaves_of_single_files_is_known_to_be_a_mixture(
     assert tree(folder) == NEW | note
 
 
-def test_100_kills_at_any_moment_leave_a_whole_folder(tmp_path):
+def test_100_kills_at_any_moment_leave_a_whole_folder(tmp_path, killer):
     random.seed(2)
     folder, note = tmp_path / "out", {"notes": b"mine"}
     runs = [{f"{k}.bin": bytes([run]) * 1_000_000 for k in range(3)} for run in range(2)]
     lay(folder, runs[0])
-
-    def work() -> None:
-        for files in runs:
-            write_folder(folder, files)
-
+    work = [partial(write_folder, folder, files) for files in runs]
     for _ in range(100):
-        assert killed_after(work, random.uniform(0.001, 0.03))
+        assert killer.after(work, random.uniform(0.001, 0.03))
         assert tree(folder) in [run | note for run in runs]
         assert set(os.listdir(tmp_path)) <= {"out", ".out.partial"}
     write_folder(folder, runs[0])

@@ -8,10 +8,10 @@ import stat
 import subprocess
 import sys
 import threading
+from functools import partial
 from pathlib import Path
 
 import pytest
-from killing import killed_after, killed_at_line
 from users import NOBODY, as_user
 
 from thesis_pin.errors import BadInput, CannotWrite
@@ -259,12 +259,12 @@ def test_an_open_file_that_is_only_read_is_refused_before_the_work(tmp_path):
     assert not is_standard_output(7)
 
 
-def test_a_file_is_old_or_new_whatever_line_a_run_is_killed_at(tmp_path):
+def test_a_file_is_old_or_new_whatever_line_a_run_is_killed_at(tmp_path, killer):
     target, new = tmp_path / "a", b"new" * 100
     seen = set()
     for line in range(1000):
         target.write_bytes(b"old")
-        done = not killed_at_line(lambda: write_file(target, new), line)
+        done = not killer.at_line([partial(write_file, target, new)], line)
         found = target.read_bytes()
         assert found in (b"old", new)
         seen.add(found)
@@ -278,18 +278,14 @@ def test_a_file_is_old_or_new_whatever_line_a_run_is_killed_at(tmp_path):
     assert os.listdir(tmp_path) == ["a"]
 
 
-def test_100_kills_at_any_moment_leave_a_whole_file(tmp_path):
+def test_100_kills_at_any_moment_leave_a_whole_file(tmp_path, killer):
     random.seed(1)
     target = tmp_path / "a"
     contents = [bytes([k]) * 3_000_000 for k in range(2)]
     write_file(target, contents[0])
-
-    def work() -> None:
-        for content in contents:
-            write_file(target, content)
-
+    work = [partial(write_file, target, content) for content in contents]
     for _ in range(100):
-        assert killed_after(work, random.uniform(0.001, 0.02))
+        assert killer.after(work, random.uniform(0.001, 0.02))
         assert target.read_bytes() in contents
         assert set(os.listdir(tmp_path)) <= {"a", ".a.partial"}
     write_file(target, b"last")

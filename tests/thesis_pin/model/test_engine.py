@@ -1,6 +1,7 @@
 """Another module called pinocchio is named, with its file and the cure."""
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -49,6 +50,24 @@ def test_another_pinocchio_is_named_with_its_file_and_the_cure(tmp_path, name):
     message = said((tmp_path, ROOT))
     assert message.startswith(f"{place}: the module pinocchio that Python finds here {what}")
     assert "pip uninstall pinocchio, pip install pin" in message
+
+
+def test_ctrl_c_while_it_is_imported_is_no_broken_installation(tmp_path):
+    """A compiled module that is interrupted while it imports another says that that one failed."""
+    (tmp_path / "pinocchio.py").write_text(
+        "import os, signal, time\n"
+        "try:\n    os.kill(os.getpid(), signal.SIGINT)\n    time.sleep(0.1)\n"
+        "except KeyboardInterrupt:\n    raise ImportError('could not import datetime')\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", "from scout_pin.cli import main\nraise SystemExit(main(['info']))"],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (tmp_path, ROOT)))},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (130, "scout-pin: interrupted\n")
 
 
 def test_where_there_is_none_that_is_said(monkeypatch):

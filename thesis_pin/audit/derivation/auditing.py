@@ -13,6 +13,7 @@ from thesis_pin.audit.derivation.branches import branch
 from thesis_pin.audit.derivation.effects import EFFECTS, Effects
 from thesis_pin.audit.derivation.ground import Derivation
 from thesis_pin.audit.derivation.mends import mends
+from thesis_pin.audit.derivation.points import names_inertia, of_points
 from thesis_pin.audit.derivation.references import References
 from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.audit.rows import HOLDS, AuditReport, Row
@@ -29,6 +30,7 @@ MOST_GUESSED = 10
 """Failing lines for which a change is looked for that would make them hold; asked for by
 themselves, all of them. It takes up to some seconds for each."""
 _POINTS = "it would hold for point masses: the robot's bodies have inertia about their centres"
+_INERTIAS = "it would hold without the bodies' inertias: look at their terms"
 _COLUMNS = "vectors, and derivatives of a number by all coordinates, are columns here"
 _GUESS = ("with one change it would hold: {what}", "with any of these it would hold: {what}")
 
@@ -108,17 +110,18 @@ class DerivationThesis(Thesis):
             turned = [rf"({text})^\top" for text in one.printed]
             found = residual(equations, one, turned, self.references[0], row.left).value < HOLDS
             return f"it would hold transposed: {_COLUMNS}" if found else _COLUMNS
-        if (
-            self.points
-            and residual(equations, one, one.printed, self.points, row.left).value < HOLDS
-        ):
+        here = self.references[0]
+        points = None if row.reason else self.points
+        pointed = points is not None and of_points(one, equations, points, here)
+        if pointed and not names_inertia(one, equations, here.glossary):
             return _POINTS
         if passive := self._passive(row, equations):
             return passive
-        if partly := branch(one, equations, self.references[0]):
+        if partly := branch(one, equations, here):
             return partly
-        changes = mends(one, equations, self.references)
-        return _GUESS[len(changes) > 1].format(what=" | ".join(changes)) if changes else ""
+        if changes := mends(one, equations, self.references):
+            return _GUESS[len(changes) > 1].format(what=" | ".join(changes))
+        return _INERTIAS if pointed else ""
 
 
 def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesis:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from thesis_pin.audit.comparison.places import places
 from thesis_pin.audit.comparison.tokens import Token, sums, tokens
@@ -12,6 +12,7 @@ from thesis_pin.audit.mutation.slips import planted
 from thesis_pin.audit.rows import HOLDS
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.evaluation import Environment
+from thesis_pin.equations.formula import Symbol
 
 MOST = 3
 """Changes that are named."""
@@ -32,7 +33,8 @@ def mends(
     """Changes of one symbol, sign or factor with which the print would hold, as places in words.
 
     The likeliest kind that has any: a sign, an index, sine for cosine, a dot, a number,
-    another symbol, a factor or term too many or too few.
+    another symbol, a factor or term too many or too few. Of a line whose left side is a
+    formula, as "… = 0", that side is changed, too.
 
     Args:
         equation: A line that fails and that nothing is given in the place of.
@@ -40,30 +42,53 @@ def mends(
         environments: Where it has to hold.
     """
     apart = Catalogue(catalogue.equations, catalogue.notation)  # keeps what is tried to itself
+    vocabulary = _vocabulary(catalogue)
     failing = [
         k
         for k, text in enumerate(equation.printed)
         if not _holds(equation, text, apart, environments)
     ]
-    if len(failing) != 1:
-        return ()
-    number = failing[0]
-    printed = equation.printed[number]
-    where = f"member {number + 1}, " if len(equation.printed) > 1 else ""
-    for trials in _kinds(printed, _vocabulary(catalogue)):
-        found = [text for text in trials if _holds(equation, text, apart, environments)]
+    if len(failing) == 1:
+        number = failing[0]
+        where = f"member {number + 1}, " if len(equation.printed) > 1 else ""
+        found = _found(
+            equation.printed[number],
+            vocabulary,
+            lambda text: _holds(equation, text, apart, environments),
+        )
         if found:
-            return tuple(
-                where + "; ".join(places(printed, text)) for text in dict.fromkeys(found[:MOST])
-            )
+            return tuple(where + said for said in found)
+    if len(failing) < len(equation.printed) or isinstance(apart.parse(equation.left), Symbol):
+        return ()
+    found = _found(
+        equation.left,
+        vocabulary,
+        lambda text: all(
+            _holds(equation, member, apart, environments, left=text) for member in equation.printed
+        ),
+    )
+    return tuple(f"left side, {said}" for said in found)
+
+
+def _found(
+    printed: str, vocabulary: Sequence[str], holds: Callable[[str], bool]
+) -> tuple[str, ...]:
+    """The changes of a side with which its line holds, of the likeliest kind that has any."""
+    for trials in _kinds(printed, vocabulary):
+        if found := [text for text in trials if holds(text)]:
+            return tuple("; ".join(places(printed, text)) for text in dict.fromkeys(found[:MOST]))
     return ()
 
 
 def _holds(
-    equation: Equation, text: str, catalogue: Catalogue, environments: Sequence[Environment]
+    equation: Equation,
+    text: str,
+    catalogue: Catalogue,
+    environments: Sequence[Environment],
+    left: str = "",
 ) -> bool:
     return all(
-        residual(catalogue, equation, [text], one, equation.left).value < HOLDS
+        residual(catalogue, equation, [text], one, left or equation.left).value < HOLDS
         for one in environments
     )
 
@@ -87,21 +112,21 @@ def _kinds(printed: str, vocabulary: Sequence[str]) -> Iterator[Iterator[str]]:
     """Changed formulas, the likeliest kinds of changes first."""
     for kind in ("sign", "sine for cosine", "index", "dot", "digit"):
         yield (one.text for one in planted(printed, kind))
-    yield _replaced(printed, vocabulary)
+    yield _replaced(printed, vocabulary, alike=True)
+    yield _replaced(printed, vocabulary, alike=False)
     yield _numbers(printed, tokens(printed))
     yield _factors(printed, tokens(printed), vocabulary)
     yield (one.text for one in planted(printed, "term dropped"))
 
 
-def _replaced(printed: str, vocabulary: Sequence[str]) -> Iterator[str]:
-    """A symbol for another; those of the same letter first."""
-    for alike in (True, False):
-        for start, end in _symbols(printed):
-            old = printed[start:end]
-            for new in vocabulary:
-                same = old.split("_")[0] == new.split("_")[0]
-                if new != old and same == alike:
-                    yield f"{printed[:start]}{new} {printed[end:]}"
+def _replaced(printed: str, vocabulary: Sequence[str], *, alike: bool) -> Iterator[str]:
+    """A symbol for another: for one of the same letter, or of another."""
+    for start, end in _symbols(printed):
+        old = printed[start:end]
+        for new in vocabulary:
+            same = old.split("_")[0] == new.split("_")[0]
+            if new != old and same == alike:
+                yield f"{printed[:start]}{new} {printed[end:]}"
 
 
 def _numbers(printed: str, pieces: Sequence[Token]) -> Iterator[str]:

@@ -13,13 +13,14 @@ import numpy as np
 from thesis_pin.audit.derivation.meaning import Meanings, entry
 from thesis_pin.audit.derivation.moving.states import States
 from thesis_pin.audit.derivation.said.glossary import Glossary, Key, key
-from thesis_pin.audit.derivation.said.phrases import Phrase
+from thesis_pin.audit.derivation.said.phrases import VECTORS, Phrase
 from thesis_pin.equations.catalogue import Catalogue, Edition
 from thesis_pin.equations.evaluation import evaluate
 from thesis_pin.equations.formula import FormulaError, Node, Symbol
 from thesis_pin.equations.values import ZERO, Value, apart, imaginary, matrix, scalar, vector
 
 _STENCIL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
+_FONTS = {"cal": "mathcal", "bb": "mathbb"}
 _REACH = 0.02
 """Step of a derivative inside a derivative. The stencil's eighth power of it is below rounding."""
 
@@ -51,6 +52,11 @@ class References:
         self._shared = _Shared(glossary, catalogue, following)
         self._values: dict[tuple[Key, int, tuple[tuple[str, str], ...]], Value] = {}
         self._moved: dict[tuple[int | None, int, complex], References] = {}
+
+    @property
+    def glossary(self) -> Glossary:
+        """What the letters stand for."""
+        return self._shared.glossary
 
     @property
     def used(self) -> set[str]:
@@ -212,8 +218,23 @@ class References:
         listed += [name for _, name, _ in self._shared.catalogue.definitions]
         near = difflib.get_close_matches(symbol.name, dict.fromkeys(listed), n=3, cutoff=0.5)
         dots = "˙" * symbol.dots
-        hint = f" (near it: {', '.join(near)})" if near else ""
-        return f"the symbol {symbol.name}{dots} isn't defined anywhere{hint}"
+        hint = f" (near it: {', '.join(map(_written, near))})" if near else ""
+        counts = self._uncounted(symbol)
+        return f"the symbol {_written(symbol.name)}{dots} isn't defined anywhere{counts or hint}"
+
+    def _uncounted(self, symbol: Symbol) -> str:
+        """How to say that a letter in a subscript counts, if the symbol has others with numbers."""
+        letter = symbol.sub
+        if len(letter) != 1 or not letter.isalpha():
+            return ""
+        glossary = self._shared.glossary
+        numbered = [name for name in glossary.names if re.fullmatch(rf"{symbol.base}_\d", name)]
+        whole = glossary.symbols.get(glossary.find(Symbol(symbol.base)) or ("", False))
+        vector = isinstance(whole, Phrase) and whole.quantity in VECTORS
+        if not (numbered or vector):
+            return ""
+        count = list(range(1, self.columns + 1))
+        return f" (if {letter} counts, say so in the header: indices = {{ {letter} = {count} }})"
 
     # -- derivatives ---------------------------------------------------------------------
 
@@ -237,7 +258,10 @@ class References:
         again = glossary.symbols.get(glossary.find(whole) or ("", False))
         if isinstance(again, Phrase) and again.quantity == "coordinates" and by.sub.isdigit():
             return self._derivative(value, int(by.sub) - 1, by.dots)
-        raise FormulaError(f"differentiates by {by.name}, which isn't a coordinate")
+        counts = self._uncounted(by)
+        raise FormulaError(
+            f"differentiates by {_written(by.name)}, which isn't a coordinate{counts}"
+        )
 
     def _derivative(
         self, of: Callable[[References], Value], along: int | None, order: int
@@ -288,6 +312,15 @@ class References:
         second = np.einsum("...ikj,...k->...ij", varied, v)
         third = np.einsum("...jki,...k->...ij", varied, v)
         return np.asarray(0.5 * (first + second - third))
+
+
+def _written(name: str) -> str:
+    """A symbol's name with its accent or font in LaTeX: ``hat:k_1`` → ``\\hat{k}_1``."""
+    font, colon, rest = name.partition(":")
+    if not colon:
+        return name
+    letter, *scripts = re.split(r"(?=[_^'])", rest, maxsplit=1)
+    return rf"\{_FONTS.get(font, font)}{{{letter}}}{''.join(scripts)}"
 
 
 def _gathered(each: list[Value]) -> Value:

@@ -27,7 +27,7 @@ from thesis_pin.equations.formula import (
 from thesis_pin.equations.parsing.brackets import Brackets
 from thesis_pin.equations.parsing.conventions import Conventions
 from thesis_pin.equations.parsing.factors import Factors
-from thesis_pin.equations.parsing.marks import Arguments, Group, Mark, Slash, opened
+from thesis_pin.equations.parsing.marks import Arguments, Group, Mark, Slash, column, opened
 from thesis_pin.equations.parsing.scripts import INVERTED, with_script
 
 _PREFIX = {"\\mathbb": "bb", "\\mathcal": "cal"}
@@ -140,11 +140,12 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
         return Quotient(above, below)
 
     def before(self, parts: list[Any]) -> Node:
-        """{}^0_1R, as R_1^0."""
+        """{}^0_1R and {}_1^0R, as R_1^0; also without the braces."""
         node = parts[1]
         if not isinstance(node, Symbol):
             raise ValueError("a superscript before something that isn't a symbol")
-        above, _, below = re.sub(r"[{}\s^]", "", str(parts[0])).partition("_")
+        scripts = dict(re.findall(r"([_^])([^_^]*)", re.sub(r"[{}\s]", "", str(parts[0]))))
+        above, below = scripts.get("^", ""), scripts.get("_", "")
         return replace(node, sup=above + node.sup, sub=below + node.sub)
 
     def slash(self, parts: list[Any]) -> Node:
@@ -161,6 +162,8 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
 
     def product(self, parts: list[Node | None]) -> Node:
         waiting = [part for part in parts if part is not None]
+        if len(waiting) == 1 and isinstance(waiting[0], Arguments):
+            return column(waiting[0])  # (x, y), alone
         factors: list[Node] = []
         while waiting:
             factors.append(self.factors.next(waiting))

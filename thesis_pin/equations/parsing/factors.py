@@ -18,7 +18,15 @@ from thesis_pin.equations.formula import (
     Transpose,
 )
 from thesis_pin.equations.parsing.conventions import Conventions
-from thesis_pin.equations.parsing.marks import Arguments, Group, Mark, Slash, diagonal, opened
+from thesis_pin.equations.parsing.marks import (
+    Arguments,
+    Group,
+    Mark,
+    Slash,
+    column,
+    diagonal,
+    opened,
+)
 
 
 class Factors:
@@ -43,6 +51,8 @@ class Factors:
         node = waiting.pop(0)
         if isinstance(node, Slash):
             return self._slashed(node, waiting)
+        if isinstance(node, Transpose) and isinstance(node.of, Arguments):
+            return column(node.of)  # (x, y)^T
         if isinstance(node, Arguments):
             raise ValueError("a list in brackets after something that isn't a symbol")
         if isinstance(node, Symbol):
@@ -78,10 +88,14 @@ class Factors:
         if (
             isinstance(node, Symbol)
             and isinstance(following, Transpose)
-            and self._says_only_dependence(following.of)
+            and self._depends_on(following.of)
         ):
             waiting.pop(0)
             return Transpose(node)
+        if isinstance(following, Transpose) and isinstance(following.of, Arguments):
+            known = self.notation.factors or ()
+            if isinstance(node, Symbol) and node.name not in known:  # f(q, a)^T is no product
+                raise ValueError("a list in brackets after something that isn't a symbol")
         called = isinstance(node, Symbol) and node.name in self.notation.functions
         if isinstance(node, Symbol) and called and isinstance(following, Group):
             waiting.pop(0)
@@ -123,13 +137,18 @@ class Factors:
         if not isinstance(node, Symbol):
             return False
         if isinstance(following, Arguments):
-            return all(self._says_only_dependence(one) for one in following.of)
+            return self._depends_on(following)
         if not isinstance(following, Group):
             return False
         inside, factors = following.inside, self.notation.factors
         if factors is not None and node.name in factors:
             return isinstance(inside, Symbol) and inside.name == "t"
         return self._says_only_dependence(inside)
+
+    def _depends_on(self, listed: Node) -> bool:
+        """Whether all that stands in brackets is what a symbol may depend on."""
+        several = listed.of if isinstance(listed, Arguments) else (listed,)
+        return all(self._says_only_dependence(one) for one in several)
 
     def _says_only_dependence(self, inside: Node) -> bool:
         return isinstance(inside, Symbol) and inside.name in self.notation.ignored_arguments

@@ -26,7 +26,7 @@ class Group(Node):
 
 @dataclass(frozen=True)
 class Arguments(Node):
-    """What a symbol depends on, as (q, t) after M."""
+    """What a symbol depends on, as (q, t) after M, or the entries of a vector."""
 
     of: tuple[Node, ...]
 
@@ -34,6 +34,11 @@ class Arguments(Node):
 @dataclass(frozen=True)
 class Slash(Quotient):
     """A fraction on one line, of which the factors beside it may be parts."""
+
+
+def column(listed: Arguments) -> Matrix:
+    """The column of some entries."""
+    return Matrix(tuple((one,) for one in listed.of))
 
 
 def diagonal(entries: tuple[Node, ...]) -> Matrix:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from thesis_pin.pages.player import package_file, packed, render
+from thesis_pin.pages.packing import MESHCAT, packed, packed_file, render
 
 _COMMAND = re.compile(r'fetch\("data:application/octet-binary;base64,([A-Za-z0-9+/=]*)"\)')
 """A command in the page that meshcat's server writes."""
@@ -47,6 +47,6 @@ def static(html: str) -> str:
     return render(
         "meshcat.html",
         commands=packed("\n".join(commands).encode()),
-        meshcat=packed(package_file("meshcat", "viewer/dist/main.min.js")),
+        meshcat=packed_file(*MESHCAT),
         unpack=web_file("unpack.js"),
     ).decode()

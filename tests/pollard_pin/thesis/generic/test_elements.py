@@ -1,11 +1,13 @@
 """Lines that name a matrix's elements are held where no element vanishes."""
 
+import numpy as np
 import pytest
 
 from pollard_pin.thesis.audit import THESIS
 from pollard_pin.thesis.generic.elements import Elements
+from thesis_pin.equations.formula import FormulaError, Symbol
 
-from ..conftest import verdict
+from ..conftest import value, verdict
 
 EQUATIONS = THESIS.catalogue()
 GROUND = THESIS.ground(EQUATIONS)
@@ -26,6 +28,15 @@ def test_an_element_of_a_transforms_last_row_can_not_change_unseen(name):
                 verdict(GROUND, equation.model_copy(update={"printed": (slipped,)}))
                 == "unexplained"
             )
+
+
+@pytest.mark.parametrize("name", ["b_{41}", "a_{51}", "a", r"\dot{a}_{41}", "a_{41}^0"])
+def test_nothing_but_an_element_of_the_matrix_is_one(name):
+    symbols = Elements(Symbol("A", bold=True), "a", transform=True)
+    np.testing.assert_array_equal(value("a_{41}", symbols), np.zeros(4))
+    np.testing.assert_array_equal(value("a_{44}", symbols), np.ones(4))
+    with pytest.raises(FormulaError, match="isn't an element"):
+        value(name, symbols)
 
 
 def test_no_other_line_is_held_to_free_elements():

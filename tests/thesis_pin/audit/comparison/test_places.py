@@ -26,3 +26,9 @@ def test_a_place_in_a_matrix_is_its_row_and_column():
 def test_a_greek_subscript_and_a_letter_before_a_bold_one_stay_whole():
     assert places(r"\mathbf{J}_\tau a", r"\mathbf{J}_\tau b") == ["symbol 2: a should be b"]
     assert places(r"\delta\mathbf{q}", r"\delta\mathbf{r}") == ["symbol 2: q should be r"]
+
+
+def test_a_run_of_equal_cells_is_counted():
+    row = r"\begin{bmatrix} a & 0 & 0 & 0 & b \end{bmatrix}"
+    assert places(row, row.replace("0", "c")) == ["column 2: 3 × 0 should be 3 × c"]
+    assert places(row, row.replace("0", "c", 1)) == ["column 2: 0 should be c"]

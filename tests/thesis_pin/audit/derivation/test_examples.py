@@ -146,11 +146,56 @@ def test_a_misprinted_definition_has_the_effect_of_the_lines_that_use_it(tmp_pat
             r"\theta_1^2 should be \theta_2^2",
         ),
         (r"m_2 g (l_1 s_1", r"m_1 g (l_1 s_1", "P", "m_1 should be m_2"),
+        (r"'I_2 + m_2 l_{c2}^2'", r"'2 I_2 + m_2 l_{c2}^2'", "M_22", "2 should not be there"),
+        (
+            "left = 'G_2'\nprinted = 'm_2 l_{c2} g c_{12}'",
+            "left = 'G_2 - m_2 l_{c2} g s_{12}'\nprinted = '0'",
+            "G_2",
+            "left side, symbol 6: s_{12} should be c_{12}",
+        ),
+        (  # 0 = 0 if the bodies were points, which is no reason
+            "left = 'G_2'\nprinted = 'm_2 l_{c2} g c_{12}'",
+            r"left = '(M_{22} - m_2 l_{c2}^2) \theta_1'"
+            "\nprinted = '(M_{22} - m_2 l_{c2}^2) \\theta_2'",
+            "G_2",
+            r"\theta_2 should be \theta_1",
+        ),
+        (r"'I_1 + I_2 + m_1", r"'I_1 + m_1", "M_11", "without the bodies' inertias"),
     ],
 )
 def test_a_single_slip_is_guessed_where_nothing_is_given(old, new, line, guess, tmp_path):
     found, _ = changed(tmp_path, "two_link_arm", (old, new))
     assert guess in found[line].note
+
+
+def test_of_letters_with_the_same_number_that_of_the_slip_is_guessed(tmp_path):
+    """ℓ and d are 40 cm both; ℓ_0 was meant to be an ℓ."""
+    changes = (
+        ("'\\ell' = \"40 cm\"", "'\\ell' = \"40 cm\"\n'\\ell_0' = 7\nd = \"40 cm\""),
+        (r"1/2 (J + m \ell^2)", "1/2 (J + m d^2)"),
+        (r"'m g \ell \cos\theta'", r"'m g \ell_0 \cos\theta'"),
+    )
+    found, _ = changed(tmp_path, "cart_pole", *changes)
+    assert found["T"].verdict == "holds"
+    assert found["U"].note == r"with one change it would hold: symbol 3: \ell_0 should be \ell"
+
+
+def test_an_index_of_an_inertia_is_one_of_its_letters(tmp_path):
+    """Σ I_i is no line of point masses: a half too few in it is said."""
+    half = (
+        r"\sum_{i=1}^{2} \frac12 I_i \dot\theta_i^2 + \frac12 I_2 \dot\theta_1^2 + I_2 \dot\theta_1"
+    )
+    rest = r"\frac12 m_1 l_{c1}^2 \dot\theta_1^2 + \frac12 m_2 (l_1^2 \dot\theta_1^2"
+    rest += r" + l_{c2}^2 (\dot\theta_1 + \dot\theta_2)^2 + 2 l_1 l_{c2} c_2 \dot\theta_1"
+    for first, told in ((r"\frac12 I_i", ""), ("I_i", r"\frac { 1 } { 2 } is missing")):
+        line = (
+            half.replace(r"\frac12 I_i", first)
+            + rf" \dot\theta_2 + {rest} (\dot\theta_1 + \dot\theta_2))"
+        )
+        old = "left = 'G_2'\nprinted = 'm_2 l_{c2} g c_{12}'"
+        found, _ = changed(tmp_path, "two_link_arm", (old, f"left = 'K'\nprinted = '{line}'"))
+        assert (found["G_2"].verdict == "holds") == (not told)
+        assert told in found["G_2"].note
 
 
 def test_two_slips_in_a_line_are_no_single_change(tmp_path):

@@ -25,6 +25,11 @@ def text(markup):
         (r"x_{21i}", "<msub><mi>x</mi><mn>21i</mn></msub>"),
         (r"\dot{\theta}_{21} c", "<mover><mi>θ</mi><mn>˙</mn></mover><mi>₂₁c</mi>"),
         (r"\mathbf{R}_{2}^0", "<msubsup><mi class=b>R</mi><mn>2</mn><mn>0</mn></msubsup>"),
+        ("m x_{21i}", "<msub><mi>mx</mi><mn>21i</mn></msub>"),
+        (
+            r"m \mathbf{r}_2^0",
+            "<mi>m</mi><msubsup><mi class=b>r</mi><mn>2</mn><mn>0</mn></msubsup>",
+        ),
         (r"x'", "<msup><mi>x</mi><mn>′</mn></msup>"),
     ],
 )

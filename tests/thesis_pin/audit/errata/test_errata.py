@@ -132,6 +132,8 @@ def test_lost_lines_are_listed_with_what_follows_for_them_and_from_what():
     assert "| `1.2:G_4` | 21 | its end is not in the text | $G_4$ = … |  |" in table
     assert "| `1.2:G_5` | 21 | its end is not in the text | $G_5$ = … |" in table
     assert "rebuilt:" not in table
+    lineless = errata(AuditReport("T", (*ROWS, replace(LOST, line=None)), (), "", {}), "make it")
+    assert "| `1.2:G_3` |  | its end is not in the text |" in lineless
     assert "Lost lines" not in errata(REPORT, "make it")
 
 

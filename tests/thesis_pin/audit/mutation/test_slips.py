@@ -25,6 +25,8 @@ def texts(formula, kind):
         ("term dropped", r"\frac{a + b}{c}", [r"\frac{ + b}{c}", r"\frac{a  }{c}"]),
         ("sine for cosine", r"c\theta_1 s(\phi + \psi) c_2", 2),
         ("sine for cosine", r"\cos x", [r"\sin x"]),
+        ("sine for cosine", r"\frac{c\theta}{2}", [r"\frac{s\theta}{2}"]),
+        ("sine for cosine", r"\mathbf{c}\theta", []),
         ("digit", "18.15", ["28.15", "81.15", "19.15", "18.25", "18.51", "18.16"]),
         ("digit", "m_2", []),
         ("dot", r"\dot{a}", ["{a}", r"\ddot{a}"]),

@@ -5,7 +5,7 @@ import pytest
 from thesis_pin.equations.catalogue import Catalogue
 from thesis_pin.equations.formula import FormulaError, Number, Product, Sum, Symbol
 from thesis_pin.equations.notation import Notation
-from thesis_pin.equations.parsing.brackets import Brackets
+from thesis_pin.equations.parsing.brackets import Brackets, balanced
 
 LONG = "a_1 + b_2 c_3 + d_4 e_5 + f_6 g_7"
 TERMS = Sum(
@@ -110,3 +110,19 @@ def test_where_brackets_do_not_close_nothing_is_read(formula, monkeypatch):
     catalogue = Catalogue((), NOTATION)
     monkeypatch.setattr(Catalogue, "parse", refuse)
     assert not catalogue.reads(formula)
+
+
+@pytest.mark.parametrize(
+    ("formula", "whole"),
+    [
+        ("(a [b] {c})", True),
+        (r"\begin{matrix} a \end{matrix}", True),
+        ("", True),
+        ("(a", False),
+        ("a)", False),
+        (")a(", False),
+        ("(a)) + ((b)", False),
+    ],
+)
+def test_brackets_close_after_they_open_and_as_often(formula, whole):
+    assert balanced(formula) is whole

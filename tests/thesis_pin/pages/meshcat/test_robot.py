@@ -14,6 +14,7 @@ import scout_pin
 from thesis_pin.errors import BadInput, NotFinite, WrongShape
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
+from thesis_pin.pages.meshcat import window
 from thesis_pin.pages.meshcat.collada import is_mixed
 from thesis_pin.pages.meshcat.robot import RobotViewer, closed
 from thesis_pin.pages.meshcat.window import Window
@@ -62,8 +63,12 @@ def test_a_displayed_configuration_moves_bodies_and_what_follows_them(browser, a
         browser.still(artefacts / "meshcat_viewer_scout.png")
         assert browser.complaints() == []
         assert "<script src" not in viewer.static_html()
+
+
+def test_a_named_server_that_isnt_there_is_an_error(monkeypatch):
+    monkeypatch.setattr(window, "FIRST_ANSWER", 0.5)
     with pytest.raises(BadInput, match="no meshcat server answers"):
-        robot.viewer("tcp://127.0.0.1:9")
+        scout_pin.load().viewer("tcp://127.0.0.1:9")
 
 
 def sent(monkeypatch):

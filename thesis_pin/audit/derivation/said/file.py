@@ -91,10 +91,12 @@ class DerivationFile(EquationFile):
 
 
 def _two_sides(place: Key, one: Equation) -> Iterator[tuple[Key, str, object]]:
-    if not one.left and len(one.printed) < len("ab"):
-        yield (*place, "left"), "missing: an equation has two sides", one.id
-    empty = [n for n, text in enumerate(one.printed, start=1) if not text.strip()]
-    if any(n not in one.mending for n in empty):
+    whole = two_sided(one)
+    if not (whole.left.strip() and whole.printed):
+        what = "missing: an equation has two sides, or is printed whole, as a = b"
+        yield (*place, "left"), what, one.id
+    empty = [n for n, text in enumerate(whole.printed, start=1) if not text.strip()]
+    if any(n not in whole.mending for n in empty):
         yield (*place, "printed"), "nothing is printed there", one.id
     every = "".join((one.left, *one.printed))
     if every.strip() and not re.search("[a-zA-Z]", every):
@@ -121,11 +123,53 @@ def read(path: str | Path) -> tuple[DerivationFile, str]:
 
 
 def two_sided(equation: Equation) -> Equation:
-    """An equation that is printed whole, "a = b = c", as left side and members."""
+    """An equation that is printed whole, "a = b = c" or a list of its sides, with its left side.
+
+    Its corrections are counted as it is printed: the first side is number 1 of a list. In the
+    place of "a = b" stands another whole line, or its right side alone.
+    """
     if equation.left or not equation.printed:
         return equation
-    left, *members = equation.printed
-    return Equation.made(**dict(equation) | {"left": left, "printed": tuple(members)})
+    sides = list(equation.printed)
+    listed = len(sides) > 1
+    if not (listed or equation.illegible or equation.not_checkable):
+        sides = _sides(sides[0])
+    left, *members = sides
+    changed = dict(equation) | {"left": left, "printed": tuple(members)}
+    for name in ("corrected", "right", "misread"):
+        given: dict[int, str] = getattr(equation, name)
+        mended = (
+            {number - 1: text for number, text in given.items()}
+            if listed
+            else _mended(sides, given.get(1, ""))
+        )
+        changed[name] = {number: text for number, text in mended.items() if number}
+        if 0 in mended and name != "misread":
+            changed |= {"left": mended[0], "left_printed": left}
+    return Equation.made(**changed)
+
+
+def _mended(sides: list[str], text: str) -> dict[int, str]:
+    """Number of a side, from 0, → what should stand there; none for no text."""
+    right = _sides(text)
+    if len(right) == 1:
+        return {1: text} if text else {}
+    return {
+        number: side
+        for number, side in enumerate(right)
+        if number >= len(sides) or side.split() != sides[number].split()
+    }
+
+
+def _sides(formula: str) -> list[str]:
+    """What stands between the = of a formula; those in braces, as below a sum, don't count."""
+    depth, start, found = 0, 0, []
+    for k, letter in enumerate(formula):
+        depth += (letter == "{") - (letter == "}")
+        if letter == "=" and depth == 0:
+            found.append(formula[start:k].strip())
+            start = k + 1
+    return [*found, formula[start:].strip()]
 
 
 def check_formulas(file: DerivationFile, text: str, notation: Notation, where: str) -> None:
@@ -135,7 +179,7 @@ def check_formulas(file: DerivationFile, text: str, notation: Notation, where: s
         BadInput: With file, line, column, and a mark below the place.
     """
     lines = key_lines(text)
-    for k, one in enumerate(file.equation):
+    for k, one in enumerate(map(two_sided, file.equation)):
         here = lines.get(("equation", k), 1)
         mended = set(one.mending)
         printed = [t for n, t in enumerate(one.printed, start=1) if n not in mended]
