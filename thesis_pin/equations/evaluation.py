@@ -171,8 +171,12 @@ def _matrix(node: nt.Matrix, environment: Environment, indices: dict[str, str]) 
 
 
 def _norm(node: nt.Norm, environment: Environment, indices: dict[str, str]) -> Value:
-    length = evaluate(node.of, environment, indices).array
-    return scalar(np.sqrt((length * length).sum(axis=-1)))
+    length = evaluate(node.of, environment, indices)
+    if node.single and length.rank == len("ij"):
+        return _call(nt.Call("det", node.of), environment, indices)
+    if node.single and length.rank <= 0:
+        return scalar(np.sqrt(length.array * length.array))  # also of a complex step
+    return scalar(np.sqrt((length.array * length.array).sum(axis=-1)))
 
 
 def _signed(sign: str, value: Value, indices: dict[str, str]) -> Value:

@@ -216,9 +216,10 @@ class Matrix(Node):
 
 @dataclass(frozen=True)
 class Norm(Node):
-    """Euclidean length."""
+    """Euclidean length; between single bars also a number's size or a matrix's determinant."""
 
     of: Node
+    single: bool = False
 
 
 def symbols(node: object) -> frozenset[Symbol]:

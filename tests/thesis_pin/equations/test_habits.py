@@ -89,6 +89,11 @@ def number(formula):
         (r"\det\begin{bmatrix} a & b \\ c & m \end{bmatrix}", 2 * 7 - 15.0),
         (r"\operatorname{tr}\left(\begin{bmatrix} a & b \\ c & m \end{bmatrix}\right)", 9.0),
         (r"\det(\operatorname{diag}(a, b, c))", 30.0),
+        (r"\left|a - b\right| c", 5.0),
+        (r"m \lvert b - a \rvert", 7.0),
+        (r"\left|\begin{bmatrix} a & b \\ c & m \end{bmatrix}\right|", -1.0),
+        (r"\sin(90^\circ - \theta)", np.cos(0.3)),
+        (r"m \sin 30^{\circ}", 3.5),
     ],
 )
 def test_a_formula_is_worth_what_its_author_means(formula, expected):

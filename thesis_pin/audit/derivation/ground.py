@@ -191,11 +191,18 @@ class Derivation:
     @cached_property
     def points(self) -> References | None:
         """The references of a robot of point masses; None if a given force would move no mass."""
+        return self._of(self.states.of_points)
+
+    @cached_property
+    def millimetres(self) -> References | None:
+        """The references of a robot that was said in millimetres; None likewise."""
+        return self._of(self.states.of_millimetres)
+
+    def _of(self, states: States) -> References | None:
         try:
-            states = self._driven(self.states.of_points)
+            return References(self._driven(states), self.glossary, self.plain)
         except ModelError:
             return None
-        return References(states, self.glossary, self.plain)
 
     def _formulas(self) -> list[object]:
         """All that can be read of the file's formulas."""

@@ -97,3 +97,12 @@ def test_a_symbol_without_meaning_says_what_may_be_missing(printed, told, audite
     numbered = ("'m' = \"250 g\"", "'m_1' = 1\n'm_2' = 2")
     vectors = ("'\\mathcal{D}' = \"mass matrix\"", "'Q' = 'torque'\n'q' = 'coordinates'")
     assert told in audited(f"printed = '{printed}'\n", numbered, vectors).reason
+
+
+def test_bars_are_a_size_a_length_or_a_determinant(audited):
+    line = r"\left|x\right|^2 \left|\dot{\mathbf{q}}\right|^2 \left|\mathcal{D}\right|"
+    same = r"x^2 (\dot x^2 + \dot\theta^2) \det\mathcal{D}"
+    vector = ("'\\tau_\\theta'", "'\\mathbf{q}' = 'coordinates'\n'\\tau_\\theta'")
+    assert audited(f"printed = '{line} = {same}'\n", vector).verdict == "holds"
+    rate = r"\frac{d}{dt}(\left|x\right|) = \frac{x \dot x}{\lvert x\rvert}"
+    assert audited(f"printed = '{rate}'\n").verdict == "holds"

@@ -16,6 +16,7 @@ from thesis_pin.errors import ModelError, UnknownName
 
 _GENERAL, _SEED = 24, 20261126
 _REACH, _RATE, _FORCE, _JERK = 2.8, 2.0, 5.0, 7.0
+_MILLI = 1e-3
 AGREES = 1e-9
 """How far from Pinocchio's own numbers ours may be, relative to the largest [-]: rounding leaves
 1e-13."""
@@ -60,6 +61,13 @@ class Frames:
         return name
 
 
+def _shrunk(placements: np.ndarray) -> np.ndarray:
+    """Placements with a thousandth of their lengths, shape ``(..., 4, 4)``."""
+    found = placements.copy()
+    found[..., :3, 3] *= _MILLI
+    return found
+
+
 @dataclass(frozen=True)
 class States:
     """A robot at a batch of states, in the derivation's coordinates.
@@ -92,6 +100,18 @@ class States:
         """Whether each coordinate is an angle: whether a joint turns with it, shape ``(n,)``."""
         turns = self.tree.turns.any(axis=-1)
         return np.asarray((self.coordinates.joint_rates[turns] != 0).any(axis=0))
+
+    @property
+    def of_millimetres(self) -> States:
+        """The same states of a robot whose lengths [mm] and inertias [kg·mm²] were said in SI."""
+        placed = {name: _shrunk(one) for name, one in self.frames.placement.items()}
+        tree = replace(
+            self.tree,
+            placements=_shrunk(self.tree.placements),
+            centre=_MILLI * self.tree.centre,
+            inertia=_MILLI**2 * self.tree.inertia,
+        )
+        return replace(self, tree=tree, frames=replace(self.frames, placement=placed))
 
     @classmethod
     def random(
