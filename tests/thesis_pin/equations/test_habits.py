@@ -197,3 +197,26 @@ def test_the_square_of_a_vector_is_that_of_its_length():
     assert value.array == pytest.approx([25.0, 1.0])
     with pytest.raises(FormulaError):
         power(vector(np.array([3.0, 4.0])), 3)
+
+
+@pytest.mark.parametrize(
+    ("formula", "expected"),
+    [
+        (r"m(\theta_1)", Product((Symbol("m"), Symbol("theta", "1")))),
+        (r"M(\theta_1)", Symbol("M")),
+        ("m(t)", Symbol("m")),
+        ("m(a)", Product((Symbol("m"), Symbol("a")))),
+    ],
+)
+def test_a_factor_multiplies_its_bracket_where_another_symbol_depends_on_it(formula, expected):
+    assert NOTATION.parse(formula) == (expected,)
+
+
+@pytest.mark.parametrize(
+    ("formula", "name"),
+    [("x'", "x'"), (r"x^{\prime}", "x'"), ("J'_9", "J'_9"), ("x''", "x''"), ("x_1'", "x'_1")],
+)
+def test_primes_are_part_of_a_name(formula, name):
+    assert NOTATION.symbol(formula).name == name
+    with pytest.raises(FormulaError, match="prime"):
+        NOTATION.parse("(a + b)'")

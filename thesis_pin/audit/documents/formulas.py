@@ -21,6 +21,7 @@ _BRACKETS = frozenset("()[]|‖")
 _WORDS = frozenset({"sin", "cos", "tan", "sec", "csc", "cot", "arctan", "log", "exp"})
 _LEAVES = frozenset({"mi", "mn", "mo", "mtext"})
 _SCRIPTED = frozenset({"msub", "msup", "msubsup"})
+_PRIMES = frozenset("′″‴")
 _BREAKS = frozenset("=+−×")
 _LINE = 40
 """Characters after which a formula may go on in a new line."""
@@ -88,7 +89,8 @@ def _short(node: Element) -> Element:
         new[0].text = f"{new[0].text}{(new[1].text or '').translate(_LOWERED)}"
         return new[0]
     lonely = node.tag == "msup" and not len(new[0]) and not new[0].text
-    return new[1] if lonely else new
+    # A prime is raised by itself; a T after another superscript has to stay one.
+    return new[1] if lonely and new[1].text in _PRIMES else new
 
 
 def _one(node: Element) -> Element:
@@ -114,7 +116,7 @@ def _leaf(node: Element) -> Element:
     bold = "bold" in variant or any(" BOLD " in name for name in names)
     if bold:
         text = unicodedata.normalize("NFKC", text)
-    if node.tag == "mi" and text in ("′", "″", "‴"):
+    if node.tag == "mi" and text in _PRIMES:
         return _node("mn", text)
     if node.tag == "mo" and text in _BRACKETS and node.get("fence") != "true":
         return _node("mn", text)  # as an operator it would grow with all of its row

@@ -30,6 +30,12 @@ def text(markup):
             r"m \mathbf{r}_2^0",
             "<mi>m</mi><msubsup><mi class=b>r</mi><mn>2</mn><mn>0</mn></msubsup>",
         ),
+        (
+            r"\mathbf{v}^0{}^T J",
+            "<msup><mi class=b>v</mi><mn>0</mn></msup>"
+            "<msup><mrow></mrow><mi>T</mi></msup><mi>J</mi>",
+        ),
+        ("a {}'", "<mi>a</mi><mn>′</mn>"),
         (r"x'", "<msup><mi>x</mi><mn>′</mn></msup>"),
     ],
 )

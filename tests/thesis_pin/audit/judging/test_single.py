@@ -82,6 +82,9 @@ def test_a_left_side_a_member_too_many_and_one_too_few_are_slips():
     (many,) = row(printed=("a b", "a a"), corrected={2: ""}).slips
     assert (many.member, many.printed, many.corrected, many.kind) == (2, "a a", "", "term")
     assert many.residual == pytest.approx(2 / 6)
+    assert (many.start, many.neighbours) == (1, ("", ""))
+    _, few = row(printed="a a", corrected={1: "a b", 2: "c"}).slips
+    assert (few.member, few.start, few.printed, few.corrected, few.kind) == (2, 1, "", "c", "term")
 
 
 def test_another_statement_is_one_slip_beside_those_of_its_text():

@@ -189,6 +189,15 @@ def test_a_report_counts_covers_and_names_its_gaps(report):
     assert [s.gaps for s in report.sections] == [(), (("robot:2:e", "torn"),)]
     text = " ".join(audit_report.summary_lines(report))
     assert "covered: 1 of 2; missing: 1.2" in text
+    coverage = audit_json.document(report)["coverage"]
+    assert (coverage["numbered"], coverage["numbers"], coverage["missing"]) == (1, 2, ["1.2"])
+
+
+def test_the_page_says_by_how_much_a_line_without_a_correction_fails():
+    rows = (row(printed="a a"), row(id="robot:1:d"))  # 4 where 6 belongs, and one that holds
+    page = audit_page.page(AuditReport("Thesis", rows, (), "", {}))
+    assert page.count("<dd>as printed 3.3e-01</dd>") == 1
+    assert page.count("<dd>as printed") == 1
 
 
 def test_failures_come_worst_effect_first():
