@@ -72,6 +72,8 @@ def test_a_slip_that_can_not_be_seen_alone_says_so_and_one_that_can_not_be_read_
     assert bracket.kind == "bracket"
     document = row_document(row(printed="(a b", corrected="(a b)"))
     assert document["slips"][0]["residual"] is None
+    (finite,) = row_document(row(left_printed="b"))["slips"]
+    assert finite["residual"] == pytest.approx(0.5)
     assert document["slips"][0]["neighbours"] == ["( a b".replace(" ", "", 1), ""]
 
 
