@@ -181,6 +181,8 @@ def test_layout_is_blanked_in_place():
     assert r"\begin{pmatrix} b & c \\ d & e \end{pmatrix}" in blank
     assert blank.count("&") == formula.count("&") - 2
     assert plain("a &= b") == "a  = b"
+    matrices = r"\begin{pmatrix} a & b \end{pmatrix} + \begin{bmatrix} c & d \end{bmatrix} &= e"
+    assert plain(matrices) == matrices.replace("&=", " =")
     assert plain(r"a \\ = b") == "a    = b"
 
 

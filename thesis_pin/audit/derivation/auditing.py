@@ -51,14 +51,15 @@ class DerivationThesis(Thesis):
         references: What the symbols must equal, for this robot and for changed ones.
         unforced: The same where nothing pushes some coordinates, with their symbols.
         points: The same for a robot of point masses.
-        millimetres: The same for a robot whose file was written in millimetres.
+        millimetres: The same for a robot whose file was written in millimetres, and for one of half
+            the size.
     """
 
     changes: tuple[str, ...] = ()
     references: tuple[References, ...] = ()
     unforced: Callable[[], tuple[tuple[str, References], ...]] = tuple
     points: References | None = None
-    millimetres: Callable[[], References | None] = lambda: None
+    millimetres: Callable[[], tuple[References | None, ...]] = tuple
 
     def audit(
         self,
@@ -113,10 +114,17 @@ class DerivationThesis(Thesis):
         return ""
 
     def _in_millimetres(self, row: Row, one: Equation, equations: Catalogue) -> bool:
-        small = self.millimetres()
-        if small is None or row.reason:
-            return False
-        return residual(equations, one, one.printed, small, row.left).value < HOLDS
+        """Whether a line holds if the robot was said in millimetres, and isn't just too small then.
+
+        In a robot of half that size what a slip makes is even smaller, but lengths that the file
+        gives differ from it.
+        """
+        sizes = () if row.reason else self.millimetres()
+        holds = [
+            size is not None and residual(equations, one, one.printed, size, row.left).value < HOLDS
+            for size in sizes
+        ]
+        return holds == [True, False]
 
     def _guess(self, row: Row, equations: Catalogue) -> str:
         """What would make a line hold that fails and that nothing is given in the place of."""

@@ -27,6 +27,7 @@ from thesis_pin.equations.formula import FormulaError, Symbol, functions
 from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.loops.closures import ClosedRobot
 
+_MILLI = 1e-3
 SMALL = 1e-8
 """Entries of the mass matrix [kg·m²], [kg] from which a slip of half a percent is seen: what counts
 as zero is zero against 1e-3 (:mod:`thesis_pin.audit.judging.residuals`)."""
@@ -194,9 +195,9 @@ class Derivation:
         return self._of(self.states.of_points)
 
     @cached_property
-    def millimetres(self) -> References | None:
-        """The references of a robot that was said in millimetres; None likewise."""
-        return self._of(self.states.of_millimetres)
+    def millimetres(self) -> tuple[References | None, ...]:
+        """The references of a robot that was said in mm, and of one of half the size."""
+        return tuple(self._of(self.states.shrunk(scale)) for scale in (_MILLI, _MILLI / 2))
 
     def _of(self, states: States) -> References | None:
         try:

@@ -249,6 +249,20 @@ def test_a_robot_written_in_millimetres_is_told_from_slips(tmp_path):
     assert all("robot's lengths were in mm" in row.note for row in report.rows)
 
 
+def test_a_slip_that_is_too_small_in_a_small_robot_is_no_matter_of_millimetres(tmp_path):
+    """All lengths come from the robot. A thousandth of it hides J behind the cart's mass."""
+    changes = (
+        ("'\\ell' = \"40 cm\"", "'a' = \"position of centre of pole in pole along z\""),
+        ("'J' = \"0.014 kg m^2\"", "'J' = \"inertia yy of pole\""),
+        ("[symbols]", "[symbols]\n'\\ell' = '= -a'"),
+    )
+    found, _ = changed(tmp_path, "cart_pole", *changes)
+    assert found["T"].verdict == "holds"
+    slip = (r"1/2 (J + m \ell^2) \dot", r"1/2 (2 J + m \ell^2) \dot")
+    found, _ = changed(tmp_path, "cart_pole", *changes, slip)
+    assert "2 should not be there" in found["T"].note
+
+
 @pytest.mark.parametrize(
     ("length", "note"), [("40.001", "it holds to 2e-05: a number"), ("41", "")]
 )

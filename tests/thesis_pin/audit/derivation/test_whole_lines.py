@@ -84,6 +84,7 @@ def test_a_whole_line_with_a_side_missing_is_refused(printed, told, audited):
     ("printed", "told"),
     [
         (r"F = \hat{k}_1", r"the symbol \hat{k}_1 isn't defined anywhere"),
+        (r"F = \hat{\imath}", r"the symbol \hat{\imath} isn't defined anywhere"),
         (r"F = \mathcal{L}", r"the symbol \mathcal{L} isn't defined anywhere"),
         (r"F = m_i", "(if i counts, say so in the header: indices = { i = [1, 2] })"),
         (r"F = Q_k", "(if k counts, say so in the header: indices = { k = [1, 2] })"),

@@ -161,6 +161,21 @@ def test_a_claim_that_does_not_read_its_text_can_not_say_holds():
     assert row(deaf, claim="law", printed="0").verdict == "unexplained"
 
 
+@pytest.mark.parametrize(
+    "look",
+    [
+        lambda equation: list(equation.printed),
+        lambda equation: list(equation.members("printed")),
+        lambda equation: (equation.printed[:1], equation.printed[1]),
+        lambda equation: (equation.printed[0], equation.printed[-1]),
+        lambda equation: equation.printed[:],
+    ],
+)
+def test_a_claim_reads_its_text_by_members_one_by_one_or_by_several(look):
+    claims = {"law": lambda equation: ClaimResult(0.0 * len(look(equation)))}
+    assert row(claims, claim="law", printed=("0", "1")).verdict == "holds"
+
+
 def test_a_lost_line_that_follows_from_the_rest_is_rebuilt_and_nothing_more():
     lost = {"printed": (), "illegible": "the page is torn", "surviving": "a", "line": 7}
     rebuilt = row(rebuilt="a b", **lost)

@@ -16,7 +16,6 @@ from thesis_pin.errors import ModelError, UnknownName
 
 _GENERAL, _SEED = 24, 20261126
 _REACH, _RATE, _FORCE, _JERK = 2.8, 2.0, 5.0, 7.0
-_MILLI = 1e-3
 AGREES = 1e-9
 """How far from Pinocchio's own numbers ours may be, relative to the largest [-]: rounding leaves
 1e-13."""
@@ -61,10 +60,10 @@ class Frames:
         return name
 
 
-def _shrunk(placements: np.ndarray) -> np.ndarray:
-    """Placements with a thousandth of their lengths, shape ``(..., 4, 4)``."""
+def _shrunk(placements: np.ndarray, scale: float) -> np.ndarray:
+    """Placements with so much of their lengths, shape ``(..., 4, 4)``."""
     found = placements.copy()
-    found[..., :3, 3] *= _MILLI
+    found[..., :3, 3] *= scale
     return found
 
 
@@ -101,15 +100,14 @@ class States:
         turns = self.tree.turns.any(axis=-1)
         return np.asarray((self.coordinates.joint_rates[turns] != 0).any(axis=0))
 
-    @property
-    def of_millimetres(self) -> States:
-        """The same states of a robot whose lengths [mm] and inertias [kg·mm²] were said in SI."""
-        placed = {name: _shrunk(one) for name, one in self.frames.placement.items()}
+    def shrunk(self, scale: float) -> States:
+        """The same states of a robot so many times as long, with the square of its inertias."""
+        placed = {name: _shrunk(one, scale) for name, one in self.frames.placement.items()}
         tree = replace(
             self.tree,
-            placements=_shrunk(self.tree.placements),
-            centre=_MILLI * self.tree.centre,
-            inertia=_MILLI**2 * self.tree.inertia,
+            placements=_shrunk(self.tree.placements, scale),
+            centre=scale * self.tree.centre,
+            inertia=scale**2 * self.tree.inertia,
         )
         return replace(self, tree=tree, frames=replace(self.frames, placement=placed))
 
