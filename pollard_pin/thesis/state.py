@@ -40,6 +40,10 @@ CONSTANTS_I = ("y_10", "z_32", "x_43", "x_87", "x_1211", "z_1312", "beta_54", "b
 _EACH: Mapping[Hashable, Along] = {name: {name: 1.0} for name in VARIABLES}
 """Directions along which one variable changes and all others stand still."""
 
+_UNKNOWN = object()
+_LARGEST = 2**14
+"""Bytes of an array that states keep, at most: keeping larger ones saves no time."""
+
 SLANT = "slant_"
 """What an arm's offset has across its axis; the thesis's robots have none."""
 
@@ -77,6 +81,13 @@ _FACTORS: dict[str, tuple[tuple[str, int, str], ...]] = {
 TRANSFORMS = tuple(_FACTORS)
 
 
+def _size(made: Matrices) -> int:
+    """Bytes of an array with its derivatives."""
+    if isinstance(made, Dual):
+        return made.value.nbytes + made.stack.nbytes
+    return made.nbytes if isinstance(made, np.ndarray) else 0
+
+
 def own_name(name: str, i: str) -> str:
     """A name with its trailing i replaced by the chain's number: "theta_21i" → "theta_211"."""
     return name[:-1] + i if name.endswith("i") and name not in ("psi", "phi") else name
@@ -107,7 +118,7 @@ class State:
     )
 
     def kept(self, name: Hashable, make: Callable[[Self], Matrices], rank: int = 0) -> Matrices:
-        """What is made of constants and variables, and made once.
+        """What is made of constants and variables, and made once unless it is large.
 
         Its derivative by each variable is kept; along :attr:`along` it follows from these.
 
@@ -117,9 +128,11 @@ class State:
             rank: 0 for a number a state, 1 for a vector, 2 for a matrix.
         """
         key = name, self.along is not None
-        if key not in self._kept:
-            self._kept[key] = make(self if self.along is None else self.by_each())
-        found = self._kept[key]
+        found = self._kept.get(key, _UNKNOWN)
+        if found is _UNKNOWN:
+            found = make(self if self.along is None else self.by_each())
+            if _size(found) <= _LARGEST:
+                self._kept[key] = found
         if self.along is None or self.along is _EACH or not isinstance(found, Dual):
             return found
         return found.towards(self.along, rank)

@@ -26,6 +26,7 @@ COORDINATES = (
 )
 """Names of q_1 … q_18 (4.2)."""
 
+_EVERY = range(len(COORDINATES))
 UNIT = {"i": np.array([1.0, 0, 0]), "j": np.array([0, 1.0, 0]), "k": np.array([0, 0, 1.0])}
 LENGTHS = ("x_0", "z_1", "x_2", "x_3", "x_4", "x_5", "y_6")
 BODIES = ("B", *(f"{n}{i}" for i in (1, 2) for n in range(1, 7)))
@@ -219,19 +220,26 @@ class State:
         """A point of a link in the world and its Jacobian, ``(N, J, 3)``, ``(N, J, 3, 18)``."""
         frame = self.frame(body)
         if local is None:
-            local = np.zeros((1, 1, 3))
-        homogeneous = np.concatenate([local, np.ones((*local.shape[:-1], 1))], axis=-1)[..., None]
-        point = (frame @ homogeneous)[..., :3, 0]
-        return point.value, np.stack([point.along(k) for k in range(18)], axis=-1)
+            point = frame[..., :3, 3]
+        else:
+            homogeneous = np.concatenate([local, np.ones((*local.shape[:-1], 1))], axis=-1)
+            point = (frame @ homogeneous[..., None])[..., :3, 0]
+        return point.value, point.jacobian(_EVERY)
 
     def centre(self, body: str) -> tuple[np.ndarray, np.ndarray]:
         """Centre of mass of a link and its Jacobian J."""
-        return self.point(body, self.parameters.values[f"G{body}"])
+        if body not in self._centres:
+            self._centres[body] = self.point(body, self.parameters.values[f"G{body}"])
+        return self._centres[body]
+
+    @cached_property
+    def _centres(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Centres that were asked for: a column of J holds all of J, and there are 18 of them."""
+        return {}
 
     def angular(self, body: str) -> np.ndarray:
         """Jacobian W of a link's angular velocity, shape ``(N, J, 3, 18)``."""
-        frame = self.frame(body)
-        return np.stack([frame.axis(k) for k in range(18)], axis=-1)
+        return self.frame(body).axes().jacobian(_EVERY)
 
     def inertia(self, body: str) -> np.ndarray:
         """Centroidal inertia of a link in world axes, shape ``(N, J, 3, 3)``."""

@@ -91,6 +91,28 @@ def test_a_line_links_to_what_it_uses_and_what_uses_it(browser, scout_page):
     assert broken == []
 
 
+def test_what_is_wrong_is_coloured_in_the_print_of_lines_that_fail_and_nowhere_else(
+    browser, pollard_page, pollard_audit
+):
+    browser.open(pollard_page.as_uri())
+    browser.until("document.readyState === 'complete'")
+    marked = browser.run(
+        """[...document.querySelectorAll('article')].filter(
+        (one) => one.querySelector('.f :is(.e, .be)')).map((one) => one.id)"""
+    )
+    assert 0.95 * len(pollard_audit.failures) < len(marked)
+    assert set(marked) <= {row.id for row in pollard_audit.failures}
+    (row,) = (row for row in pollard_audit.rows if row.id == "pollard:2.4.1:C_10")
+    assert [slip.printed for slip in row.slips] == ["x_2"]
+    shown = browser.run(
+        """(() => { const one = document.getElementById('pollard:2.4.1:C_10');
+        const colour = (of) => getComputedStyle(one.querySelector(of)).color;
+        const marked = [...one.querySelectorAll('.f .e')].map((leaf) => leaf.textContent);
+        return [...marked, colour('.f .e') === colour('.f mi')]; })()"""
+    )
+    assert shown == ["x₂", False]
+
+
 def test_the_dot_of_a_rate_is_drawn_clear_of_its_letter(browser, pollard_page):
     browser.open(pollard_page.as_uri())
     browser.until("document.readyState === 'complete'")

@@ -122,7 +122,9 @@ class EditionEnvironment:
             return None
         equation, bound = definition
         key = (kind, symbol.name, symbol.dots, indices.get("i", "") if not bound else "")
-        users = self._users.setdefault(key, set())
+        users = self._users.get(key)
+        if users is None:
+            users = self._users[key] = set()
         if self._busy:
             users.add(self._busy[-1])
         if key in self._values:

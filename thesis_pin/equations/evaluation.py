@@ -8,8 +8,9 @@ exact to rounding and cost no subtraction.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
-from typing import Protocol, runtime_checkable
+from typing import Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
 
@@ -102,53 +103,80 @@ def evaluate(node: Node, environment: Environment, indices: dict[str, str]) -> V
     Raises:
         FormulaError: A symbol isn't defined, or the shapes don't fit.
     """
+    if isinstance(node, Symbol):
+        return environment.lookup(node.bound(indices), indices)
+    rule = _RULES.get(type(node))
+    if rule is None:
+        raise FormulaError(f"can't evaluate {node!r}")
+    return rule(node, environment, indices)
 
-    def of(part: Node) -> Value:
-        return evaluate(part, environment, indices)
 
-    match node:
-        case nt.Number(value):
-            return ZERO if value == 0 else scalar(value)
-        case Symbol():
-            return environment.lookup(node.bound(indices), indices)
-        case nt.Sum(terms):
-            total = ZERO
-            for sign, term in terms:
-                total = add(total, _signed(sign, of(term), indices))
-            return total
-        case nt.Product(factors):
-            total = of(factors[0])
-            for factor in factors[1:]:
-                total = multiply(total, of(factor))
-            return total
-        case nt.Cross(left, right):
-            first, second = of(left), of(right)
-            numbers = first.rank == second.rank == 0
-            return multiply(first, second) if numbers else cross(first, second)
-        case nt.Dot(left, right):
-            first, second = of(left), of(right)
-            return multiply(transpose(first) if first.rank == 1 else first, second)
-        case nt.Quotient(above, below):
-            return multiply(of(above), power(of(below), -1))
-        case nt.Power(base, exponent):
-            return power(of(base), int(indices[exponent]) if exponent in indices else exponent)
-        case nt.Transpose(inner):
-            return transpose(of(inner))
-        case nt.Call():
-            return _call(node, environment, indices)
-        case nt.Derivative(inner, by):
-            return _derivative(inner, by, environment, indices)
-        case nt.Series(index, lowest, highest, body):
-            total = ZERO
-            for k in range(lowest, highest + 1):
-                total = add(total, evaluate(body, environment, {**indices, index: str(k)}))
-            return total
-        case nt.Matrix(rows):
-            return blocks([[of(cell) for cell in row] for row in rows], environment.columns)
-        case nt.Norm(inner):
-            length = of(inner).array
-            return scalar(np.sqrt((length * length).sum(axis=-1)))
-    raise FormulaError(f"can't evaluate {node!r}")
+def _number(node: nt.Number, environment: Environment, indices: dict[str, str]) -> Value:
+    return ZERO if node.value == 0 else scalar(node.value)
+
+
+def _sum(node: nt.Sum, environment: Environment, indices: dict[str, str]) -> Value:
+    total = ZERO
+    for sign, term in node.terms:
+        total = add(total, _signed(sign, evaluate(term, environment, indices), indices))
+    return total
+
+
+def _product(node: nt.Product, environment: Environment, indices: dict[str, str]) -> Value:
+    total = evaluate(node.factors[0], environment, indices)
+    for factor in node.factors[1:]:
+        total = multiply(total, evaluate(factor, environment, indices))
+    return total
+
+
+def _cross(node: nt.Cross, environment: Environment, indices: dict[str, str]) -> Value:
+    first, second = (evaluate(side, environment, indices) for side in (node.left, node.right))
+    numbers = first.rank == second.rank == 0
+    return multiply(first, second) if numbers else cross(first, second)
+
+
+def _dot(node: nt.Dot, environment: Environment, indices: dict[str, str]) -> Value:
+    first, second = (evaluate(side, environment, indices) for side in (node.left, node.right))
+    return multiply(transpose(first) if first.rank == 1 else first, second)
+
+
+def _quotient(node: nt.Quotient, environment: Environment, indices: dict[str, str]) -> Value:
+    above, below = (evaluate(part, environment, indices) for part in (node.above, node.below))
+    return multiply(above, power(below, -1))
+
+
+def _power(node: nt.Power, environment: Environment, indices: dict[str, str]) -> Value:
+    base, exponent = evaluate(node.base, environment, indices), node.exponent
+    return power(base, int(indices[exponent]) if exponent in indices else exponent)
+
+
+def _transposed(node: nt.Transpose, environment: Environment, indices: dict[str, str]) -> Value:
+    return transpose(evaluate(node.of, environment, indices))
+
+
+def _slope(node: nt.Derivative, environment: Environment, indices: dict[str, str]) -> Value:
+    return _derivative(node.of, node.by, environment, indices)
+
+
+def _series(node: nt.Series, environment: Environment, indices: dict[str, str]) -> Value:
+    total = ZERO
+    for k in range(node.first, node.last + 1):
+        total = add(total, evaluate(node.body, environment, {**indices, node.index: str(k)}))
+    return total
+
+
+def _matrix(node: nt.Matrix, environment: Environment, indices: dict[str, str]) -> Value:
+    rows = [[evaluate(cell, environment, indices) for cell in row] for row in node.rows]
+    return blocks(rows, environment.columns)
+
+
+def _norm(node: nt.Norm, environment: Environment, indices: dict[str, str]) -> Value:
+    length = evaluate(node.of, environment, indices)
+    if node.single and length.rank == len("ij"):
+        return _call(nt.Call("det", node.of), environment, indices)
+    if node.single and length.rank <= 0:
+        return scalar(np.sqrt(length.array * length.array))  # also of a complex step
+    return scalar(np.sqrt((length.array * length.array).sum(axis=-1)))
 
 
 def _signed(sign: str, value: Value, indices: dict[str, str]) -> Value:
@@ -227,13 +255,25 @@ def _call(node: nt.Call, environment: Environment, indices: dict[str, str]) -> V
     raise FormulaError(f"unknown function {name!r}")
 
 
+# Whether a class has a protocol's methods takes Python a while to find out.
+_provides = functools.cache(issubclass)
+
+
+def _is_framed(environment: Environment) -> TypeGuard[Framed]:
+    return _provides(type(environment), Framed)
+
+
+def _is_skewed(environment: Environment) -> TypeGuard[Skewed]:
+    return _provides(type(environment), Skewed)
+
+
 def _turned(
     rotation: np.ndarray, node: nt.Call, environment: Environment, indices: dict[str, str]
 ) -> Value:
     """A printed rotation, or its slope, with its frames and about the joint's axis."""
     asked = node.function[-1], node.argument, indices
-    frames = environment.turning(*asked) if isinstance(environment, Framed) else ANY
-    bent = environment.skew(*asked) if isinstance(environment, Skewed) else None
+    frames = environment.turning(*asked) if _is_framed(environment) else ANY
+    bent = environment.skew(*asked) if _is_skewed(environment) else None
     return Value(rotation if bent is None else bent @ rotation @ bent.T, 2, frames)
 
 
@@ -249,3 +289,21 @@ def _derivative(
     if by is None or isinstance(by, Symbol):
         return environment.partial(of, by.bound(indices) if by else None, indices)
     raise FormulaError("differentiates by something that isn't the argument of the function")
+
+
+_RULES: dict[type[Node], Callable[..., Value]] = {
+    nt.Number: _number,
+    nt.Sum: _sum,
+    nt.Product: _product,
+    nt.Cross: _cross,
+    nt.Dot: _dot,
+    nt.Quotient: _quotient,
+    nt.Power: _power,
+    nt.Transpose: _transposed,
+    nt.Call: _call,
+    nt.Derivative: _slope,
+    nt.Series: _series,
+    nt.Matrix: _matrix,
+    nt.Norm: _norm,
+}
+"""What gives the value of each kind of formula."""

@@ -32,6 +32,21 @@ class FrameError(FormulaError):
 class Node:
     """Base of all parts of a formula."""
 
+    @functools.cached_property
+    def symbols(self) -> frozenset[Symbol]:
+        """All symbols in it."""
+        found: set[Symbol] = set()
+        waiting: list[object] = [self]
+        while waiting:
+            part = waiting.pop()
+            if isinstance(part, Symbol):
+                found.add(part)
+            elif isinstance(part, tuple | list):
+                waiting += part
+            elif isinstance(part, Node):
+                waiting += vars(part).values()
+        return frozenset(found)
+
 
 @dataclass(frozen=True)
 class Number(Node):
@@ -63,6 +78,11 @@ class Symbol(Node):
     kept: str = ""
 
     @property
+    def symbols(self) -> frozenset[Symbol]:
+        """Itself."""
+        return frozenset({self})
+
+    @functools.cached_property
     def name(self) -> str:
         """Key for look-ups: the symbol in plain characters, without its dots."""
         text = self.base + "'" * self.primes
@@ -70,7 +90,23 @@ class Symbol(Node):
 
     def bound(self, indices: dict[str, str]) -> Symbol:
         """The symbol with index letters replaced, for instance i by 1."""
-        return _bound(self, tuple(indices.items())) if indices else self
+        if self._letters.isdisjoint(indices):
+            return self
+        key = tuple(indices.items())
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = _bound(self, key)
+        return found
+
+    @functools.cached_property
+    def _known(self) -> dict[tuple[tuple[str, str], ...], Symbol]:
+        """What it was bound to before: indices → symbol."""
+        return {}
+
+    @functools.cached_property
+    def _letters(self) -> frozenset[str]:
+        """What may be index letters."""
+        return frozenset(self.sub + self.sup) - set(self.kept)
 
 
 @functools.lru_cache(maxsize=65536)
@@ -180,20 +216,19 @@ class Matrix(Node):
 
 @dataclass(frozen=True)
 class Norm(Node):
-    """Euclidean length."""
+    """Euclidean length; between single bars also a number's size or a matrix's determinant."""
 
     of: Node
+    single: bool = False
 
 
-def symbols(node: object) -> set[Symbol]:
-    """All symbols in a formula."""
-    if isinstance(node, Symbol):
-        return {node}
-    if isinstance(node, tuple | list):
-        return set().union(*(symbols(part) for part in node)) if node else set()
+def symbols(node: object) -> frozenset[Symbol]:
+    """All symbols in a formula, or in several."""
     if isinstance(node, Node):
-        return symbols(tuple(vars(node).values()))
-    return set()
+        return node.symbols
+    if isinstance(node, tuple | list):
+        return frozenset().union(*(symbols(part) for part in node))
+    return frozenset()
 
 
 def functions(node: object) -> set[str]:

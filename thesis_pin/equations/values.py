@@ -11,6 +11,9 @@ from thesis_pin.equations.formula import FormulaError, FrameError
 from thesis_pin.equations.frames import ANY, Frames
 from thesis_pin.numeric.turns import TURN
 
+_STACKED = 3
+"""Axes of an array of matrices, at least."""
+
 STEP = 1e-30
 """Complex step: small enough that its square vanishes, so derivatives are exact."""
 
@@ -51,6 +54,8 @@ class Value:
 
     def within(self, frames: Frames) -> Value:
         """The same numbers, seen from a frame or turning between two."""
+        if frames is self.frames:
+            return self
         return Value(self.array, self.rank, frames, self.turns)
 
 
@@ -101,7 +106,7 @@ def add(first: Value, second: Value) -> Value:
     """Sum of two values of one shape."""
     if first.rank == -1 or second.rank == -1:
         return second if first.rank == -1 else first
-    if first.rank != second.rank or first.tail != second.tail:
+    if first.rank != second.rank or (first.rank and first.tail != second.tail):
         raise FormulaError(f"adds {first.describe()} and {second.describe()}")
     frames = fr.same(first.frames, second.frames)
     if not frames:
@@ -131,9 +136,18 @@ def multiply(first: Value, second: Value) -> Value:
         raise FormulaError(f"multiplies {first.describe()} by {second.describe()}")
     frames = _joined(first, second)
     if second.rank == 1:
-        result = np.matmul(a, b[..., None])[..., 0]
+        result = _matmul(a, b[..., None])[..., 0]
         return scalar(result[..., 0]) if first.tail[0] == 1 else Value(result, 1, frames)
-    return Value(np.matmul(a, b), 2, frames)
+    return Value(_matmul(a, b), 2, frames)
+
+
+def _matmul(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """a @ b; where the second is one for all of the last batch axis, of one tall matrix."""
+    if min(a.ndim, b.ndim) < _STACKED or b.shape[-3] != 1 or a.shape[-3] == 1:
+        return np.asarray(np.matmul(a, b))
+    tall = a.reshape(*a.shape[:-3], -1, a.shape[-1])
+    result = np.matmul(tall, b[..., 0, :, :])
+    return np.asarray(result.reshape(*result.shape[:-2], *a.shape[-3:-1], b.shape[-1]))
 
 
 def _whole(value: Value) -> bool:
@@ -205,9 +219,11 @@ def blocks(rows: list[list[Value]], columns: int) -> Value:
     if len({len(row) for row in rows}) > 1:
         raise FormulaError("a matrix whose rows differ in length")
     if all(cell.rank <= 0 for cell in cells):
-        batch = np.broadcast_shapes(*(cell.array.shape for cell in cells))
-        spread = [[np.broadcast_to(cell.array, batch) for cell in row] for row in rows]
-        array = np.stack([np.stack(row, axis=-1) for row in spread], axis=-2)
+        arrays = [cell.array for cell in cells]
+        batch = np.broadcast_shapes(*{array.shape for array in arrays})
+        array = np.empty((*batch, len(rows), len(rows[0])), dtype=np.result_type(*arrays))
+        for row, column in np.ndindex(array.shape[-2:]):
+            array[..., row, column] = rows[row][column].array
         if len(rows[0]) == 1 < len(rows):
             return Value(array[..., 0], 1, turns=any(cell.turns for cell in cells))
         return matrix(array)

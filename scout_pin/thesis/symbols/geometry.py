@@ -30,8 +30,13 @@ class Geometry(Coordinates):
 
     def _rate(self, frame: Dual) -> np.ndarray:
         """Ṙ Rᵀ of a frame."""
-        total = sum(frame.along(k) * self.state.v[..., k, None, None] for k in range(18))
-        return np.asarray(np.asarray(total)[..., :3, :3] @ np.swapaxes(frame.rotation, -1, -2))
+        slopes = frame.slopes
+        total = sum(
+            slopes[k][..., :3, :3] * self.state.v[..., k, None, None]
+            for k in range(18)
+            if k in slopes
+        )
+        return np.asarray(np.asarray(total) @ np.swapaxes(frame.rotation, -1, -2))
 
     def _body(self, sub: str) -> str | None:
         """Link whose frame the thesis numbers so: "B", "31" (link 2, left), "1" (sole)."""

@@ -77,6 +77,19 @@ def test_the_last_coefficient_is_all_that_the_poses_acceleration_leaves(opened):
         np.testing.assert_allclose(rest - still, doubled - rest, atol=1e-10 * np.abs(rest).max())
 
 
+def test_the_second_derivative_of_a_vector_is_that_of_calculus(opened):
+    """The forearm x_32 along the x axis of a frame that θ21 turns about y."""
+    theta, rate, bend = (
+        one["theta_21"] for one in (opened.variables, opened.rates, opened.accelerations)
+    )
+    sine, cosine = np.sin(theta), np.cos(theta)
+    expected = np.stack(
+        [-cosine * rate**2 - sine * bend, 0 * theta, sine * rate**2 - cosine * bend], axis=-1
+    )
+    expected *= opened.constants["x_32"][:, None]
+    np.testing.assert_allclose(value(r"\ddot{\mathbf{r}}_{32}", opened), expected, atol=1e-10)
+
+
 def in_base_frame(state):
     """X and Z as (2.20) prints them, and their first and second derivatives."""
 

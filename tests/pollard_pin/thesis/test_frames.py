@@ -11,7 +11,9 @@ from pollard_pin.thesis.symbols import frames
 from pollard_pin.thesis.symbols.bodies import turned
 from pollard_pin.thesis.symbols.loops import PATHS
 from thesis_pin.audit.judging.verdicts import residual
+from thesis_pin.equations import frames as fr
 from thesis_pin.equations.evaluation import evaluate
+from thesis_pin.equations.formula import Symbol
 
 ENVIRONMENTS = Environments()
 
@@ -49,6 +51,22 @@ def test_the_vector_along_the_axis_of_the_ball_joints_turn_is_given_from_the_wro
     assert printed.value == 1
     assert re.search(r"frame 13\(1\) .* seen from frame 5", printed.reason)
     assert found("pollard:A:dr_1312i/dq_j", "^5", "^{12i}").value < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("symbol", "tail", "seen"),
+    [
+        (Symbol("M", "2"), (3, 6), fr.columns_seen_from("0")),
+        (Symbol("J", "8"), (3, 3), fr.columns_seen_from("0")),
+        (Symbol("J", "tau"), (3, 6), fr.ANY),
+        (Symbol("M", "2"), (6, 6), fr.ANY),
+        (Symbol("R", "4", "0"), (3, 3), fr.turning(("0", "4"))),
+        (Symbol("r", "32", "2"), (3,), fr.seen_from("2")),
+        (Symbol("k", "7"), (6,), fr.ANY),
+    ],
+)
+def test_the_frames_of_a_symbol_are_by_its_letter_and_shape(symbol, tail, seen):
+    assert frames.of_symbol(symbol, tail, "") == seen
 
 
 @pytest.mark.parametrize("name", PATHS)

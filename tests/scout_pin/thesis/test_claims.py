@@ -14,7 +14,7 @@ from scout_pin.thesis.claims.splines import table_rows
 from scout_pin.thesis.claims.texts import components, pieces, points, quantity
 from scout_pin.thesis.symbols.splines import Splines, spline_coefficients
 from thesis_pin.audit.judging.verdicts import judge
-from thesis_pin.equations.formula import FormulaError
+from thesis_pin.equations.formula import FormulaError, Symbol
 
 
 @pytest.fixture(scope="module")
@@ -221,6 +221,15 @@ def test_spline_coefficients_are_those_of_a_smooth_curve_through_the_nodes():
     np.testing.assert_allclose(a[:, 0], 0.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("name", ["a_0", "a_99", "b_99", "t_99", "f_99", "dot_a_1", "dot_t_1"])
+def test_a_spline_has_the_nodes_and_pieces_it_has_and_they_stand_still(name):
+    *dot, base, sub = name.split("_")
+    symbol = Symbol(base, sub, dots=len(dot))
+    assert Splines().lookup(Symbol(base, "1"), {}).rank == 0
+    with pytest.raises(FormulaError, match="defined"):
+        Splines().lookup(symbol, {})
+
+
 def test_the_printed_angles_close_the_printed_gait_and_a_hundredth_of_a_millimetre_shows():
     numbers = Numbers.read(catalogue())
     assert numbers.gap() == 0.0
@@ -248,3 +257,12 @@ def test_an_angle_that_is_off_fails_by_as_many_degrees(ground, monkeypatch):
     found = ground.claims[equation.claim](equation).printed
     # The print is rounded to its last digit, and the program's solver stops before the root.
     assert abs(found - 0.25) < 2 * half[7, 3] + 2 * angles.SOLVER
+
+
+def test_the_sign_of_a_printed_zero_counts_as_its_last_digit(ground):
+    equation = catalogue()["scout:B.6:I_31^51"]
+    (text,) = equation.printed
+    assert text.count("-0.00") == 2
+    changed = equation.model_copy(update={"printed": (text.replace("-0.00", "0.00"),)})
+    found = ground.claims["twin_inertia"](changed).printed
+    assert found == pytest.approx(0.01 / 57.65, rel=1e-9)  # of the twin's largest entry

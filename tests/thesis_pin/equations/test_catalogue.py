@@ -5,7 +5,7 @@ import weakref
 
 import pytest
 
-from thesis_pin.equations.catalogue import Catalogue, Equation, EquationFile
+from thesis_pin.equations.catalogue import Catalogue, Equation, EquationFile, index_values
 from thesis_pin.equations.formula import FormulaError
 from thesis_pin.equations.notation import Notation
 from thesis_pin.errors import SpecificationError
@@ -129,3 +129,17 @@ def test_an_index_may_stand_in_a_superscript_alone():
     sides = legs.parse(r"\mathbf{r}^i"), legs.parse(r"\mathbf{k}")
     assert list(legs.indices(*sides)) == [{"i": "1"}, {"i": "2"}]
     assert list(legs.indices(sides[1])) == [{}]
+
+
+@pytest.mark.parametrize(
+    ("formula", "values"),
+    [
+        ("a_i", [{"i": "1"}, {"i": "2"}]),
+        ("a_k", [{"k": "1"}, {"k": "2"}, {"k": "3"}]),
+        ("a_n b_m", [{"n": str(n), "m": str(2 * n - 1)} for n in range(1, 7)]),
+        ("a_{ik}", [{"i": i, "k": k} for i in "12" for k in "123"]),
+        ("a_7", [{}]),
+    ],
+)
+def test_a_formula_of_a_thesis_is_one_for_each_leg_link_and_interval(formula, values):
+    assert list(index_values(NOTATION.parse(formula))) == values

@@ -45,6 +45,14 @@ def test_blocks_stack_vectors_scalars_and_matrices():
     )
 
 
+def test_a_row_that_ends_in_zero_is_filled_where_it_is_the_only_one():
+    three = ev.vector(np.array([1.0, 2.0, 3.0]))
+    alone = ev.blocks([[three, ev.ZERO]], 6)
+    np.testing.assert_array_equal(alone.array, np.column_stack([[1.0, 2.0, 3.0], *[[0.0] * 3] * 5]))
+    two = ev.blocks([[three, ev.ZERO], [three, three]], 6)
+    np.testing.assert_array_equal(two.array, [[1, 0], [2, 0], [3, 0], [1, 1], [2, 2], [3, 3]])
+
+
 @pytest.mark.parametrize("axis", "xyz")
 def test_a_complex_step_differentiates_rotations_exactly(axis):
     angle = np.linspace(-3, 3, 7)

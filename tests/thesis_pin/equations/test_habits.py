@@ -89,6 +89,11 @@ def number(formula):
         (r"\det\begin{bmatrix} a & b \\ c & m \end{bmatrix}", 2 * 7 - 15.0),
         (r"\operatorname{tr}\left(\begin{bmatrix} a & b \\ c & m \end{bmatrix}\right)", 9.0),
         (r"\det(\operatorname{diag}(a, b, c))", 30.0),
+        (r"\left|a - b\right| c", 5.0),
+        (r"m \lvert b - a \rvert", 7.0),
+        (r"\left|\begin{bmatrix} a & b \\ c & m \end{bmatrix}\right|", -1.0),
+        (r"\sin(90^\circ - \theta)", np.cos(0.3)),
+        (r"m \sin 30^{\circ}", 3.5),
     ],
 )
 def test_a_formula_is_worth_what_its_author_means(formula, expected):
@@ -176,6 +181,8 @@ def test_layout_is_blanked_in_place():
     assert r"\begin{pmatrix} b & c \\ d & e \end{pmatrix}" in blank
     assert blank.count("&") == formula.count("&") - 2
     assert plain("a &= b") == "a  = b"
+    matrices = r"\begin{pmatrix} a & b \end{pmatrix} + \begin{bmatrix} c & d \end{bmatrix} &= e"
+    assert plain(matrices) == matrices.replace("&=", " =")
     assert plain(r"a \\ = b") == "a    = b"
 
 
@@ -192,3 +199,26 @@ def test_the_square_of_a_vector_is_that_of_its_length():
     assert value.array == pytest.approx([25.0, 1.0])
     with pytest.raises(FormulaError):
         power(vector(np.array([3.0, 4.0])), 3)
+
+
+@pytest.mark.parametrize(
+    ("formula", "expected"),
+    [
+        (r"m(\theta_1)", Product((Symbol("m"), Symbol("theta", "1")))),
+        (r"M(\theta_1)", Symbol("M")),
+        ("m(t)", Symbol("m")),
+        ("m(a)", Product((Symbol("m"), Symbol("a")))),
+    ],
+)
+def test_a_factor_multiplies_its_bracket_where_another_symbol_depends_on_it(formula, expected):
+    assert NOTATION.parse(formula) == (expected,)
+
+
+@pytest.mark.parametrize(
+    ("formula", "name"),
+    [("x'", "x'"), (r"x^{\prime}", "x'"), ("J'_9", "J'_9"), ("x''", "x''"), ("x_1'", "x'_1")],
+)
+def test_primes_are_part_of_a_name(formula, name):
+    assert NOTATION.symbol(formula).name == name
+    with pytest.raises(FormulaError, match="prime"):
+        NOTATION.parse("(a + b)'")

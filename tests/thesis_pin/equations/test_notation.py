@@ -1,5 +1,8 @@
 """The notation of both theses is read as their authors mean it."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -185,6 +188,24 @@ def test_a_formula_that_is_broken_is_refused_with_its_place(formula):
 def test_symbols_finds_every_symbol():
     found = {s.name for s in symbols(only(r"\frac{x_1}{y} \mathbf{R}_x(\theta_B + \beta)"))}
     assert found == {"x_1", "y", "theta_B", "beta"}
+
+
+def test_a_formula_that_was_asked_is_what_it_was_and_travels():
+    """What it keeps of its answers is no part of it: it equals, copies and pickles as before."""
+    asked, fresh = (
+        only(r"\theta_{1i} x_2 + \cos \theta_{1i}"),
+        only(r"\theta_{1i} x_2 + \cos \theta_{1i}"),
+    )
+    for symbol in symbols(asked):
+        assert symbols(symbol) == {symbol}
+        assert symbol.bound({"i": "1"}).name == symbol.name.replace("i", "1")
+        assert symbol.bound({"i": "2"}).name == symbol.name.replace("i", "2")
+        assert symbol.bound({"k": "2"}) == symbol
+    assert asked == fresh
+    assert hash(asked) == hash(fresh)
+    for same in (pickle.loads(pickle.dumps(asked)), copy.deepcopy(asked)):
+        assert same == fresh
+        assert symbols(same) == symbols(fresh)
 
 
 @pytest.mark.parametrize("first", ["+", "-", r"\times"])

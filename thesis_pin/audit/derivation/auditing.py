@@ -18,7 +18,7 @@ from thesis_pin.audit.derivation.references import References
 from thesis_pin.audit.judging.residuals import residual
 from thesis_pin.audit.rows import HOLDS, AuditReport, Row
 from thesis_pin.audit.thesis import Ground, Progress, Thesis
-from thesis_pin.equations.catalogue import Catalogue
+from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.loops.closures import ClosedRobot
 from thesis_pin.loops.loading import load
 
@@ -31,6 +31,13 @@ MOST_GUESSED = 10
 themselves, all of them. It takes up to some seconds for each."""
 _POINTS = "it would hold for point masses: the robot's bodies have inertia about their centres"
 _INERTIAS = "it would hold without the bodies' inertias: look at their terms"
+_MILLIMETRES = "it would hold if the robot's lengths were in mm: a URDF is in m, kg·m² and rad"
+NEARLY = 1e-4
+"""Residual of a line that no single slip explains, below which its numbers are likelier rounded
+than its formula wrong [-]: π/2 as 1.5708 makes 4e-6, a length of five digits 1e-5."""
+_NEARLY = (
+    "it holds to {gap:.0e}: a number may be rounded, in the file or in the robot (1.5708 for π/2)"
+)
 _COLUMNS = "vectors, and derivatives of a number by all coordinates, are columns here"
 _GUESS = ("with one change it would hold: {what}", "with any of these it would hold: {what}")
 
@@ -44,12 +51,15 @@ class DerivationThesis(Thesis):
         references: What the symbols must equal, for this robot and for changed ones.
         unforced: The same where nothing pushes some coordinates, with their symbols.
         points: The same for a robot of point masses.
+        millimetres: The same for a robot whose file was written in millimetres, and for one of half
+            the size.
     """
 
     changes: tuple[str, ...] = ()
     references: tuple[References, ...] = ()
     unforced: Callable[[], tuple[tuple[str, References], ...]] = tuple
     points: References | None = None
+    millimetres: Callable[[], tuple[References | None, ...]] = tuple
 
     def audit(
         self,
@@ -103,6 +113,19 @@ class DerivationThesis(Thesis):
                 return _UNFORCED.format(what=symbols)
         return ""
 
+    def _in_millimetres(self, row: Row, one: Equation, equations: Catalogue) -> bool:
+        """Whether a line holds if the robot was said in millimetres, and isn't just too small then.
+
+        In a robot of half that size what a slip makes is even smaller, but lengths that the file
+        gives differ from it.
+        """
+        sizes = () if row.reason else self.millimetres()
+        holds = [
+            size is not None and residual(equations, one, one.printed, size, row.left).value < HOLDS
+            for size in sizes
+        ]
+        return holds == [True, False]
+
     def _guess(self, row: Row, equations: Catalogue) -> str:
         """What would make a line hold that fails and that nothing is given in the place of."""
         one = equations[row.id]
@@ -113,6 +136,8 @@ class DerivationThesis(Thesis):
         here = self.references[0]
         points = None if row.reason else self.points
         pointed = points is not None and of_points(one, equations, points, here)
+        if self._in_millimetres(row, one, equations):
+            return _MILLIMETRES
         if pointed and not names_inertia(one, equations, here.glossary):
             return _POINTS
         if passive := self._passive(row, equations):
@@ -121,7 +146,10 @@ class DerivationThesis(Thesis):
             return partly
         if changes := mends(one, equations, self.references):
             return _GUESS[len(changes) > 1].format(what=" | ".join(changes))
-        return _INERTIAS if pointed else ""
+        if pointed:
+            return _INERTIAS
+        gap = math.inf if row.residual_printed is None else row.residual_printed
+        return _NEARLY.format(gap=gap) if gap < NEARLY else ""
 
 
 def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesis:
@@ -157,6 +185,7 @@ def thesis(file: str | Path, model: str | Path | ClosedRobot) -> DerivationThesi
         command=f"thesis-pin audit {file} --model {named}",
         changes=made.changes,
         points=made.points,
+        millimetres=lambda: made.millimetres,
         references=tuple(filter(None, (made.references, made.second))),
         unforced=lambda: made.unforced,
     )

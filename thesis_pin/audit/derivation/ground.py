@@ -27,6 +27,7 @@ from thesis_pin.equations.formula import FormulaError, Symbol, functions
 from thesis_pin.errors import BadInput, ModelError
 from thesis_pin.loops.closures import ClosedRobot
 
+_MILLI = 1e-3
 SMALL = 1e-8
 """Entries of the mass matrix [kg·m²], [kg] from which a slip of half a percent is seen: what counts
 as zero is zero against 1e-3 (:mod:`thesis_pin.audit.judging.residuals`)."""
@@ -191,11 +192,18 @@ class Derivation:
     @cached_property
     def points(self) -> References | None:
         """The references of a robot of point masses; None if a given force would move no mass."""
+        return self._of(self.states.of_points)
+
+    @cached_property
+    def millimetres(self) -> tuple[References | None, ...]:
+        """The references of a robot that was said in mm, and of one of half the size."""
+        return tuple(self._of(self.states.shrunk(scale)) for scale in (_MILLI, _MILLI / 2))
+
+    def _of(self, states: States) -> References | None:
         try:
-            states = self._driven(self.states.of_points)
+            return References(self._driven(states), self.glossary, self.plain)
         except ModelError:
             return None
-        return References(states, self.glossary, self.plain)
 
     def _formulas(self) -> list[object]:
         """All that can be read of the file's formulas."""

@@ -320,6 +320,8 @@ def _written(name: str) -> str:
     if not colon:
         return name
     letter, *scripts = re.split(r"(?=[_^'])", rest, maxsplit=1)
+    if len(letter) > 1:  # a Greek letter, or an i without its dot
+        letter = f"\\{letter}"
     return rf"\{_FONTS.get(font, font)}{{{letter}}}{''.join(scripts)}"
 
 

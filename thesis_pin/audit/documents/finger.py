@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 
 from thesis_pin.audit.comparison.differences import pieces
@@ -59,6 +60,48 @@ def slip_text(
     return f"{where}: {said}" if where else said
 
 
+def spans(row: Row, member: int) -> list[tuple[int, int]]:
+    """From where to where the slips of a member stand in its print, one behind the other.
+
+    Args:
+        row: The line.
+        member: Number of the member; 0 is the left side.
+
+    Returns:
+        Places in its text, each cell of a matrix by itself; the same twice where something is
+        missing. Slips of another text, of what a statement was read as, are left out.
+    """
+    text = (row.left, *row.printed)[member]
+    listed, last = pieces(text), 0
+    found: list[tuple[int, int]] = []
+    for slip in row.slips:
+        if slip.member != member or slip.start > len(listed) + 1:
+            continue
+        start = listed[slip.start - 1].start if slip.start <= len(listed) else len(text.rstrip())
+        words = re.compile(r"\s*".join(map(re.escape, slip.printed.split())))
+        match = words.match(text, start)
+        if sized := _SIZED.search(text, 0, start):
+            start = sized.start()
+        if match and start >= last:
+            found += _cells(text, start, match.end()) if match[0] else [(start, start)]
+            last = match.end()
+    return found
+
+
+_SIZED = re.compile(r"\\(?:left|right|[bB]igg?[lr]?)\s*\Z")
+"""What says how tall the bracket behind it is."""
+
+
+def _cells(text: str, start: int, end: int) -> Iterator[tuple[int, int]]:
+    """What stands in each cell of a part of a formula."""
+    for cell in re.split(r"(\\\\|&)", text[start:end]):
+        inside = cell.strip()
+        if inside and inside not in ("&", r"\\"):
+            begin = start + cell.index(inside)
+            yield begin, begin + len(inside)
+        start += len(cell)
+
+
 def _where(row: Row, slip: Slip, say: Phrases) -> Iterator[str]:
     """Side or member, term, and cell of a slip, as far as there are several."""
     if slip.member == 0:
@@ -79,11 +122,31 @@ def _cell(row: Row, slip: Slip) -> tuple[int, int] | None:
     if slip.kind not in ("column", "statement") or slip.member > len(row.printed):
         return None
     text = row.printed[slip.member - 1] if slip.member else row.left
-    keys = [piece.key for piece in pieces(text)]
+    listed = pieces(text)
+    keys = [piece.key for piece in listed]
     if slip.kind == "statement" and ("&" not in keys or "&" in slip.printed + slip.corrected):
         return None
-    before = keys[: slip.start - 1]
+    place = listed[slip.start - 1].start if slip.start <= len(listed) else len(text)
+    start, end = _matrix(text, place)
+    inside = [k for k, piece in enumerate(listed) if start <= piece.start < end]
+    before = [keys[k] for k in inside if k < slip.start - 1]
     lines = before.count("\\\\")
     this = before[len(before) - before[::-1].index("\\\\") :] if lines else before
     column = this.count("&") + 1 + (slip.printed or slip.corrected).startswith("&")
-    return (lines + 1 if "\\\\" in keys else 0), column
+    return (lines + 1 if "\\\\" in (keys[k] for k in inside) else 0), column
+
+
+_ENVIRONMENT = re.compile(r"\\(begin|end)(?![a-zA-Z])")
+
+
+def _matrix(text: str, place: int) -> tuple[int, int]:
+    """From where to where the innermost matrix around a place goes; all of the text if none."""
+    opened = [0]
+    for one in _ENVIRONMENT.finditer(text):
+        if one[1] == "begin":
+            opened.append(one.start())
+        elif len(opened) > 1:
+            start = opened.pop()
+            if start <= place < one.start():
+                return start, one.start()
+    return 0, len(text)

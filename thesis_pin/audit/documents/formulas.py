@@ -21,27 +21,100 @@ _BRACKETS = frozenset("()[]|‖")
 _WORDS = frozenset({"sin", "cos", "tan", "sec", "csc", "cot", "arctan", "log", "exp"})
 _LEAVES = frozenset({"mi", "mn", "mo", "mtext"})
 _SCRIPTED = frozenset({"msub", "msup", "msubsup"})
+_PRIMES = frozenset("′″‴")
 _BREAKS = frozenset("=+−×")
 _LINE = 40
 """Characters after which a formula may go on in a new line."""
 
 
-def mathml(formula: str) -> str:
+GAP = "\u2038"
+"""Marks a place where something is missing."""
+_SLIP = "slip"
+_ROWS = ("mrow", "mstyle")
+_MARKED = {"": "e", "b": "be"}
+"""Classes of a leaf → the same with a mark."""
+
+
+def mathml(formula: str, slips: Sequence[tuple[int, int]] = ()) -> str:
     """A formula as MathML; one that is broken in print is shown as its source.
+
+    Args:
+        formula: LaTeX.
+        slips: From where to where something is to be marked, in order; a gap where both are the
+            same. What can't be marked without another reading of the formula isn't.
 
     Returns:
         One ``<math>`` or, of a formula that may break into lines, several.
     """
+    tree = _tree(formula)
+    if tree is None:
+        return f"<code>{html.escape(formula)}</code>"
+    return "".join(f"<math>{line}</math>" for line in _lines(_flat(_marked(tree, formula, slips))))
+
+
+def _tree(formula: str) -> Element | None:
+    """What the converter makes of a formula, or of it without what it may stumble over."""
     from latex2mathml.converter import convert
 
     loose = re.sub(r"\\(left|right)\s*\.|\\[bB]igg?[lr]?|\\(left|right)(?![a-z])", "", formula)
     for text in (formula, loose, plain(loose)):
         try:
-            tree = ElementTree.fromstring(convert(text).replace("xmlns=", "of="))
+            return ElementTree.fromstring(convert(text).replace("xmlns=", "of="))
         except Exception:  # the converter has no common base class of its errors
             continue
-        return "".join(f"<math>{line}</math>" for line in _lines(_flat(tree)))
-    return f"<code>{html.escape(formula)}</code>"
+    return None
+
+
+def _marked(tree: Element, formula: str, slips: Sequence[tuple[int, int]]) -> Element:
+    """A formula's tree with marks: with all of them or, if they change it, with each that doesn't.
+
+    Such are a command without what it stands before, or half of a pair of braces.
+    """
+    said = _said(tree)
+    for chosen in (slips, [one for one in slips if _said(_with(formula, [one])) == said]):
+        found = _with(formula, chosen) if chosen else None
+        if found is not None and _said(found) == said:
+            for row in found.iter("mrow"):
+                if row.get("class") == _SLIP:
+                    for leaf in row.iter():
+                        leaf.set(_SLIP, "")
+            return found
+    return tree
+
+
+def _with(formula: str, slips: Sequence[tuple[int, int]]) -> Element | None:
+    """A formula's tree with what is to be marked in rows of their own."""
+    for start, end in reversed(slips):
+        inside = formula[start:end] or GAP
+        formula = f"{formula[:start]}{{\\class{{{_SLIP}}}{{{inside}}}}}{formula[end:]}"
+    return _tree(formula)
+
+
+_Said = tuple[str, str, tuple["_Said", ...]]
+"""A node, its text, and what is in it."""
+
+
+def _said(tree: Element | None) -> list[_Said]:
+    """What a formula is, without rows that only hold together what is marked."""
+    found: list[_Said] = []
+    for node in () if tree is None else tree:
+        if node.tag in _ROWS and not any(one.get("fence") == "true" for one in node):
+            found += _said(node)
+        elif node.text != GAP:
+            found.append((node.tag, node.text or "", tuple(_inside(node))))
+    return found
+
+
+def _inside(node: Element) -> Iterator[_Said]:
+    """What is in a node; of one with places for base, script, numerator …, each as one."""
+    if node.tag in ("mtd", "msqrt", *_ROWS):
+        yield from _said(node)
+        return
+    for child in node:
+        row = _node("mrow")
+        row.append(child)
+        said = _said(row)
+        yield said[0] if len(said) == 1 else ("mrow", "", tuple(said))
 
 
 def _flat(node: Element) -> list[Element]:
@@ -49,7 +122,7 @@ def _flat(node: Element) -> list[Element]:
     found: list[Element] = []
     for child in node:
         fenced = any(one.get("fence") == "true" for one in child)
-        if child.tag in ("mrow", "mstyle") and not fenced:
+        if child.tag in _ROWS and not fenced:
             found += _flat(child)
         else:
             found += _parts(_short(child))
@@ -88,12 +161,13 @@ def _short(node: Element) -> Element:
         new[0].text = f"{new[0].text}{(new[1].text or '').translate(_LOWERED)}"
         return new[0]
     lonely = node.tag == "msup" and not len(new[0]) and not new[0].text
-    return new[1] if lonely else new
+    # A prime is raised by itself; a T after another superscript has to stay one.
+    return new[1] if lonely and new[1].text in _PRIMES else new
 
 
 def _one(node: Element) -> Element:
     """A node that has to be one: a base, a script, a numerator."""
-    if node.tag not in ("mrow", "mstyle"):
+    if node.tag not in _ROWS:
         return _short(node)
     row = _node("mrow")
     row.extend(_flat(node))
@@ -114,15 +188,22 @@ def _leaf(node: Element) -> Element:
     bold = "bold" in variant or any(" BOLD " in name for name in names)
     if bold:
         text = unicodedata.normalize("NFKC", text)
-    if node.tag == "mi" and text in ("′", "″", "‴"):
-        return _node("mn", text)
+    if node.tag == "mi" and text in _PRIMES:
+        return _node("mn", text, **_style("", node))
     if node.tag == "mo" and text in _BRACKETS and node.get("fence") != "true":
-        return _node("mn", text)  # as an operator it would grow with all of its row
+        # As an operator it would grow with all of its row.
+        return _node("mn", text, **_style("", node))
     if node.tag in ("mi", "mo") and text in _WORDS:
-        return _node("mtext", text + "\u2009")
+        return _node("mtext", text + "\u2009", **_style("", node))
     if node.tag == "mi" and text.startswith("."):
-        return _node("mn", text)
-    return _node(node.tag, text, **({"class": "b"} if bold else {}))
+        return _node("mn", text, **_style("", node))
+    return _node(node.tag, text, **_style("b" if bold else "", node))
+
+
+def _style(classes: str, node: Element) -> dict[str, str]:
+    """A leaf's class: its own, and whether it is marked."""
+    classes = _MARKED[classes] if _SLIP in node.attrib else classes
+    return {"class": classes} if classes else {}
 
 
 def _dotted(node: Element) -> Element | None:
@@ -140,7 +221,7 @@ def _dotted(node: Element) -> Element | None:
         letter.text = one
         return base
     over = _node("mover")
-    over.extend((letter, _node("mn", node[1].text or "")))
+    over.extend((letter, _node("mn", node[1].text or "", **_style("", node[1]))))
     if letter is base:
         return over
     base[0] = over

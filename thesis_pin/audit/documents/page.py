@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from thesis_pin.audit.comparison.kinds import KINDS
-from thesis_pin.audit.documents.finger import slip_text
-from thesis_pin.audit.documents.formulas import mathml
+from thesis_pin.audit.documents.finger import slip_text, spans
+from thesis_pin.audit.documents.formulas import GAP, mathml
 from thesis_pin.audit.documents.text import (
     VERDICT_NOTE,
     chapter_table,
@@ -56,6 +56,7 @@ def page(report: AuditReport, uses: Uses | None = None) -> str:
         "audit.html",
         report=report,
         summary=list(summary_lines(report)),
+        gap=GAP,
         reading=" ".join((*VERDICT_NOTE, *report.effects)).replace("*", ""),
         tables=[replace(one, title=one.title.capitalize()) for one in shown if one.rows],
         causes=[(cause, len(rows)) for cause, rows in used_causes(report)],
@@ -139,8 +140,9 @@ def _index(failures: Sequence[Row]) -> Iterator[tuple[str, list[tuple[str, str]]
 
 def _printed(row: Row) -> Iterator[str]:
     """The printed equation, member by member."""
-    for k, text in enumerate(text for text in (row.left, *row.printed) if text):
-        yield ("<math><mo>=</mo></math> " if k else "") + mathml(text)
+    members = ((k, text) for k, text in enumerate((row.left, *row.printed)) if text)
+    for count, (number, text) in enumerate(members):
+        yield ("<math><mo>=</mo></math> " if count else "") + mathml(text, spans(row, number))
 
 
 def _correction(text: str) -> str:

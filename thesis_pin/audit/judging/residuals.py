@@ -34,6 +34,12 @@ def what(error: Exception) -> str:
     return error.what if isinstance(error, BadInput) else f"can't be evaluated: {error}"
 
 
+Known = dict[tuple[int, str, str], tuple[float, str]]
+"""What members of a line came to while its environments live: id of the environment, left side,
+member → residual, why it can't be evaluated. A line as printed, as corrected and with one slip
+alone has most members in common."""
+
+
 @dataclass(frozen=True)
 class Residual:
     """How far a formula is from what it must equal.
@@ -79,20 +85,48 @@ def residual(
     environment: Environment,
     left: str,
     only: tuple[int, ...] = (),
+    known: Known | None = None,
 ) -> Residual:
-    """How far members, or some of them, are from the left side by an environment's symbols."""
+    """How far members, or some of them, are from the left side by an environment's symbols.
+
+    Args:
+        catalogue: The equations.
+        equation: The line.
+        members: Its members.
+        environment: What their symbols are.
+        left: Its left side.
+        only: Numbers of the members to compare; () for all.
+        known: Where to note what each member came to, and to look it up.
+    """
     values, reasons = [], []
+    known = {} if known is None else known
     for number, member in enumerate(members, start=1):
         if number in equation.imposes or (only and number not in only):
             continue
         try:
             if only:
                 _refuse_repetition(catalogue, (left, *members[: number - 1]), member)
-            values.append(max(_member(catalogue, left, member, environment)))
         except TROUBLES as error:
-            values.append(_without_frames(catalogue, left, member, environment, error))
-            reasons.append(f"member {number} {what(error)}" if len(members) > 1 else what(error))
+            value, reason = math.inf, what(error)
+        else:
+            key = id(environment), left, member
+            if key not in known:
+                known[key] = _compared(catalogue, left, member, environment)
+            value, reason = known[key]
+        values.append(value)
+        if reason:
+            reasons.append(f"member {number} {reason}" if len(members) > 1 else reason)
     return Residual(max(values, default=math.inf), tuple(values), "; ".join(reasons))
+
+
+def _compared(
+    catalogue: Catalogue, left: str, member: str, environment: Environment
+) -> tuple[float, str]:
+    """Residual of a member, and why it can't be evaluated."""
+    try:
+        return max(_member(catalogue, left, member, environment)), ""
+    except TROUBLES as error:
+        return _without_frames(catalogue, left, member, environment, error), what(error)
 
 
 def _refuse_repetition(catalogue: Catalogue, before: Sequence[str], member: str) -> None:
@@ -170,15 +204,28 @@ def residual_as_said(
     environment: Environment,
     left: str,
     free: Sequence[Free] = (),
+    known: Known | None = None,
 ) -> Residual:
-    """How far members are from the left side where they have to hold, or else where all is free."""
+    """How far members are from the left side where they have to hold, or else where all is free.
+
+    Args:
+        catalogue: The equations.
+        equation: The line.
+        members: Its members.
+        environment: What their symbols are.
+        left: Its left side.
+        free: What they are where nothing vanishes.
+        known: Where to note what each member came to, and to look it up.
+    """
     if len(members) == 1 and _says_itself(catalogue, left, members[0]):
         return Residual(math.inf, (math.inf,), _ITSELF)
-    found = residual(catalogue, equation, members, environment, left)
+    found = residual(catalogue, equation, members, environment, left, known=known)
     for ground in free:
         if found.value >= HOLDS:
             break
-        other = residual(catalogue, equation, members, ground.environment, left, ground.members)
+        other = residual(
+            catalogue, equation, members, ground.environment, left, ground.members, known
+        )
         if other.members:
             found = (
                 other if other.value < HOLDS else replace(other, reason=other.reason or _VANISHES)

@@ -16,7 +16,14 @@ from typing import Any
 from thesis_pin.audit.comparison import kinds, places
 from thesis_pin.audit.judging import single
 from thesis_pin.audit.judging.reading import Reading
-from thesis_pin.audit.judging.residuals import TROUBLES, Free, Residual, residual_as_said, what
+from thesis_pin.audit.judging.residuals import (
+    TROUBLES,
+    Free,
+    Known,
+    Residual,
+    residual_as_said,
+    what,
+)
 from thesis_pin.audit.judging.residuals import difference as difference
 from thesis_pin.audit.judging.residuals import largest_relative as largest_relative
 from thesis_pin.audit.judging.residuals import residual as residual
@@ -155,8 +162,10 @@ def _compared(
 ) -> Row:
     """The answer on a line whose sides are evaluated and compared."""
 
+    known: Known = {}
+
     def found(one: Equation, members: Sequence[str], left: str) -> Residual:
-        return residual_as_said(catalogue, one, members, environment, left, free)
+        return residual_as_said(catalogue, one, members, environment, left, free, known)
 
     printed, mended = found(equation, equation.printed, row.left), None
     if equation.mending or equation.left_printed:

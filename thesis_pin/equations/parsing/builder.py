@@ -110,6 +110,9 @@ class _Builder(Transformer[Token, tuple[Node, ...]]):
     def norm(self, parts: list[Any]) -> Node:
         return Norm(opened(parts[1]))
 
+    def bars(self, parts: list[Any]) -> Node:
+        return Norm(opened(parts[1]), single=True)
+
     def root(self, parts: list[Node]) -> Node:
         return Call("sqrt", opened(parts[0]))
 

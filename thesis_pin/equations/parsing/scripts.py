@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import replace
 
-from thesis_pin.equations.formula import Node, Power, Symbol, Transpose
+from thesis_pin.equations.formula import Node, Number, Power, Symbol, Transpose
 from thesis_pin.equations.parsing.conventions import Conventions
 from thesis_pin.equations.parsing.marks import Group, Mark, opened
 
@@ -33,6 +34,8 @@ def with_script(node: Node, script: str, notation: Conventions) -> Node:
             kept = _not_indices(script, notation) or node.kept
             return replace(node, sub=node.sub + text, kept=kept)
         raise ValueError("a subscript on something that isn't a symbol")
+    if text == "circ" and isinstance(node, Number) and notation.factors is not None:
+        return Number(math.radians(node.value))
     text = "T" if text in _TRANSPOSED else text
     transposed = text.endswith("T")
     label = text.removesuffix("T") if transposed else text

@@ -237,6 +237,42 @@ def test_point_masses_of_a_book_and_bodies_of_a_robot_are_told_apart(tmp_path):
         assert "would hold for point masses" in found[name].note
 
 
+def test_a_robot_written_in_millimetres_is_told_from_slips(tmp_path):
+    """400 for 0.4 m, 14000 for 0.014 kg·m²: the book's lines would hold but for that."""
+    urdf = (FOLDER / "cart_pole.urdf").read_text(encoding="utf-8")
+    for old, new in (("-0.4", "-400"), ("0.014", "14000")):
+        assert old in urdf
+        urdf = urdf.replace(old, new)
+    (tmp_path / "mm.urdf").write_text(urdf, encoding="utf-8")
+    report = audit_derivation(FOLDER / "cart_pole.toml", tmp_path / "mm.urdf")
+    assert {row.verdict for row in report.rows} == {"unexplained"}
+    assert all("robot's lengths were in mm" in row.note for row in report.rows)
+
+
+def test_a_slip_that_is_too_small_in_a_small_robot_is_no_matter_of_millimetres(tmp_path):
+    """All lengths come from the robot. A thousandth of it hides J behind the cart's mass."""
+    changes = (
+        ("'\\ell' = \"40 cm\"", "'a' = \"position of centre of pole in pole along z\""),
+        ("'J' = \"0.014 kg m^2\"", "'J' = \"inertia yy of pole\""),
+        ("[symbols]", "[symbols]\n'\\ell' = '= -a'"),
+    )
+    found, _ = changed(tmp_path, "cart_pole", *changes)
+    assert found["T"].verdict == "holds"
+    slip = (r"1/2 (J + m \ell^2) \dot", r"1/2 (2 J + m \ell^2) \dot")
+    found, _ = changed(tmp_path, "cart_pole", *changes, slip)
+    assert "2 should not be there" in found["T"].note
+
+
+@pytest.mark.parametrize(
+    ("length", "note"), [("40.001", "it holds to 2e-05: a number"), ("41", "")]
+)
+def test_a_rounded_number_is_told_from_slips(length, note, tmp_path):
+    """0.001 cm of 40 are 2.5e-5 of it: 2e-05."""
+    found, _ = changed(tmp_path, "cart_pole", ("'\\ell' = \"40 cm\"", f"'\\ell' = \"{length} cm\""))
+    assert found["U"].verdict == "unexplained"
+    assert found["U"].note[: len(note) or None] == note
+
+
 def test_a_line_without_a_value_is_its_own_error(tmp_path):
     new = r"'m_2 l_{c2} g c_{12} + 1/(\theta_1 - \theta_1)'"
     found, _ = changed(tmp_path, "two_link_arm", (r"'m_2 l_{c2} g c_{12}'", new))

@@ -84,6 +84,7 @@ def test_a_whole_line_with_a_side_missing_is_refused(printed, told, audited):
     ("printed", "told"),
     [
         (r"F = \hat{k}_1", r"the symbol \hat{k}_1 isn't defined anywhere"),
+        (r"F = \hat{\imath}", r"the symbol \hat{\imath} isn't defined anywhere"),
         (r"F = \mathcal{L}", r"the symbol \mathcal{L} isn't defined anywhere"),
         (r"F = m_i", "(if i counts, say so in the header: indices = { i = [1, 2] })"),
         (r"F = Q_k", "(if k counts, say so in the header: indices = { k = [1, 2] })"),
@@ -97,3 +98,12 @@ def test_a_symbol_without_meaning_says_what_may_be_missing(printed, told, audite
     numbered = ("'m' = \"250 g\"", "'m_1' = 1\n'm_2' = 2")
     vectors = ("'\\mathcal{D}' = \"mass matrix\"", "'Q' = 'torque'\n'q' = 'coordinates'")
     assert told in audited(f"printed = '{printed}'\n", numbered, vectors).reason
+
+
+def test_bars_are_a_size_a_length_or_a_determinant(audited):
+    line = r"\left|x\right|^2 \left|\dot{\mathbf{q}}\right|^2 \left|\mathcal{D}\right|"
+    same = r"x^2 (\dot x^2 + \dot\theta^2) \det\mathcal{D}"
+    vector = ("'\\tau_\\theta'", "'\\mathbf{q}' = 'coordinates'\n'\\tau_\\theta'")
+    assert audited(f"printed = '{line} = {same}'\n", vector).verdict == "holds"
+    rate = r"\frac{d}{dt}(\left|x\right|) = \frac{x \dot x}{\lvert x\rvert}"
+    assert audited(f"printed = '{rate}'\n").verdict == "holds"

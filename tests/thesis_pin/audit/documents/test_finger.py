@@ -2,7 +2,7 @@
 
 import pytest
 
-from thesis_pin.audit.documents.finger import slip_text
+from thesis_pin.audit.documents.finger import slip_text, spans
 from thesis_pin.audit.languages.phrases import Phrases
 from thesis_pin.audit.rows import Row
 from thesis_pin.audit.slips import Slip
@@ -40,12 +40,39 @@ def test_a_place_reads_as_words(row, slip, said):
         (MATRIX, 1, "1", "row 1, column 1"),
         (MATRIX, 9, "5", "row 2, column 2"),
         (MATRIX, 17, "9", "row 3, column 3"),
+        (rf"{MATRIX} + {MATRIX}", 27, "5", "row 2, column 2"),  # of the second matrix, not row 4
     ],
 )
 def test_a_cell_of_a_matrix_is_named(text, start, printed, where):
     row = Row("a:1:x", "T, 1", (), "x", (text,), {}, "misprint")
     said = slip_text(row, Slip(1, start, printed, "0", ("(", ")"), kind="column"))
     assert said == f"{where}: between `(` and `)`, `{printed}` should be `0`"
+
+
+@pytest.mark.parametrize(
+    ("text", "slips", "marked"),
+    [
+        ("a + b", [Slip(1, 2, "+", "-")], ["+"]),
+        (r"a +  \dot x_2 b", [Slip(1, 3, r"\dot x_2", "x")], [r"\dot x_2"]),
+        ("a + b", [Slip(1, 1, "a", "c"), Slip(1, 3, "b", "")], ["a", "b"]),
+        ("a +   b c", [Slip(1, 2, "+ b", "-")], ["+   b"]),
+        (MATRIX, [Slip(1, 9, r"5 & 6 \\ 7", "0")], ["5", "6", "7"]),
+        (r"a \left( b \right)", [Slip(1, 2, "( b", "b")], [r"\left( b"]),
+        ("a + b", [Slip(2, 1, "a", "b"), Slip(0, 1, "a", "b")], []),  # of other members
+        ("a + b", [Slip(1, 1, "x + b", "a + b")], []),  # of what it was read as, not of the print
+        ("a + b", [Slip(1, 9, "b", "c")], []),
+    ],
+)
+def test_slips_are_found_again_in_the_print(text, slips, marked):
+    row = Row("a:1:x", "", (), "x", (text,), {}, "misprint", slips=tuple(slips))
+    assert [text[slice(*span)] for span in spans(row, 1)] == marked
+
+
+def test_what_is_missing_has_a_place_between_its_neighbours_or_at_the_end():
+    row = Row("a:1:x", "", (), "x", ("a b ",), {}, "misprint", slips=(Slip(1, 2, "", "+"),))
+    assert spans(row, 1) == [(2, 2)]
+    row = Row("a:1:x", "", (), "x", ("a b ",), {}, "misprint", slips=(Slip(1, 3, "", "+ c"),))
+    assert spans(row, 1) == [(3, 3)]
 
 
 def test_a_statement_names_the_cell_that_differs_but_not_of_what_is_no_matrix():

@@ -31,6 +31,7 @@ def row(residual):
         ({"torque [N·m]": 0.3}, 0.2, "", "changes a result"),
         ({"force": "can't be computed, x"}, math.inf, "", "changes a result"),
         ({"torque [N·m]": 0.0}, 0.2, "comes out the same", "changes a result"),
+        ({"torque [N·m]": 0.0}, math.inf, "comes out the same", "notation only"),
         ({}, 0.2, "2:b, 2:d do", "changes a result"),
         ({}, math.inf, "can't be computed as printed", "notation only"),
     ],

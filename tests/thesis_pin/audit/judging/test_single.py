@@ -72,6 +72,8 @@ def test_a_slip_that_can_not_be_seen_alone_says_so_and_one_that_can_not_be_read_
     assert bracket.kind == "bracket"
     document = row_document(row(printed="(a b", corrected="(a b)"))
     assert document["slips"][0]["residual"] is None
+    (finite,) = row_document(row(left_printed="b"))["slips"]
+    assert finite["residual"] == pytest.approx(0.5)
     assert document["slips"][0]["neighbours"] == ["( a b".replace(" ", "", 1), ""]
 
 
@@ -82,6 +84,20 @@ def test_a_left_side_a_member_too_many_and_one_too_few_are_slips():
     (many,) = row(printed=("a b", "a a"), corrected={2: ""}).slips
     assert (many.member, many.printed, many.corrected, many.kind) == (2, "a a", "", "term")
     assert many.residual == pytest.approx(2 / 6)
+    assert (many.start, many.neighbours) == (1, ("", ""))
+    _, few = row(printed="a a", corrected={1: "a b", 2: "c"}).slips
+    assert (few.member, few.start, few.printed, few.corrected, few.kind) == (2, 1, "", "c", "term")
+
+
+def test_a_slip_of_a_checked_line_is_put_back_among_all_of_its_members():
+    def digits(equation):
+        one, ten, hundred = map(float, equation.printed)
+        return ClaimResult(abs(one + 10 * ten + 100 * hundred - 321) / 321, 0.0)
+
+    law = {"digits": digits}
+    (slip,) = row(law, claim="digits", printed=("1", "5", "3"), corrected={2: "2"}).slips
+    assert (slip.member, slip.printed, slip.corrected) == (2, "5", "2")
+    assert slip.residual == pytest.approx(30 / 321)
 
 
 def test_another_statement_is_one_slip_beside_those_of_its_text():
@@ -110,6 +126,8 @@ def test_a_term_is_counted_in_the_outermost_sum():
     ]
     assert term_of(formula, formula.index("g")) == "term 3 of 3"
     assert term_of("a b", 0) == ""
+    # A sign belongs to the term that it stands before.
+    assert [term_of("a + b - e", place) for place in (2, 6)] == ["term 2 of 3", "term 3 of 3"]
 
 
 @pytest.mark.parametrize(

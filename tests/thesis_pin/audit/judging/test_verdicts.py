@@ -161,6 +161,21 @@ def test_a_claim_that_does_not_read_its_text_can_not_say_holds():
     assert row(deaf, claim="law", printed="0").verdict == "unexplained"
 
 
+@pytest.mark.parametrize(
+    "look",
+    [
+        lambda equation: list(equation.printed),
+        lambda equation: list(equation.members("printed")),
+        lambda equation: (equation.printed[:1], equation.printed[1]),
+        lambda equation: (equation.printed[0], equation.printed[-1]),
+        lambda equation: equation.printed[:],
+    ],
+)
+def test_a_claim_reads_its_text_by_members_one_by_one_or_by_several(look):
+    claims = {"law": lambda equation: ClaimResult(0.0 * len(look(equation)))}
+    assert row(claims, claim="law", printed=("0", "1")).verdict == "holds"
+
+
 def test_a_lost_line_that_follows_from_the_rest_is_rebuilt_and_nothing_more():
     lost = {"printed": (), "illegible": "the page is torn", "surviving": "a", "line": 7}
     rebuilt = row(rebuilt="a b", **lost)
@@ -189,6 +204,15 @@ def test_a_report_counts_covers_and_names_its_gaps(report):
     assert [s.gaps for s in report.sections] == [(), (("robot:2:e", "torn"),)]
     text = " ".join(audit_report.summary_lines(report))
     assert "covered: 1 of 2; missing: 1.2" in text
+    coverage = audit_json.document(report)["coverage"]
+    assert (coverage["numbered"], coverage["numbers"], coverage["missing"]) == (1, 2, ["1.2"])
+
+
+def test_the_page_says_by_how_much_a_line_without_a_correction_fails():
+    rows = (row(printed="a a"), row(id="robot:1:d"))  # 4 where 6 belongs, and one that holds
+    page = audit_page.page(AuditReport("Thesis", rows, (), "", {}))
+    assert page.count("<dd>as printed 3.3e-01</dd>") == 1
+    assert page.count("<dd>as printed") == 1
 
 
 def test_failures_come_worst_effect_first():

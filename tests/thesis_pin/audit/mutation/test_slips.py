@@ -34,6 +34,7 @@ def texts(formula, kind):
         ("dot", r"\mathbf{r}_{2}", [r"\dot{\mathbf{r}}_{2}"]),
         ("frame", r"\mathbf{r}_{2}^{0}", [rf"\mathbf{{r}}_{{2}}^{{{k}}}" for k in (1, 2, 3)]),
         ("frame", r"x^2", []),
+        ("frame", r"\mathbf{r}_{2}^{B}", [r"\mathbf{r}_{2}^{0}"]),
     ],
 )
 def test_each_kind_changes_what_its_name_says(kind, formula, slips):

@@ -60,6 +60,13 @@ class Frames:
         return name
 
 
+def _shrunk(placements: np.ndarray, scale: float) -> np.ndarray:
+    """Placements with so much of their lengths, shape ``(..., 4, 4)``."""
+    found = placements.copy()
+    found[..., :3, 3] *= scale
+    return found
+
+
 @dataclass(frozen=True)
 class States:
     """A robot at a batch of states, in the derivation's coordinates.
@@ -92,6 +99,17 @@ class States:
         """Whether each coordinate is an angle: whether a joint turns with it, shape ``(n,)``."""
         turns = self.tree.turns.any(axis=-1)
         return np.asarray((self.coordinates.joint_rates[turns] != 0).any(axis=0))
+
+    def shrunk(self, scale: float) -> States:
+        """The same states of a robot so many times as long, with the square of its inertias."""
+        placed = {name: _shrunk(one, scale) for name, one in self.frames.placement.items()}
+        tree = replace(
+            self.tree,
+            placements=_shrunk(self.tree.placements, scale),
+            centre=scale * self.tree.centre,
+            inertia=scale**2 * self.tree.inertia,
+        )
+        return replace(self, tree=tree, frames=replace(self.frames, placement=placed))
 
     @classmethod
     def random(
