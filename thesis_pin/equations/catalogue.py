@@ -9,6 +9,7 @@ is computed (:mod:`thesis_pin.audit.judging.verdicts`).
 from __future__ import annotations
 
 import copy
+import functools
 import itertools
 import re
 from collections.abc import Iterator, Sequence
@@ -288,9 +289,14 @@ def free_indices(*nodes: Node) -> set[str]:
     """Index letters among i and n that occur in subscripts or superscripts."""
     found: set[str] = set()
     for symbol in nt.symbols(tuple(nodes)):
-        for text in (symbol.sub, symbol.sup):
-            found |= set(_LETTERS.sub("", text)) & {"i", "n", "k"}
+        found |= _index_letters(symbol.sub) | _index_letters(symbol.sup)
     return found
+
+
+@functools.cache
+def _index_letters(text: str) -> frozenset[str]:
+    """Index letters in one subscript or superscript."""
+    return frozenset(_LETTERS.sub("", text)) & {"i", "n", "k"}
 
 
 def index_values(*nodes: Node, also: str = "") -> Iterator[dict[str, str]]:
