@@ -10,7 +10,7 @@ import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
-from thesis_pin.audit.judging.verdicts import difference
+from thesis_pin.audit.judging.residuals import change
 from thesis_pin.audit.rows import HOLDS, Effect
 from thesis_pin.equations import formula as nt
 from thesis_pin.equations.catalogue import Catalogue, Equation
@@ -103,7 +103,7 @@ class Following:
             try:
                 member = equations.parse(user.members("corrected")[-1])
                 found[user.id] = max(
-                    difference(exact, evaluate(member, followed, indices))
+                    change(exact, evaluate(member, followed, indices))
                     for indices, exact in self._of(user, member, where)
                 )
             except FormulaError:

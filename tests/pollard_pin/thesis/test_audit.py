@@ -326,6 +326,19 @@ def test_references_on_the_closed_mechanism_give_the_models_rates(robot, rng):
     np.testing.assert_allclose(actual / scale, expected / scale, atol=1e-11)
 
 
+@pytest.mark.parametrize(("first", "last", "chains"), [(2, 5, 2), (1, 4, 2), (1, 5, 1)])
+def test_a_body_that_is_left_out_shows_beside_a_side_chain_near_its_singularity(
+    first, last, chains
+):
+    """There a side chain's part of ∂L/∂q_j is 10⁸ times the tool's."""
+    whole = catalogue()["pollard:3.7:dL/dq_j"]
+    (text,) = whole.printed
+    for old, new in (("h=1", f"h={first}"), ("^5", f"^{last}"), ("^2", f"^{chains}")):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    assert judged(whole.model_copy(update={"printed": (text,)})).residual_printed > 1e-2
+
+
 def test_residuals_leave_no_doubt_between_right_and_wrong(report):
     printed = [row.residual_printed for row in report.rows if row.residual_printed is not None]
     assert not [x for x in printed if 1e-9 < x < 1e-6], "HOLDS stands in the middle of a gap"

@@ -79,6 +79,6 @@ def test_the_printed_rate_of_a_derivative_is_followed_where_it_is_used():
 
 def test_of_changes_that_only_rounding_tells_apart_the_first_is_named(monkeypatch):
     changes = iter([1.0, *(1.0 + k * 2.0**-50 for k in range(1, 100))])
-    monkeypatch.setattr("pollard_pin.thesis.following.difference", lambda *sides: next(changes))
+    monkeypatch.setattr("pollard_pin.thesis.following.change", lambda *sides: next(changes))
     (name,) = effect("E:G_10")
     assert name == "change of E:G_14, which uses it, worst [-]"

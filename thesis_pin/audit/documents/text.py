@@ -121,7 +121,8 @@ def kind_table(report: AuditReport, *, defined: bool = True) -> Table:
 VERDICT_NOTE = (
     "A *misprint* fails as printed and holds corrected; *wrong* is a physically wrong",
     "statement whose right form holds. Verdicts are computed from residuals: the largest",
-    f"difference over all states, relative to the larger side; below {HOLDS:.0e} it holds.",
+    "difference over all states, relative to the larger side there, or at the median state where",
+    f"that is larger; below {HOLDS:.0e} it holds.",
 )
 """What verdicts mean, in Markdown."""
 KIND_NOTE = "A line with slips of several kinds counts under each."

@@ -18,6 +18,7 @@ from thesis_pin.equations.values import Value, apart
 from thesis_pin.errors import BadInput
 
 _FLOOR = 1e-3  # what counts as zero is zero against this
+_VANISHED = 1e-12  # of a formula's largest value: what is smaller says nothing of its usual size
 _OTHER_FRAME = 1.0
 """Residual of a member seen from another frame whose numbers happen to agree."""
 
@@ -45,7 +46,7 @@ class Residual:
     """How far a formula is from what it must equal.
 
     Attributes:
-        value: Largest difference over all states, relative to the larger side;
+        value: Largest difference over all states, see :func:`difference`;
             infinity if the formula can't be evaluated, 1 if nothing but its frames differ.
         members: The same for each member.
         reason: Why it can't be evaluated.
@@ -57,19 +58,44 @@ class Residual:
 
 
 def difference(left: Value, right: Value) -> float:
-    """Largest difference of two values, relative to the larger of them.
+    """Largest difference of two values, relative to the larger of them where it is found.
+
+    Near a singularity a formula grows a millionfold: against that, a term that is missing at all
+    other states would look like rounding. Where a formula cancels, rounding alone is as large as
+    what is left. So at each state, and for each coordinate, a difference is held against the
+    larger value there, or against the median of all where that is larger still.
 
     Raises:
         FormulaError: They have different shapes, or are seen from different frames.
     """
+    gap, size = _apart(left, right)
+    there = size[size > _VANISHED * size.max()]
+    usual = max(float(np.median(there)) if there.size else 0.0, _FLOOR)
+    return float((gap / np.maximum(size, usual)).max())
+
+
+def change(left: Value, right: Value) -> float:
+    """Largest difference of two values, relative to the largest of all: what an effect is.
+
+    Raises:
+        FormulaError: They have different shapes, or are seen from different frames.
+    """
+    gap, size = _apart(left, right)
+    return float(gap.max()) / max(float(size.max()), _FLOOR)
+
+
+def _apart(left: Value, right: Value) -> tuple[np.ndarray, np.ndarray]:
+    """Largest difference and largest entry of two values at each state, without their tails."""
     if min(left.rank, right.rank) >= 0 and (left.rank != right.rank or left.tail != right.tail):
         raise FormulaError(f"is {right.describe()} where {left.describe()} belongs")
     if not frames.same(left.frames, right.frames):
         raise FrameError(f"is {right.seen()} where {left.seen()} belongs")
-    gap = float(np.abs(apart(left, right)).max())
-    if not math.isfinite(gap):
+    gap = np.abs(apart(left, right))
+    if not np.isfinite(gap).all():
         raise FormulaError("isn't finite")
-    return gap / max(float(np.abs(left.array).max()), float(np.abs(right.array).max()), _FLOOR)
+    tail = tuple(range(-max(left.rank, right.rank, 0), 0))
+    size = np.maximum(np.abs(left.array), np.abs(right.array))
+    return gap.max(axis=tail), size.max(axis=tail)
 
 
 def largest_relative(found: np.ndarray, truth: np.ndarray) -> float:

@@ -4,11 +4,12 @@ import gc
 import weakref
 
 import numpy as np
+import pytest
 
-from thesis_pin.audit.judging.residuals import residual
+from thesis_pin.audit.judging.residuals import change, difference, residual
 from thesis_pin.equations.catalogue import Catalogue, Equation
 from thesis_pin.equations.notation import Notation
-from thesis_pin.equations.values import scalar
+from thesis_pin.equations.values import scalar, vector
 
 
 class Numbers:
@@ -92,3 +93,24 @@ def test_a_member_is_held_once_against_a_left_side_in_an_environment_while_it_is
     ]
     assert broken[1:] == [f"member 2 {broken[0]}", f"member 1 {broken[0]}"]
     assert one.asked == 3
+
+
+def test_what_differs_at_a_state_is_not_held_against_another_where_a_formula_explodes():
+    one, other = (scalar(np.array([1.0, x, 1e9])) for x in (2.0, 2.5))
+    assert difference(one, other) == 0.2
+    assert change(one, other) == 0.5 / 1e9
+    # Three coordinates of one state and of another, each a vector of two.
+    rows = np.array([[[3.0, 4.0], [1.0, 8.0], [2e9, 1.0]], [[3.0, 4.0]] * 3])
+    short = rows.copy()
+    short[0, 1, 0] = 0.0
+    assert difference(vector(rows), vector(short)) == 1 / 8
+    assert change(vector(rows), vector(short)) == 1 / 2e9
+
+
+def test_rounding_where_a_formula_cancels_is_held_against_its_usual_size():
+    exact = scalar(np.array([[0.0, 0.0, 0.0, 2.0, 4.0, 6.0]]))
+    found = scalar(exact.array + 4e-15)
+    assert difference(exact, found) == pytest.approx(1e-15, rel=0.3)
+    nothing = scalar(np.zeros(3))
+    assert difference(nothing, scalar(np.array([0.0, 1e-9, 0.0]))) == pytest.approx(1e-6)
+    assert difference(nothing, scalar(np.array([0.0, 1.0, 0.0]))) == 1.0
