@@ -18,7 +18,8 @@ class Slip:
         start: Number of its first symbol (or column) that differs, from 1.
         printed, corrected: What stands there and what should; "" for nothing.
         neighbours: What stands before and after it in the print.
-        term: Which term of the member, as "term 3 of 8"; "" if it has one alone.
+        term: Which term of the member, as "term 3 of 8"; "" if it has one alone. Where the print
+            has other terms, "term 3 of 8 of the correction".
         kind: One of :data:`thesis_pin.audit.comparison.kinds.KINDS`.
         residual: Of the corrected line with this slip alone put back: below
             :data:`thesis_pin.audit.rows.HOLDS` where it can't be seen alone, infinite where

@@ -145,10 +145,21 @@ def _slip(
         " ".join(old.split()),
         " ".join(new.split()),
         (one.before, one.after),
-        term_of(text, one.mended[0]),
+        _term(print_, text, one),
         kind or _kind(one, old, new),
         residual,
     )
+
+
+def _term(print_: str, text: str, one: Difference) -> str:
+    """Which term a difference is in; of the correction, where the print has others.
+
+    A lost bracket makes more terms, or fewer, of a sum: then a reader can't count in the print.
+    """
+    term = term_of(text, one.mended[0])
+    if not term or term == term_of(print_, one.printed[0]):
+        return term
+    return f"{term} of the correction"
 
 
 def _kind(one: Difference, old: str, new: str) -> str:

@@ -119,6 +119,17 @@ def test_a_checks_slips_are_judged_by_the_check():
     assert slip.residual == pytest.approx(1 / 6)
 
 
+def test_terms_are_those_of_the_correction_where_a_lost_bracket_leaves_others_in_the_print():
+    right = "a a + b (a - 1) - 1"
+    first, second = row(printed="a a + b a - 1 - a", corrected=right).slips
+    assert first.term == "term 2 of 3 of the correction"
+    assert second.term == "term 3 of 3 of the correction"
+    (alone,) = row(printed="a a + b (a - 1) - a", corrected=right).slips
+    assert alone.term == "term 3 of 3"
+    (lost,) = row(printed="b", corrected="b + b").slips
+    assert lost.term == "term 2 of 2 of the correction"
+
+
 def test_a_term_is_counted_in_the_outermost_sum():
     formula = r"a + \frac{b + c}{d} - e (f - g)"
     assert [term_of(formula, formula.index(letter)) for letter in "abe"] == [
