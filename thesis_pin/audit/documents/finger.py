@@ -40,7 +40,7 @@ def slip_text(
         return quote(formula)
 
     where = ", ".join(_where(row, slip, say))
-    if not any(slip.neighbours) and len(slip.printed + slip.corrected) > _WHOLE:
+    if is_whole(slip):
         return f"{where}: {say('the whole statement')}" if where else say("the whole statement")
     before, after = (shown(text) if text else "" for text in slip.neighbours)
     if before and after:
@@ -58,6 +58,11 @@ def slip_text(
         )
     said = f"{beside}, {change}" if beside else change
     return f"{where}: {said}" if where else said
+
+
+def is_whole(slip: Slip) -> bool:
+    """Whether a slip is a whole statement, too long to be repeated in its sentence."""
+    return not any(slip.neighbours) and len(slip.printed + slip.corrected) > _WHOLE
 
 
 def spans(row: Row, member: int) -> list[tuple[int, int]]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from thesis_pin.audit.comparison.kinds import KINDS
-from thesis_pin.audit.documents.finger import slip_text
+from thesis_pin.audit.documents.finger import is_whole, slip_text
 from thesis_pin.audit.documents.text import effect_text, no_effect_label
 from thesis_pin.audit.errata.formulas import math
 from thesis_pin.audit.errata.lost import lost
@@ -159,7 +159,8 @@ def _said(row: Row, say: Phrases) -> Iterator[tuple[str, str]]:
     for number, text in sorted(row.corrected.items()):
         label = say("correct, member {n}", n=number) if len(row.printed) > 1 else say("correct")
         label = label if number else say("correct, left side")
-        shown = math([text]) if text else say("nothing")
+        another = any(is_whole(slip) for slip in row.slips if slip.member == number)
+        shown = math([text], whole=another) if text else say("nothing")
         if shown:
             yield label, shown
     places = [slip_text(row, slip, say) for slip in row.slips]

@@ -19,10 +19,10 @@ _PORTABLE = {
 """What Markdown would take for an escaped sign of its own."""
 
 
-def math(sides: Sequence[str]) -> str:
-    """An equation of some sides; "" if it is too long to read."""
+def math(sides: Sequence[str], *, whole: bool = False) -> str:
+    """An equation of some sides; "" if it is too long to read, unless nothing else says it."""
     text = " = ".join(side for side in sides if side)
-    if not text or len(text) > _LONG:
+    if not text or (len(text) > _LONG and not whole):
         return ""
     if not _balanced(text):
         return f"`{text}`"

@@ -72,7 +72,7 @@ def _of_member(
     for one, changed in parts:
         alone = _test(test, _put(right, number, changed))
         yield _slip(number, meant, text, (one, changed), alone, kind)
-    if not parts:
+    if not parts and meant != text:  # else mending its text says it all
         alone = _test(test, _put(right, number, meant))
         yield Slip(number, 1, meant, text, kind=kind, residual=alone)
 

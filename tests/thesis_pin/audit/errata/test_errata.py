@@ -72,6 +72,16 @@ def test_of_a_print_that_takes_pages_the_left_side_is_shown():
     assert "- printed: $far$ = …" in entry(text, "far")
 
 
+def test_a_long_correction_is_shown_where_no_place_says_it():
+    """Of another statement, the sentence is "the whole statement"; of a place, what belongs."""
+    right = "b + " * 200 + "a"
+    another = Slip(1, 1, "a + b", right, kind="statement", residual=1.0)
+    for slip, shown in ((another, True), (failing("far").slips[0], False)):
+        long = replace(failing("far"), corrected={1: right}, slips=(slip,))
+        text = errata(AuditReport("Scout thesis", (long,), (), "", {}), "make it")
+        assert (f"- correct: ${right}$" in entry(text, "far")) is shown
+
+
 def test_lines_of_a_cause_stand_together_and_the_others_in_the_thesiss_order():
     text = errata(REPORT, "make it")
     order = ["### 1. a slip", "`1.2:c_1`", "`1.2:c_2`", "## Single slips", "`1.2:late`"]

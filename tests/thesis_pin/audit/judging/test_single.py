@@ -110,6 +110,11 @@ def test_another_statement_is_one_slip_beside_those_of_its_text():
     assert statement.residual == pytest.approx(1 / 7)
 
 
+def test_a_statement_that_is_right_once_its_text_is_mended_is_one_slip():
+    (text,) = row(printed="a a", right="a b", misread={1: "a b"}).slips
+    assert (text.printed, text.corrected) == ("a", "b")
+
+
 def test_a_checks_slips_are_judged_by_the_check():
     def product(equation):
         return ClaimResult(abs(float(equation.printed[0]) - 6) / 6, 0.0)
