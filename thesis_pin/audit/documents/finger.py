@@ -40,6 +40,8 @@ def slip_text(
         return quote(formula)
 
     where = ", ".join(_where(row, slip, say))
+    if _is_second(row, slip):
+        where = ", ".join(part for part in (say("once that is mended"), where) if part)
     if is_whole(slip):
         return f"{where}: {say('the whole statement')}" if where else say("the whole statement")
     before, after = (shown(text) if text else "" for text in slip.neighbours)
@@ -58,6 +60,16 @@ def slip_text(
         )
     said = f"{beside}, {change}" if beside else change
     return f"{where}: {said}" if where else said
+
+
+def _is_second(row: Row, slip: Slip) -> bool:
+    """Whether a slip is one of a statement whose text has slips of its own, told before it."""
+    first = next((one for one in row.slips if one.member == slip.member), slip)
+    return slip.kind in _ANOTHER and first.kind not in _ANOTHER
+
+
+_ANOTHER = ("statement", "frame")
+"""Kinds of slips of a statement, rather than of its text."""
 
 
 def is_whole(slip: Slip) -> bool:
@@ -124,15 +136,17 @@ def _where(row: Row, slip: Slip, say: Phrases) -> Iterator[str]:
 
 def _cell(row: Row, slip: Slip) -> tuple[int, int] | None:
     """Row, 0 if there is one alone, and column of a slip in a matrix."""
-    if slip.kind not in ("column", "statement") or slip.member > len(row.printed):
+    if slip.member > len(row.printed) or is_whole(slip):
         return None
     text = row.printed[slip.member - 1] if slip.member else row.left
     listed = pieces(text)
     keys = [piece.key for piece in listed]
-    if slip.kind == "statement" and ("&" not in keys or "&" in slip.printed + slip.corrected):
+    if slip.kind in _ANOTHER and ("&" not in keys or "&" in slip.printed + slip.corrected):
         return None
     place = listed[slip.start - 1].start if slip.start <= len(listed) else len(text)
     start, end = _matrix(text, place)
+    if slip.kind not in ("column", *_ANOTHER) and (start, end) == (0, len(text)):
+        return None  # columns of a row without its matrix are told by their kind alone
     inside = [k for k, piece in enumerate(listed) if start <= piece.start < end]
     before = [keys[k] for k in inside if k < slip.start - 1]
     lines = before.count("\\\\")

@@ -1,5 +1,7 @@
 """A slip in words: between what it stands, in which term or cell, and what belongs there."""
 
+from dataclasses import replace
+
 import pytest
 
 from thesis_pin.audit.documents.finger import slip_text, spans
@@ -84,6 +86,31 @@ def test_a_statement_names_the_cell_that_differs_but_not_of_what_is_no_matrix():
     assert slip_text(ONE, plain) == "between `a` and `b`, `+` should be `-`"
     whole = Slip(1, 1, MATRIX, "x & y", kind="statement")
     assert "column" not in slip_text(Row("a:1:x", "", (), "x", (MATRIX,), {}, "wrong"), whole)
+
+
+@pytest.mark.parametrize(
+    ("text", "start", "printed", "where"),
+    [
+        (MATRIX, 9, "5", "row 2, column 2: "),
+        (rf"a + {MATRIX} b", 19, "9", "row 3, column 3: "),
+        (rf"a + {MATRIX} b", 20, "b", ""),
+        (r"\begin{bmatrix} a \\ b \end{bmatrix} q", 3, "b", "row 2, column 1: "),
+        (r"[ a \quad b ] q", 4, "b", ""),
+    ],
+)
+def test_a_slip_of_any_kind_names_its_cell_where_it_stands_in_a_matrix(text, start, printed, where):
+    row = Row("a:1:x", "T, 1", (), "x", (text,), {}, "misprint")
+    said = slip_text(row, Slip(1, start, printed, "0", ("(", ")"), kind="dot"))
+    assert said == f"{where}between `(` and `)`, `{printed}` should be `0`"
+
+
+def test_a_slip_of_a_statement_comes_once_its_text_is_mended():
+    text, statement = Slip(1, 1, "a", "c", kind="symbol"), Slip(1, 1, "c + b", "d", kind="frame")
+    row = Row("a:1:x", "T, 1", (), "x", ("a + b",), {1: "d"}, "wrong", slips=(text, statement))
+    assert slip_text(row, text) == "`a` should be `c`"
+    assert slip_text(row, statement) == "once that is mended: `c + b` should be `d`"
+    alone = replace(row, slips=(statement,))
+    assert slip_text(alone, statement) == "`c + b` should be `d`"
 
 
 def test_a_long_piece_keeps_its_ends():
