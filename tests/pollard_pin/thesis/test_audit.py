@@ -247,7 +247,7 @@ def test_every_swapped_sine_and_cosine_is_noticed(rows):
         for k in {places[0], places[len(places) // 2], places[-1]}:
             swapped = text[:k] + ("s" if text[k] == "c" else "c") + text[k + 1 :]
             found = residual(catalogue(), equation, (swapped,), environment, equation.left)
-            assert found.value > 1e-6, (equation.id, k)
+            assert found.value > 1e-2, (equation.id, k)
             noticed += 1
     assert noticed > 100
 
@@ -341,7 +341,7 @@ def test_a_body_that_is_left_out_shows_beside_a_side_chain_near_its_singularity(
 
 def test_residuals_leave_no_doubt_between_right_and_wrong(report):
     printed = [row.residual_printed for row in report.rows if row.residual_printed is not None]
-    assert not [x for x in printed if 1e-9 < x < 1e-6], "HOLDS stands in the middle of a gap"
+    assert not [x for x in printed if 1e-9 < x < 1e-2], "HOLDS stands in the middle of a gap"
     corrected = [r.residual_corrected for r in report.failures if r.residual_corrected is not None]
     assert max(corrected) < 1e-9
     assert any(math.isinf(x) for x in printed)
@@ -369,7 +369,7 @@ def test_what_holds_and_what_fails_are_far_apart(report):
     right = [row.residual_printed for row in report.rows if row.verdict == "holds"]
     right += [row.residual_corrected for row in report.failures]
     assert max(right) < 1e-9
-    assert min(row.residual_printed for row in report.failures) > 1e-6
+    assert min(row.residual_printed for row in report.failures) > 1e-2
 
 
 def test_the_page_renders_every_formula_and_stays_small(report):
