@@ -5,7 +5,6 @@ The symbol that the line defines takes the printed value, all others what they m
 
 from __future__ import annotations
 
-import functools
 import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -71,6 +70,7 @@ class Following:
 
     def __init__(self, equations: Catalogue, references: Callable[[Equation], Environment]) -> None:
         self.equations, self.references = equations, references
+        self._known: dict[str, frozenset[str]] = {}
         self._exact: dict[str, list[tuple[dict[str, str], Value]]] = {}
 
     def effect(self, equation: Equation) -> Effect:
@@ -127,30 +127,27 @@ class Following:
 
     def _behind_first(self, equation: Equation) -> Iterator[Equation]:
         """Lines with the symbol, from the line on and then from the thesis's start."""
-        equations, names = self.equations, self._names
+        equations = self.equations
         node = equations.parse(equation.left)
-        own = {
-            symbol.bound(indices).name
-            for symbol in nt.symbols(node) - {Symbol("q", "j")}
-            for indices in equations.indices(node)
-        }
+        defined = nt.symbols(node) - {Symbol("q", "j")}
+        own = {one.bound(indices).name for one in defined for indices in equations.indices(node)}
+        letters = {one.base.rpartition(":")[2] for one in defined}  # behind a font or an accent
         listed = equations.equations
         here = next(k for k, other in enumerate(listed) if other.id == equation.id)
         found = (
             other
             for other in (*listed[here:], *listed[:here])
             if other.id != equation.id
-            and own & names[other.id]
             and other.printed
             and not other.claim
+            and any(one in text for one in letters for text in other.members("corrected"))
+            and own & self._names(other)
         )
         yield from itertools.islice(found, TRIED)
 
-    @functools.cached_property
-    def _names(self) -> dict[str, frozenset[str]]:
-        """Names of the symbols in each line's members, as they should be, by the line's id."""
-        found = {}
-        for equation in self.equations.equations:
+    def _names(self, equation: Equation) -> frozenset[str]:
+        """Names of the symbols in a line's members, as they should be."""
+        if equation.id not in self._known:
             names: set[str] = set()
             for text in equation.members("corrected"):
                 try:
@@ -160,8 +157,8 @@ class Following:
                 for symbol in inside:
                     values = self.equations.indices(symbol)
                     names |= {symbol.bound(each).name for each in values}
-            found[equation.id] = frozenset(names)
-        return found
+            self._known[equation.id] = frozenset(names)
+        return self._known[equation.id]
 
 
 def _defined(equations: Catalogue, equation: Equation) -> tuple[Symbol, bool, bool] | None:
