@@ -281,6 +281,42 @@ class Catalogue:
                     found.setdefault(key, (equation, own))
         return found
 
+    def chained(self, equation: Equation) -> Iterator[tuple[str, Symbol]]:
+        """Symbols that a line sets equal to its left side on the way to its last member."""
+        for text in equation.members("corrected")[:-1]:
+            try:
+                node = self.parse(text)
+            except FormulaError:
+                continue
+            if isinstance(node, Symbol):
+                yield text, node
+
+    @cached_property
+    def _chained(self) -> dict[tuple[str, int], Definition]:
+        found: dict[tuple[str, int], Definition] = {}
+        for equation in self.equations:
+            if equation.claim or equation.not_checkable:
+                continue
+            for _, symbol in self.chained(equation):
+                for own in self.indices(symbol):
+                    found.setdefault((symbol.bound(own).name, symbol.dots), (equation, own))
+        return found
+
+    def defined(self, symbol: Symbol) -> Definition | None:
+        """First definition of a symbol whose indices are bound; None if there is none.
+
+        A line defines what stands on its left, and what it sets equal to that on its way to its
+        last member, as d_21 in d_12 = d_21 = 0.
+        """
+        name, dots = symbol.name, symbol.dots
+        both = self.definitions.get(("", name, dots)), self._chained.get((name, dots))
+        known = [one for one in both if one is not None]
+        return min(known, key=lambda one: self._order[one[0].id], default=None)
+
+    @cached_property
+    def _order(self) -> dict[str, int]:
+        return {equation.id: k for k, equation in enumerate(self.equations)}
+
 
 _LETTERS = re.compile(r"theta|phi|psi|tau|times|ZMP|LDn")
 

@@ -147,16 +147,19 @@ class Derivation:
         return Catalogue([self._told(one) for one in self.plain.equations], self.notation)
 
     def _told(self, one: Equation) -> Equation:
-        definition = self._defines(one)
-        if not definition or one.mending or len(one.printed) > 1:
+        definition, chained = self._defines(one), dict(self.plain.chained(one))
+        if not definition or one.mending or len(one.printed) != 1 + len(chained):
+            return one
+        if not all(self._is_new(one, symbol) for symbol in chained.values()):
             return one
         try:
             with np.errstate(all="ignore"):
                 for indices in self.plain.indices(*map(self.plain.parse, (one.left, *one.printed))):
-                    evaluate(self.plain.parse(one.printed[0]), self.references, indices)
+                    evaluate(self.plain.parse(one.printed[-1]), self.references, indices)
         except TROUBLES:
             return one
-        reason = f"stated, not checkable: it defines {definition}, of which the file says no more"
+        names = ", ".join((definition, *(symbol.name for symbol in chained.values())))
+        reason = f"stated, not checkable: it defines {names}, of which the file says no more"
         return Equation.made(**dict(one) | {"not_checkable": reason})
 
     def _defines(self, one: Equation) -> str:
@@ -166,13 +169,16 @@ class Derivation:
         left = self.plain.parse(one.left)
         if not isinstance(left, Symbol):
             return ""
-        for indices in self.plain.indices(left):
-            symbol = left.bound(indices)
-            if self.references.known(symbol):
-                return ""
-            if self.plain.definitions[("", symbol.name, symbol.dots)][0] is not one:
-                return ""
-        return left.name
+        return left.name if self._is_new(one, left) else ""
+
+    def _is_new(self, one: Equation, named: Symbol) -> bool:
+        """Whether a line gives a symbol the only meaning that it has."""
+        for indices in self.plain.indices(named):
+            symbol = named.bound(indices)
+            definition = self.plain.defined(symbol)
+            if self.references.known(symbol) or definition is None or definition[0] is not one:
+                return False
+        return True
 
     @cached_property
     def changes(self) -> tuple[str, ...]:

@@ -56,7 +56,7 @@ def names_inertia(equation: Equation, catalogue: Catalogue, glossary: Glossary) 
             if key is None and _indexed(symbol, glossary):
                 return True
             if key is None:
-                definition = catalogue.definitions.get(("", symbol.name, symbol.dots))
+                definition = catalogue.defined(symbol)
                 if definition is not None:
                     waiting += [catalogue.parse(text) for text in definition[0].printed]
                 continue

@@ -194,7 +194,7 @@ class References:
     def _defined(self, symbol: Symbol) -> Value | None:
         """A symbol from the file's own first definition of it."""
         shared = self._shared
-        definition = shared.catalogue.definitions.get(("", symbol.name, symbol.dots))
+        definition = shared.catalogue.defined(symbol)
         slot = (symbol.name, symbol.dots)
         if definition is None or slot in shared.busy:
             return None

@@ -205,3 +205,32 @@ def test_a_single_joint_is_the_pendulum_of_the_schoolbook(tmp_path):
     x, a = states.x[:, 0], states.a[:, 0]
     expected = (2 * 0.4**2 + 0.1) * a + 2 * 9.81 * 0.4 * np.sin(x)
     np.testing.assert_allclose(worth(references, "u"), expected, rtol=1e-12, atol=1e-12)
+
+
+def test_what_a_line_sets_equal_on_its_way_is_defined_by_it_and_judged_where_it_is_used(rows):
+    inertia = r"\begin{pmatrix} M + m & h_{21} \\ h_{22} & J + m \ell^2 \end{pmatrix}"
+    found = rows(
+        [
+            ("h_{12}", ["h_{21}", "h_{22}", r"-m \ell \cos\theta"]),
+            (r"\mathcal{D}", inertia),
+            (r"\mathcal{D}", inertia.replace("h_{22}", "2 h_{22}")),
+            ("h_{21}", "h_{12}"),
+            ("h_{21}", "2 h_{12}"),
+            (r"\mathcal{D}_{12}", ["k_{12}", "h_{22}"]),  # begins with what has a meaning
+            (r"\mathcal{D}_{12}", "k_{12}"),
+        ]
+    )
+    verdicts = [row.verdict for row in found]
+    assert verdicts == [
+        "not checkable",
+        "holds",
+        "unexplained",
+        *("holds", "unexplained", "holds", "holds"),
+    ]
+    assert "it defines h_12, h_21, h_22" in found[0].reason
+
+
+def test_a_line_that_sets_what_has_a_meaning_equal_to_what_it_defines_is_judged(rows):
+    lines = [("h_{12}", [r"\mathcal{D}_{12}", right]) for right in (r"-m \ell \cos\theta", "m")]
+    assert [row.verdict for row in rows(lines[:1])] == ["holds"]
+    assert [row.verdict for row in rows(lines[1:])] == ["unexplained"]
