@@ -79,3 +79,4 @@ def test_where_there_is_none_that_is_said(monkeypatch):
 
 def test_the_right_one_is_accepted():
     engine.require_pinocchio()
+    assert callable(sys.modules["pinocchio"].rnea)
